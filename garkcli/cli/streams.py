@@ -44,6 +44,10 @@ def prepare() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors=HANDLER)
+    if sys.platform == "win32":  # consoles show colours when they are told to
+        from colorama import just_fix_windows_console
+
+        just_fix_windows_console()
     if sys.stderr is None:  # nobody listens
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
 

@@ -9,13 +9,14 @@ import subprocess
 import sys
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.cli.streams import TERMINAL
+from garkcli.cli.streams import TERMINAL, prepare
 from garkcli.page.plaintext import ascii_form, plain_line, plain_text
 from garkcli.page.safety import escaped, written_out
 from garkcli.report.trees import DRAWING
@@ -374,3 +375,18 @@ def test_words_of_two_letters_do_not_run_together(
     assert plain_line(f"{sign}{letter}") == f"{ascii_form(sign)} {letter}"
     gap = "" if ascii_form(sign).startswith("^") else " "
     assert plain_line(f"{letter}{sign}") == f"{letter}{gap}{ascii_form(sign)}"
+
+
+def test_consoles_of_windows_are_told_to_show_colours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """There, once; nothing is looked for elsewhere."""
+    told: list[str] = []
+    console = ModuleType("colorama")
+    console.just_fix_windows_console = lambda: told.append("told")  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "colorama", console)
+    prepare()
+    assert told == []
+    monkeypatch.setattr(sys, "platform", "win32")
+    prepare()
+    assert told == ["told"]

@@ -123,7 +123,9 @@ def work(cases: Cases, numbers: range, results: Connection) -> None:
     cases.load(
         SMALL[0] if cases.are_problems else GOOD
     )  # what is imported late is no part of the first case
-    pages = int(Path("/proc/self/statm").read_text().split()[0])
+    pages = int(
+        Path("/proc/self/statm").read_text(encoding="utf-8").split()[0]
+    )
     roof = pages * resource.getpagesize() + MEGABYTES * 2**20
     resource.setrlimit(resource.RLIMIT_AS, (roof, roof))
     for number in numbers:

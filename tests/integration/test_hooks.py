@@ -65,7 +65,7 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
     variables = {
         "FILES": odd.name,
         "ARGUMENTS": "",
-        "RUNNER_TEMP": str(tmp_path),
+        "RUNNER_TEMP": str(installed(tmp_path, "bin/gark")),
         "GITHUB_STEP_SUMMARY": str(tmp_path / "summary.md"),
     }
     done = run(f"cd {tmp_path}\n{step['run']}", **variables)
@@ -85,10 +85,22 @@ def test_the_python_of_the_other_steps_is_left_alone() -> None:
     assert '-m venv "$RUNNER_TEMP/gark"' in scripts
 
 
-@pytest.mark.parametrize(("file", "code"), [(GOOD, 0), (BAD, 1)])
-def test_action(file: str, code: int, tmp_path: Path) -> None:
+def installed(temporary: Path, command: str) -> Path:
+    """The folder of a runner in which the action has put the program."""
+    program = temporary / "gark" / command
+    program.parent.mkdir(parents=True)
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m garkcli "$@"\n')
+    program.chmod(0o755)
+    return temporary
+
+
+@pytest.mark.parametrize(
+    ("file", "code", "command"),
+    [(GOOD, 0, "Scripts/gark.exe"), (BAD, 1, "bin/gark")],
+)
+def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
     """The action's last step passes a right file, and annotates the line of a wrong claim; either
-    way the summary has the table.
+    way the summary has the table. The program is where venv puts it on Windows, or elsewhere.
     """
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     step = action["runs"]["steps"][-1]
@@ -103,7 +115,7 @@ def test_action(file: str, code: int, tmp_path: Path) -> None:
         )
         for name, text in step["env"].items()
     } | {
-        "RUNNER_TEMP": str(tmp_path),
+        "RUNNER_TEMP": str(installed(tmp_path, command)),
         "GITHUB_STEP_SUMMARY": str(tmp_path / "summary.md"),
     }
     result = run(step["run"], **variables)
@@ -117,16 +129,19 @@ def test_action(file: str, code: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("version", "installed"),
-    [("", "/the/checkout"), ("0.1.0", "garkcli==0.1.0")],
+    ("version", "what", "place"),
+    [
+        ("", "/the/checkout", "bin"),
+        ("0.1.0", "garkcli==0.1.0", "Scripts"),
+    ],
 )
 def test_action_installs_this_project(
-    version: str, installed: str, tmp_path: Path
+    version: str, what: str, place: str, tmp_path: Path
 ) -> None:
     """What the action installs is the directory it lies in, and that directory is the project; a
     release where one is asked for.
     """
-    folder = tmp_path / "gark" / "bin"
+    folder = tmp_path / "gark" / place
     folder.mkdir(parents=True)
     python = folder / "python"
     python.write_text('#!/bin/sh\necho "$*"\n')
@@ -147,6 +162,6 @@ def test_action_installs_this_project(
         GITHUB_ACTION_PATH="/the/checkout",
     )
     last = done.stdout.splitlines()[-1]
-    assert last == f"-m pip install --quiet {installed}"
+    assert last == f"-m pip install --quiet {what}"
     project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     assert 'name = "garkcli"' in project

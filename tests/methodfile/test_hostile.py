@@ -393,7 +393,7 @@ def test_an_endless_standard_input_is_refused() -> None:
 def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
     """A file name that is no UTF-8 is checked, and reported in every format."""
     (Path(os.fsdecode(bytes(tmp_path) + b"/a\xff\nb.gark.yaml"))).write_text(
-        "methods: [{family: rk4}]\nexpect: {order: 5}"
+        "methods: [{family: rk4}]\nexpect: {order: 5}", encoding="utf-8"
     )
     process = gark("check", ".", cwd=tmp_path)
     assert (process.returncode, process.stderr) == (1, "")
@@ -419,7 +419,7 @@ RUNS = [
 def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     """A full disk under stdout, or under -o, is exit code 2 and one line that says so."""
     command = [sys.executable, "-m", "garkcli", *arguments]
-    with Path("/dev/full").open("w") as full:
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
         done = subprocess.run(
             command,
             cwd=ROOT,
@@ -534,7 +534,7 @@ def _ready(pid: int, cwd: Path, ready: str) -> bool:
             for x in cwd.iterdir()
         )
     children = Path(f"/proc/{pid}/task/{pid}/children")
-    return len(children.read_text().split()) >= 2
+    return len(children.read_text(encoding="utf-8").split()) >= 2
 
 
 @pytest.mark.skipif(

@@ -92,6 +92,8 @@ INSTALLED = (
 """Commands as people use them: every one, by what the documentation and the records show."""
 PROCESSES = ("tests/methodfile/test_hostile.py", "tests/cli")
 """Everything that starts and stops processes."""
+ELSEWHERE = (*FILES, "tests/crew", "tests/page", "tests/sweep", "tests/design")
+"""Everything that asks for something of the system, which may not be there."""
 
 Environment = Callable[[Path], dict[str, str]]
 """From the interpreter to the variables to set; ``NotHad`` where they do not bring it about."""
@@ -178,6 +180,9 @@ def circumstances() -> Iterator[Circumstance]:
     ignoring = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
     what = "started with ^C ignored, as in the background of a script"
     yield Circumstance("background", what, newest, PROCESSES, wrapper=ignoring)
+    what = "without resource, locks, FIFOs, signals and forks"
+    no_unix = Venv(sys.executable, "no-unix")
+    yield Circumstance("no-unix", what, no_unix, ELSEWHERE, _like_windows)
     for python in other_pythons():
         version = version_of(python)
         what = f"Python {version} with the newest versions"
@@ -327,6 +332,11 @@ def _ascii(python: Path) -> dict[str, str]:
     if "utf" in encoding.lower():
         raise NotHad(f"streams are of {encoding} all the same")
     return variables
+
+
+def _like_windows(python: Path) -> dict[str, str]:  # noqa: ARG001 -- any
+    """Streams in the encoding that they have where output is kept in a file."""
+    return {"PYTHONIOENCODING": "cp1252"}
 
 
 _WHERE = "import garkcli; print(garkcli.__file__)"

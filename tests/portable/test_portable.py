@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import random
 import re
+import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -14,16 +16,26 @@ import pytest
 
 from tests.portable import circumstances as module
 from tests.portable.circumstances import circumstances, other_pythons
+from tests.portable.no_unix import put_into
 from tests.portable.noise import UNITS, arrays_off, off
 from tests.portable.run import Outcome, chosen, table
-from tests.portable.venvs import ROOT, NotHad, Venv, floors, version_of
+from tests.portable.venvs import (
+    BARE,
+    EXTRAS,
+    MSOLVE,
+    ROOT,
+    NotHad,
+    Venv,
+    floors,
+    version_of,
+)
 
 NEWEST = Venv(sys.executable, "newest")
 
 
 def test_every_dependency_has_a_floor() -> None:
     """Those of the program and of its tests, each once."""
-    names = [line.partition("==")[0].lower() for line in floors()]
+    names = [re.split("[=;]", line)[0].lower() for line in floors()]
     assert {
         "click",
         "matplotlib",
@@ -38,8 +50,30 @@ def test_every_dependency_has_a_floor() -> None:
     declared = tomllib.loads(
         (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     )["project"]
-    test = declared["optional-dependencies"]["test"]
-    assert len(names) == len(declared["dependencies"]) + len(test)
+    groups = declared["optional-dependencies"]
+    lines = [line for name in (*EXTRAS, "test") for line in groups[name]]
+    assert len(names) == len({*declared["dependencies"], *lines})
+
+
+def test_every_extra_of_users_is_tried() -> None:
+    """In one circumstance at least: what a page or an error names is installed by pip."""
+    declared = tomllib.loads(
+        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    )["project"]
+    ours = {"bench", "dev", "docs", "fuzz", "test"}
+    assert {*declared["optional-dependencies"]} - ours == {*EXTRAS, MSOLVE}
+
+
+def test_tools_of_the_bare_circumstance_are_declared() -> None:
+    """They are some of the test tools, and none is what an extra brings."""
+    declared = tomllib.loads(
+        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    )["project"]["optional-dependencies"]
+    tools = {line.partition(">=")[0] for line in declared["test"]}
+    brought = {
+        line.partition(">=")[0] for name in EXTRAS for line in declared[name]
+    }
+    assert {*BARE} <= tools - brought
 
 
 @pytest.fixture
@@ -122,6 +156,28 @@ def test_what_could_not_be_had_is_no_failure() -> None:
         "circumstance",
         *"abcd",
     ]
+
+
+def test_what_windows_lacks_is_taken_away(tmp_path: Path) -> None:
+    """In a process that finds the file among its packages, and in those that it starts; this one
+    keeps what it has.
+    """
+    put_into(tmp_path)
+    program = (
+        "import os, signal, multiprocessing\n"
+        "try: import resource\n"
+        "except ImportError: print('none')\n"
+        "print(hasattr(os, 'fork'), hasattr(signal, 'SIGHUP'))\n"
+        "print(multiprocessing.get_start_method())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.split() == ["none", "False", "False", "spawn"]
 
 
 def test_no_type_of_click_has_a_parameter() -> None:

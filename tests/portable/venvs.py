@@ -12,13 +12,30 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
+from tests.portable.no_unix import put_into
+
 ROOT = Path(__file__).resolve().parents[2]
 CACHE = ROOT / ".portable"
 """Environments and records of runs; ignored by git, and safe to delete."""
-FLOOR = re.compile(r"^([\w.-]+)>=([\w.]+)$")
+FLOOR = re.compile(r"^([\w.-]+)>=([\w.]+)( *;.*)?$")
+"""A declared minimum version; behind a semicolon, where it is needed."""
+EXTRAS = ("cluster", "parquet", "plot")
+"""What users may have beside the program."""
+MSOLVE = "design"
+"""One more; it needs a newer numpy than the program does."""
+BARE = (
+    "hypothesis",
+    "jsonschema",
+    "pytest",
+    "pytest-benchmark",
+    "pytest-xdist",
+)
+"""What runs the tests of commands that need nothing but the program."""
 
-Versions = Literal["newest", "floors", "no-libyaml", "wheel"]
-"""``wheel`` is the newest of each, and gark not from the checkout: its wheel is installed."""
+Versions = Literal["newest", "floors", "no-libyaml", "no-unix", "wheel"]
+"""``newest`` and ``floors`` have the extras too; all but ``floors`` are of the newest of each.
+``wheel`` has what a user has: a wheel of gark, not the checkout, and what the program needs.
+"""
 
 
 class NotHad(Exception):
@@ -39,16 +56,19 @@ class Venv:
 
 
 def floors() -> list[str]:
-    """The declared minimum versions, those of the tests included, as pip's constraints."""
+    """The declared minimum versions as pip's constraints, each once: those of the program, of what
+    users may have beside it, and of the tests.
+    """
     declared = tomllib.loads(
         (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     )["project"]
-    lines = (
-        *declared["dependencies"],
-        *declared["optional-dependencies"]["test"],
-    )
+    groups = declared["optional-dependencies"]
+    extra = [line for name in (*EXTRAS, "test") for line in groups[name]]
+    lines = [*declared["dependencies"], *extra]
     found = [FLOOR.match(line) for line in lines]
-    return [f"{floor[1]}=={floor[2]}" for floor in found if floor]
+    return sorted(
+        {f"{x[1]}=={x[2]}{x[3] or ''}" for x in found if x}, key=str.lower
+    )
 
 
 @cache
@@ -81,7 +101,7 @@ def python_of(venv: Venv) -> Path:
     )
     if not python.exists():
         done([venv.python, "-m", "venv", str(folder)])
-    wanted = ["--editable", ".[test]", "build", "threadpoolctl"]
+    wanted = [*_wanted(venv.versions), "build", "threadpoolctl"]
     if venv.versions == "floors":
         constraints = folder / "floors.txt"
         constraints.write_text("\n".join(floors()) + "\n", encoding="utf-8")
@@ -92,7 +112,20 @@ def python_of(venv: Venv) -> Path:
     done([*pip, "install", *wanted])
     if venv.versions == "no-libyaml":
         _without_libyaml(folder)
+    if venv.versions == "no-unix":
+        _without_unix(python)
     return python
+
+
+def _wanted(versions: Versions) -> list[str]:
+    """What pip installs: gark, and what is beside it."""
+    if versions == "wheel":
+        return [".", *BARE]
+    extras = {"newest": (*EXTRAS, MSOLVE), "floors": EXTRAS}
+    return [
+        "--editable",
+        f".[{','.join(['test', *extras.get(versions, ())])}]",
+    ]
 
 
 def _without_libyaml(folder: Path) -> None:
@@ -102,6 +135,15 @@ def _without_libyaml(folder: Path) -> None:
             shutil.rmtree(extension)
         else:
             extension.unlink()
+
+
+def _without_unix(python: Path) -> None:
+    """What is run at the start of each process takes away what Windows lacks."""
+    program = "import sysconfig; print(sysconfig.get_path('purelib'))"
+    packages = subprocess.run(
+        [python, "-c", program], capture_output=True, text=True, check=True
+    )
+    put_into(Path(packages.stdout.strip()))
 
 
 def done(command: list[str]) -> None:
