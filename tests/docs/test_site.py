@@ -35,7 +35,7 @@ def test_the_margin_has_what_the_index_has() -> None:
     assert [f"{name}.md" for name in named] == links(DOCS / "index.md")
 
 
-def test_the_margin_leads_to_contributing() -> None:
+def test_contributing_is_on_the_site() -> None:
     """Its page on the site is CONTRIBUTING.md, whose links lead somewhere from there."""
     made = runpy.run_path(str(DOCS / "conf.py"))["contributing"]()
     assert made.startswith("# Contributing\n")
@@ -44,3 +44,9 @@ def test_the_margin_leads_to_contributing() -> None:
     assert len(found) >= 4
     for link in found:
         assert (folder / link.partition("#")[0]).is_file(), link
+
+
+def test_no_page_is_hidden_by_one_of_sphinx() -> None:
+    """Sphinx has pages of its own for these names, and the margin would lead to them."""
+    taken = {"search.md", "genindex.md", "modindex.md"}
+    assert not taken & set(pages())

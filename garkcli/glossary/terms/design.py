@@ -5,7 +5,7 @@ from __future__ import annotations
 from garkcli.glossary.term import Term
 
 _DESIGN = "this project, docs/design.md"
-_SEARCH = "this project, docs/search.md"
+_SEARCH = "this project, docs/searching.md"
 TERMS = (
     Term(
         "free parameter",
