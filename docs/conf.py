@@ -24,9 +24,12 @@ release = version = __version__
 extensions = ["myst_parser"]
 exclude_patterns = ["package-page.md"]  # the page of the package index
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["gark.css"]
 html_title = f"gark {__version__}"
 html_show_copyright = False
 html_copy_source = False
+linkcheck_ignore = [r".*/OWNER/"]  # where the reader hosts it
 myst_heading_anchors = 4  # links to headings, as code hosts have them
 smartquotes = False  # transcripts are quoted as they are printed
 highlight_language = "text"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -46,6 +47,28 @@ def anchors(page: Path) -> set[str]:
     return {heading.replace(" ", "-") for heading in plain}
 
 
+def outside(page: str) -> list[str]:
+    """The targets of links to other machines."""
+    targets = re.findall(r"\]\(([^)\s]+)\)", without_code(page))
+    return [target for target in targets if "://" in target]
+
+
+def is_well_formed(link: str) -> bool:
+    """Whether a link has a scheme that is safe, a host with a domain, and no sign of the sentence
+    around it at its end.
+    """
+    parts = urlsplit(link)
+    is_plain = link.isascii() and not set(link) & set('<>"`\\^{|} ')
+    has_domain = re.fullmatch(r"[\w-]+(\.[\w-]+)+", parts.netloc) is not None
+    return (
+        parts.scheme == "https"
+        and has_domain
+        and is_plain
+        and link[-1] not in ".,;:"
+        and "//" not in parts.path
+    )
+
+
 def missing(page: Path) -> list[str]:
     """The links of a page that lead nowhere."""
     found = []
@@ -66,6 +89,25 @@ def missing(page: Path) -> list[str]:
 def test_every_link_leads_somewhere(page: Path) -> None:
     """A file that is there, and a heading that it has."""
     assert missing(page) == []
+
+
+def test_links_to_other_sites_are_well_formed() -> None:
+    """Whether they lead somewhere is for ``make links``, which needs a network."""
+    found = [
+        link
+        for page in PAGES
+        for link in outside(page.read_text(encoding="utf-8"))
+    ]
+    assert found
+    assert [link for link in found if not is_well_formed(link)] == []
+    for link in (
+        "http://example.org/a",
+        "https://example/a",
+        "https://example.org/a.",
+        "https://example.org//a",
+        "https://example.org/{a}",
+    ):
+        assert not is_well_formed(link)
 
 
 def test_every_page_is_found_from_the_readme() -> None:
