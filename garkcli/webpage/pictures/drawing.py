@@ -39,7 +39,7 @@ def _style() -> str:
     return (
         f":root{{{light}}}\n"
         f"@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}\n"
-        "svg.picture{display:block;width:100%;max-width:30rem;height:auto}\n"
+        "svg.plot{display:block;width:100%;max-width:30rem;height:auto}\n"
     )
 
 
@@ -166,7 +166,7 @@ class Frame:
         bottom = self.y.start + BOTTOM
         height = bottom + _LEGEND_ROW * len(self.legend)
         lines = [
-            f'<svg class="picture" role="img" viewBox="0 0 {WIDTH} {number(height)}" '
+            f'<svg class="plot" role="img" viewBox="0 0 {WIDTH} {number(height)}" '
             'font-size="12" fill="currentColor" stroke-linejoin="round">',
             f"<title>{escape(title)}</title>",
             f"<desc>{escape(description)}</desc>",
