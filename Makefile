@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures docs links man walk floors format clean
+.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures docs browser links man walk floors format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -71,6 +71,10 @@ docs: $(READY) ## the documentation as a site, in build/docs; a warning, such as
 links: $(READY) ## the links of the documentation to other sites, asked for; needs a network
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
 	$(BIN)/python -m sphinx -q -b linkcheck --keep-going docs build/links
+
+browser: docs ## reports and the site in headless Chromium, see docs/contributing/browser.md
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[browser]"
+	$(BIN)/python -m pytest tests/browser --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
 
 man: $(READY) ## make the manual page anew
 	$(BIN)/python docs/man/page.py

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from garkcli.version import __version__
 
@@ -69,6 +69,24 @@ def _complete(_: Sphinx, page: str, source: list[str]) -> None:
         source[0] = contributing()
 
 
+def scrollable(html: str) -> str:
+    """What scrolls sideways on a phone can have the focus, so that arrow keys move it.
+
+    Args:
+        html: the article of a page.
+    """
+    table = '<div class="table-wrapper'
+    focused = table.replace("<div", '<div tabindex="0"')
+    return html.replace("<pre>", '<pre tabindex="0">').replace(table, focused)
+
+
+def _make_scrollable(*event: Any) -> None:
+    *_, context, _ = event
+    if "body" in context:
+        context["body"] = scrollable(context["body"])
+
+
 def setup(app: Sphinx) -> None:
     """Complete pages when they are read."""
     app.connect("source-read", _complete)
+    app.connect("html-page-context", _make_scrollable)

@@ -50,3 +50,13 @@ def test_no_page_is_hidden_by_one_of_sphinx() -> None:
     """Sphinx has pages of its own for these names, and the margin would lead to them."""
     taken = {"search.md", "genindex.md", "modindex.md"}
     assert not taken & set(pages())
+
+
+def test_what_scrolls_can_have_the_focus() -> None:
+    """Transcripts and tables of the site are moved by arrow keys too; the rest stays as it is."""
+    made = runpy.run_path(str(DOCS / "conf.py"))["scrollable"]
+    html = '<p>a</p><pre>b</pre><div class="table-wrapper x"><table>'
+    assert made(html) == (
+        '<p>a</p><pre tabindex="0">b</pre>'
+        '<div tabindex="0" class="table-wrapper x"><table>'
+    )
