@@ -34,6 +34,7 @@ from garkcli.stepping.integrator import Binding, bind
 from garkcli.stepping.linear import whole_steps
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
 Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
@@ -116,6 +117,10 @@ class ModifiedRun:
     def __repr__(self) -> str:
         found = ", ".join(f"h^{x.power} {x.verdict}" for x in self.energies)
         return f"<ModifiedRun {self.problem.name}: {found}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook_texts", "modified_run_html")(self)
+        return html
 
 
 def modified_run(

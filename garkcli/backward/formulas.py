@@ -20,6 +20,7 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -80,6 +81,10 @@ class ModifiedFormula:
     def __repr__(self) -> str:
         powers = ", ".join(f"h^{term.power}" for term in self.terms)
         return f"<ModifiedFormula {self.of} of {self.problem.name}: {powers}>"
+
+    def _repr_latex_(self) -> str:
+        latex: str = found("report.notebook_texts", "formula_latex")(self)
+        return latex
 
 
 def modified_formula(

@@ -16,6 +16,7 @@ from garkcli.backward.hamiltonian import (
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -67,6 +68,10 @@ class BackwardAnalysis:
         is_so = ", symplectic" if self.is_symplectic else ""
         least = "at least " if self.order.is_lower_bound else ""
         return f"<BackwardAnalysis order {least}{self.order.order}{is_so}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook_texts", "backward_html")(self)
+        return html
 
 
 def backward_analysis(

@@ -25,6 +25,7 @@ from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 Relation: TypeAlias = Literal[
     "identical", "same", "within-rounding", "different", "undecided"
@@ -133,6 +134,10 @@ class Comparison:
 
     def __repr__(self) -> str:
         return f"<Comparison {self.relation}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook_texts", "comparison_html")(self)
+        return html
 
 
 def compare(

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.upward import found
+
 if TYPE_CHECKING:
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
@@ -213,6 +215,10 @@ class Convergence:
             seen = f"observed order {self.observed_order:.1f}"
         name = getattr(self.problem, "name", "oscillator")
         return f"<Convergence {name}: {seen}, {self.verdict}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("webpage.notebook", "convergence_html")(self)
+        return html
 
 
 def absolute(x: arb) -> arb:

@@ -25,6 +25,7 @@ from garkcli.tableau.family import Family
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
+from garkcli.upward import found
 
 Whose: TypeAlias = Literal["method", "conjugate", "pair"]
 Kind: TypeAlias = Literal[
@@ -114,6 +115,10 @@ class Design:
         reached = [step.order for step in self.steps if step.may_have_methods]
         highest = max(reached, default=0)
         return f"<Design {self.family.name}: order {highest} is reached>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook_texts", "design_html")(self)
+        return html
 
 
 SHARE = 0.25

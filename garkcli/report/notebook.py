@@ -195,7 +195,10 @@ def _pair(fact: Fact) -> str:
 
 
 def _table(title: str, rows: Iterable[str]) -> str:
-    caption = f"<caption>{_text(title)}</caption>" if title else ""
+    beside = "white-space:nowrap;text-align:left"
+    caption = ""
+    if title:
+        caption = f'<caption style="{beside}">{_text(title)}</caption>'
     style = "border-collapse:collapse"
     body = "\n".join(rows)
     return f'<table style="{style}">{caption}<tbody>\n{body}\n</tbody></table>'

@@ -33,6 +33,7 @@ from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 
 def _word(word: str, is_so: bool | None) -> str:
@@ -115,6 +116,10 @@ class Stability:
         if together.a_stable:
             words += f", {_word('L-stable', together.l_stable)}"
         return f"<Stability {words}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook_texts", "stability_html")(self)
+        return html
 
 
 def stability(

@@ -10,6 +10,7 @@ from garkcli.design.minimise.line import Toward
 from garkcli.design.minimise.objective import Level, Objective
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
+from garkcli.upward import found
 
 Extent: TypeAlias = Literal["all", "nearly", "critical-points", "found"]
 """Among what a minimum is the least: all methods; all critical points, and no method is less by
@@ -92,3 +93,7 @@ class Minimum:
 
     def __repr__(self) -> str:
         return f"<Minimum of {self.objective.key}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook_texts", "minimum_html")(self)
+        return html

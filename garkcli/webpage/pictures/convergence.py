@@ -38,6 +38,17 @@ def draw(subject: Subject) -> Picture:
         )
     method = subject.method
     result = converge(subject.stepped, tolerance=method.tolerance)
+    svg = svg_of(result)
+    note = _note(subject, result)
+    return Picture("convergence", _TITLE, _description(result), svg, note)
+
+
+def svg_of(result: Convergence) -> str:
+    """Errors over step sizes as an SVG element.
+
+    Raises:
+        NotDrawn: there are fewer than two errors.
+    """
     errors = _curve(curve(result, "h"), "error")
     if errors is None or len(errors.xs) < 2:
         raise NotDrawn("The method makes no error on the problem of the test.")
@@ -55,9 +66,7 @@ def draw(subject: Subject) -> Picture:
     sizes = [row.h for row in result.rows if row.error > 0]
     up = decade_marks(frame.y.low, frame.y.high, 7)
     marks = _step_marks(sizes), up
-    svg = frame.finished(_TITLE, description, marks, ("step size h", "error"))
-    note = _note(subject, result)
-    return Picture("convergence", _TITLE, description, svg, note)
+    return frame.finished(_TITLE, description, marks, ("step size h", "error"))
 
 
 def _energy_errors(result: Convergence) -> list[tuple[fmpq, arb]]:

@@ -44,7 +44,23 @@ def draw(subject: Subject) -> Picture:
             f"The energy error stays below round-off in {run.steps} steps of {run.step} on "
             "Kepler's problem."
         )
+    svg = svg_of(run)
+    note = _note(subject, run, history)
+    return Picture("energy", _TITLE, _description(run, history), svg, note)
+
+
+def svg_of(run: LongRun) -> str:
+    """The error of the first invariant over time as an SVG element.
+
+    Raises:
+        NotDrawn: it is nowhere above round-off, or a number at no time.
+    """
+    history = run.invariants[0]
+    if history.verdict in ("exact", "round-off"):
+        raise NotDrawn("The error stays below round-off.")
     points = _finite(run, history)
+    if not points:
+        raise NotDrawn("There is no error that is a number.")
     frame, exponent = _frame(points)
     factor = 10.0**-exponent
     frame.curve(0, [(t, e * factor) for t, e in points], 1.1)
@@ -52,14 +68,12 @@ def draw(subject: Subject) -> Picture:
     frame.line((start, 0.0), (end, 0.0), ' stroke-width="0.7"')
     _draw_drift(frame, history, points, factor)
     description = _description(run, history)
-    label = "H(t) − H(0)"
+    label = "H(t) − H(0)" if run.energy else f"error of {history.name}"
     if exponent:
         label += f" in {power_of_ten(exponent)}"
     across = linear_marks(start, end, 6)
     marks = across, linear_marks(frame.y.low, frame.y.high, 6)
-    svg = frame.finished(_TITLE, description, marks, ("time t", label))
-    note = _note(subject, run, history)
-    return Picture("energy", _TITLE, description, svg, note)
+    return frame.finished(_TITLE, description, marks, ("time t", label))
 
 
 def _run(subject: Subject) -> LongRun:

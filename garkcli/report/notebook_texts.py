@@ -1,0 +1,100 @@
+"""How a notebook shows what has a report in text: the report, as it is printed."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+from garkcli.page.paint import Paint
+from garkcli.page.plain import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from garkcli.backward.energy import ModifiedRun
+    from garkcli.backward.formulas import ModifiedFormula
+    from garkcli.backward.summary import BackwardAnalysis
+    from garkcli.comparison.comparison import Comparison
+    from garkcli.design.design import Design
+    from garkcli.design.minimise.result import Minimum
+    from garkcli.stability.linear import StabilityFunction
+    from garkcli.stability.summary import Stability
+
+DIGITS = 12
+"""Of numbers without simple radicals."""
+WIDTH = 76
+"""Columns of a text."""
+_PLAIN = Paint()
+
+
+def stability_html(found: Stability) -> str:
+    """What ``gark stability`` prints."""
+    from garkcli.report.stability_data import StabilityReport
+    from garkcli.report.stability_text import text_of
+
+    report = StabilityReport("", "", found)
+    return preformatted(text_of(report, _PLAIN))
+
+
+def function_latex(R: StabilityFunction) -> str:
+    """R(z) as a formula."""
+    from garkcli.exact.polynomial_text import integral
+    from garkcli.page.exactly import polynomial_latex
+
+    over, under = (
+        polynomial_latex(p, "z")
+        for p in integral([R.numerator, R.denominator])
+    )
+    fraction = over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+    return f"$R(z) = {fraction}$"
+
+
+def comparison_html(found: Comparison) -> str:
+    """What ``gark diff`` prints."""
+    from garkcli.report.diff_text import render
+
+    names = (found.one.name or "first", found.other.name or "second")
+    return preformatted(render(found, names, _PLAIN).splitlines())
+
+
+def design_html(design: Design) -> str:
+    """What ``gark design`` prints."""
+    from garkcli.report.design_text import render
+
+    _, *lines = render("", design, DIGITS, WIDTH).splitlines()
+    return preformatted(lines)
+
+
+def minimum_html(minimum: Minimum) -> str:
+    """What ``gark design --minimise`` prints below the design."""
+    from garkcli.report.minimum_text import render
+
+    return preformatted(render(minimum, DIGITS, WIDTH).splitlines())
+
+
+def backward_html(found: BackwardAnalysis) -> str:
+    """What ``gark modified`` prints."""
+    from garkcli.report.modified import text_of
+    from garkcli.report.modified_data import ModifiedReport
+
+    return preformatted(text_of(ModifiedReport("", "", found), _PLAIN))
+
+
+def formula_latex(formula: ModifiedFormula) -> str:
+    """The modified Hamiltonian or equation, multiplied out."""
+    from garkcli.report.modified_formula import formula_latex as written
+
+    return written(formula.expanded())
+
+
+def modified_run_html(run: ModifiedRun) -> str:
+    """What ``gark energy --modified`` prints."""
+    from garkcli.report.modified_energy import ModifiedEnergyReport, text_of
+
+    return preformatted(text_of(ModifiedEnergyReport("", run), _PLAIN))
+
+
+def preformatted(lines: Iterable[str]) -> str:
+    """Lines as they stand, in letters of one width."""
+    text = "\n".join(printable(line) for line in lines).strip("\n")
+    return f'<pre style="line-height:1.25">{escape(text)}</pre>'

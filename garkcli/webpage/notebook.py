@@ -1,0 +1,91 @@
+"""How a notebook shows runs: a table, what was found, and a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from html import escape
+from typing import TypeVar
+
+from garkcli.convergence.result import Convergence
+from garkcli.longtime.history import InvariantHistory, LongRun
+from garkcli.page.figures import measured, rounded
+from garkcli.page.plain import printable
+from garkcli.report.convergence import order_text, predicted, remarks
+from garkcli.webpage.pictures.convergence import svg_of as errors_svg
+from garkcli.webpage.pictures.energy import svg_of as energy_svg
+from garkcli.webpage.pictures.picture import NotDrawn
+
+T = TypeVar("T")
+_WIDE = 'style="max-width:32rem"'
+
+
+def convergence_html(result: Convergence) -> str:
+    """Errors and slopes by step size, the orders, and the errors in a picture."""
+    heads = ["h", "error", "slope"]
+    has_energy = any(row.energy_error is not None for row in result.rows)
+    if has_energy:
+        heads.append("energy error")
+    rows = []
+    for row in result.rows:
+        slope = "" if row.slope is None else f"{row.slope:.3f}"
+        cells = [str(row.h), rounded(row.error), slope]
+        if has_energy and row.energy_error is not None:
+            cells.append(rounded(row.energy_error))
+        rows.append(cells)
+    observed = order_text(result.observed_order)
+    said = (
+        f"observed order {observed}, order of the method {predicted(result)}: "
+        f"{result.verdict}"
+    )
+    name = getattr(result.problem, "name", "oscillator")
+    table = _table(f"{name}, to t = {result.t_end}", heads, rows)
+    return _shown(
+        [table, *_texts([said, *remarks(result)])], errors_svg, result
+    )
+
+
+def long_run_html(run: LongRun) -> str:
+    """What became of each invariant, and the error of the first in a picture."""
+    heads = ["", "at the start", "largest error", "verdict"]
+    rows = [_invariant(history) for history in run.invariants]
+    name = getattr(run.problem, "name", "oscillator")
+    title = f"{name}: {run.steps} steps of {run.step} to t = {run.t_end}"
+    return _shown([_table(title, heads, rows)], energy_svg, run)
+
+
+def _invariant(history: InvariantHistory) -> list[str]:
+    largest = "0"
+    if history.verdict != "exact":
+        largest = measured(history.max_error, history.round_off)
+    start = f"{history.initial:.6g}"
+    return [history.name, start, largest, history.verdict]
+
+
+def _shown(parts: list[str], draw: Callable[[T], str], result: T) -> str:
+    """The parts, and below them the picture where there is one."""
+    with suppress(NotDrawn):
+        parts.append(f"<div {_WIDE}>{draw(result)}</div>")
+    return "\n".join(parts)
+
+
+def _table(
+    title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]
+) -> str:
+    head = "".join(f'<th scope="col">{_text(x)}</th>' for x in heads)
+    lines = [f"<tr>{head}</tr>"]
+    for row in rows:
+        cells = "".join(f"<td>{_text(x)}</td>" for x in row)
+        lines.append(f"<tr>{cells}</tr>")
+    body = "\n".join(lines)
+    beside = "white-space:nowrap;text-align:left"
+    caption = f'<caption style="{beside}">{_text(title)}</caption>'
+    return f"<table>{caption}<tbody>\n{body}\n</tbody></table>"
+
+
+def _texts(texts: Iterable[str]) -> list[str]:
+    return [f"<p>{_text(text)}</p>" for text in texts]
+
+
+def _text(text: str) -> str:
+    return escape(printable(text))

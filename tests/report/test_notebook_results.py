@@ -1,0 +1,127 @@
+"""What notebooks show of runs, of reports and of formulas: well-formed, escaped, as commands say."""
+
+from __future__ import annotations
+
+from html import unescape
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import pytest
+
+import garkcli
+from garkcli import loads_problem
+from tests.cli.harness import gark
+from tests.report.test_notebook import cells
+
+FAMILY = (
+    "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
+)
+VERLET = "methods/stoermer-verlet.gark.yaml"
+HOSTILE = """\
+name: "<script>alert(1)</script>"
+variables: [x]
+hamiltonian: px**2/2 - cos(x)
+initial: {x: 1, px: 0}
+"""
+
+
+def pictures(html: str) -> list[str]:
+    """The titles of the pictures in it."""
+    root = ET.fromstring(f"<div>{html}</div>")
+    titles = [svg.findtext("title") for svg in root.iter("svg")]
+    return [title for title in titles if title is not None]
+
+
+def lines(html: str) -> list[str]:
+    """A text in letters of one width."""
+    root = ET.fromstring(html)
+    assert root.tag == "pre"
+    return [line.strip() for line in "".join(root.itertext()).splitlines()]
+
+
+def test_a_convergence_test_is_a_table_and_a_picture() -> None:
+    """A row a step size, the verdict, and the errors drawn; without an error no picture."""
+    found = garkcli.converge("rk4", "pendulum", steps=[0.5, 0.25, 0.125])
+    html = found._repr_html_()
+    heads, *rows = cells(html)
+    assert heads == ["h", "error", "slope", "energy error"]
+    assert [row[0] for row in rows] == ["1/2", "1/4", "1/8"]
+    assert rows[0][2] == ""
+    assert float(rows[2][2]) == pytest.approx(found.rows[2].slope, abs=1e-3)
+    assert f"order of the method 4: {found.verdict}" in html
+    assert pictures(html) == ["Convergence"]
+    exact = "{variables: [x], hamiltonian: px**2/2, initial: {x: 0, px: 1}}"
+    still = garkcli.converge("rk4", loads_problem(exact), 1, [0.5, 0.25])
+    assert pictures(still._repr_html_()) == []
+
+
+def test_a_long_run_is_a_table_and_a_picture() -> None:
+    """A row an invariant; what is exactly conserved has no picture."""
+    run = garkcli.long_run(VERLET, "pendulum", 50, "1/10")
+    (heads, row) = cells(run._repr_html_())
+    assert heads == ["", "at the start", "largest error", "verdict"]
+    assert (row[0], row[3]) == ("energy", "bounded")
+    assert pictures(run._repr_html_()) == ["Energy error over a long time"]
+    still = garkcli.long_run("gauss-2", "oscillator", 10)._repr_html_()
+    assert cells(still)[1][3] == "exact"
+    assert pictures(still) == []
+
+
+def test_names_of_files_are_text() -> None:
+    """A problem cannot bring markup of its own."""
+    problem = loads_problem(HOSTILE)
+    run = garkcli.long_run("rk4", problem, 2, "1/4")
+    found = garkcli.converge("rk4", problem, 1, [0.5, 0.25])
+    formula = garkcli.modified_run(VERLET, problem, 2, longest=0.5)
+    for value in (run, found, formula):
+        html = value._repr_html_()
+        ET.fromstring(f"<div>{html}</div>")
+        assert "<script" not in html
+        assert "alert(1)" in html
+
+
+@pytest.mark.parametrize(
+    ("value", "command"),
+    [
+        (garkcli.find_stability("rk4"), ("stability", "rk4")),
+        (garkcli.compare("rk4", "heun"), ("diff", "rk4", "heun")),
+        (
+            garkcli.backward_analysis(VERLET, 4),
+            ("modified", VERLET, "--order", "4"),
+        ),
+        (
+            garkcli.modified_run(VERLET, "pendulum", 3),
+            ("energy", VERLET, "--modified", "3", "--problem", "pendulum"),
+        ),
+    ],
+    ids=["stability", "comparison", "modified", "energy"],
+)
+def test_reports_are_those_of_the_commands(
+    value: Any, command: tuple[str, ...]
+) -> None:
+    """Line by line, but for the name at the top."""
+    printed = [line.strip() for line in gark(*command).out.splitlines()]
+    shown = lines(value._repr_html_())
+    assert shown[-8:] == printed[-8:]
+    assert {*shown[5:]} <= {*printed}
+
+
+def test_a_design_says_what_was_found() -> None:
+    """For which values, and the least one."""
+    family = garkcli.loads_family(FAMILY)
+    design = garkcli.find_parameters(family)
+    shown = lines(design._repr_html_())
+    assert "order 1 to 2   every value" in shown
+    shown = lines(garkcli.minimise(design, "error")._repr_html_())
+    assert "t = 2/3" in shown
+
+
+def test_formulas_are_latex() -> None:
+    """Of a stability function and of a modified Hamiltonian, in the signs that notebooks read."""
+    stability = garkcli.find_stability("gauss-1")
+    (linear,) = stability.linear
+    assert linear.R._repr_latex_() == r"$R(z) = \frac{z+2}{-z+2}$"
+    formula = garkcli.modified_formula(VERLET, "pendulum", 3)
+    latex = formula._repr_latex_()
+    assert latex.startswith(r"\begin{align*}")
+    assert r"\frac{\sin^{2}" in unescape(latex)
