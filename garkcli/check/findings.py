@@ -12,6 +12,7 @@ from pathlib import PurePath
 
 from garkcli.check.explained import claim_hint, claim_witness
 from garkcli.check.outcome import Outcome
+from garkcli.glossary.faults import code_of
 
 CLAIM = "write what holds under expect: gark claims FILE --write"
 """The cure of a file that lacks a claim."""
@@ -31,6 +32,7 @@ class Finding:
         fingerprint: the same as long as the same thing is wrong with the same file, wherever it
             stands in it.
         level: ``error``, ``warning`` or ``note``.
+        code: of a file that cannot be read, the code of what is wrong with it.
     """
 
     rule: str
@@ -41,6 +43,7 @@ class Finding:
     help: str
     fingerprint: str
     level: str = "error"
+    code: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,7 @@ class Part:
     key: str
     line: int = 1
     column: int = 1
+    code: str = ""
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,12 @@ def _unreadable(outcome: Outcome) -> Iterator[Part]:
         key = f"{fault.message}\0{seen[fault.message]}"
         seen[fault.message] += 1
         yield Part(
-            fault.message, fault.help, key, fault.line or 1, fault.column or 1
+            fault.message,
+            fault.help,
+            key,
+            fault.line or 1,
+            fault.column or 1,
+            code_of(fault.message),
         )
 
 
@@ -113,6 +122,7 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
                 part.message,
                 part.help,
                 digest,
+                code=part.code,
             )
 
 

@@ -1,44 +1,30 @@
-"""What a word means: a term, a claim, a key of method files, a family, a finding."""
+"""What a word means: a term, a claim, a key of a file, a family, the code of an error."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
 
-from garkcli.check.findings import KINDS
+from garkcli.check.senses import (
+    Meaning,
+    Sense,
+    claim_meaning,
+    every_sense,
+    fault_meaning,
+    term_meaning,
+)
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.glossary.registry import by_word, plain
-from garkcli.glossary.term import Term
+from garkcli.glossary.faults import UNKNOWN, code_of
+from garkcli.glossary.registry import plain
 
-if TYPE_CHECKING:
-    from garkcli.constructions.schemes.flows import Splitting
-    from garkcli.constructions.schemes.scheme import Scheme
-
-
-@dataclass(frozen=True)
-class Meaning:
-    """What a word means in one of its senses.
-
-    Attributes:
-        kind: what it is: a term, a claim, a key, …
-        name: as it is written.
-        text: in whole sentences.
-        formula: the definition in signs; empty where there is none.
-        values: of a claim, how it is written.
-        scope: of a claim, for which methods it has a meaning; empty for all.
-        source: where it comes from.
-        see: words near it.
-    """
-
-    kind: str
-    name: str
-    text: str
-    formula: str = ""
-    values: str = ""
-    scope: str = ""
-    source: str = ""
-    see: tuple[str, ...] = ()
+__all__ = [
+    "Meaning",
+    "claim_meaning",
+    "known_words",
+    "meanings",
+    "term_meaning",
+]
+_SURELY = 8
+"""Letters that a pasted message has in common with one of the program."""
 
     def __repr__(self) -> str:
         return f"<Meaning {self.name}: {self.kind}>"
@@ -48,8 +34,9 @@ def meanings(word: str) -> list[Meaning]:
     """What a word means, in every sense that it has: ``gark explain``.
 
     Args:
-        word: a term, a label of a report, a claim, a key of method files, a family, a transfer
-            rule, a scheme, a shape, or the code of a finding; in any case, with hyphens or blanks.
+        word: a term, a label of a report, a claim, a key of a file with or without those above it,
+            a family, a transfer rule, a scheme, a shape, a problem, the code of an error or of a
+            finding, or the message of an error; in any case, with hyphens or blanks.
 
     Raises:
         UsageProblem: nobody knows it.
@@ -57,172 +44,60 @@ def meanings(word: str) -> list[Meaning]:
     >>> meanings("density")[0].formula
     'γ(u) = ρ(u) Π γ(u_i), over the branches u_i'
     """
-    wanted = plain(word)
     exactly, nearly = [], []
-    for make, names in _senses():
-        for name in names:
-            if name == word:
-                exactly.append(make(name))
-            elif plain(name) == wanted:
-                nearly.append(make(name))
+    for sense, name in _by_plain().get(plain(word), ()):
+        if name == word:
+            exactly.append(sense.mean(name))
+        else:
+            nearly.append(sense.mean(name))
     if not exactly and not nearly:
-        cure = did_you_mean(word, known_words())
-        raise UsageProblem(f"no word {word!r}", cure)
+        return [_of_message(word)]
     # b is a weight, and B a condition: letters alone are taken at their word
-    return exactly if len(wanted) == 1 and exactly else exactly + nearly
+    is_letter = len(plain(word)) == 1
+    return exactly if is_letter and exactly else _once(exactly + nearly)
 
 
-Sense = tuple[Callable[[str], Meaning], "list[str]"]
+def _once(found: list[Meaning]) -> list[Meaning]:
+    """Meanings without those that another word has led to already."""
+    return list(dict.fromkeys(found))
 
 
-def _senses() -> Iterator[Sense]:
-    """Every kind of word: what makes its meaning, and which there are."""
-    yield _term, list(by_word())
-    yield claim_meaning, list(_claims())
-    yield _key, list(_keys())
-    yield _design_key, list(_keys("design"))
-    yield _family, list(_families())
-    yield _rule, list(_rules())
-    yield _scheme, list(_schemes())
-    yield _splitting, list(_splittings())
-    yield _finding, list(KINDS)
+def _of_message(text: str) -> Meaning:
+    """What a message of an error means.
+
+    Raises:
+        UsageProblem: it is none.
+    """
+    code = code_of(text, _SURELY)
+    if code == UNKNOWN:
+        raise UsageProblem(f"no word {text!r}", _near(text))
+    return fault_meaning(code)
+
+
+def _near(text: str) -> str:
+    """The words that a misspelt one may be, or where all of them are found."""
+    words = known_words()
+    cure = did_you_mean(text, words)
+    if not cure.startswith("one of"):
+        return cure
+    letters = plain(text)
+    longer = [word for word in words if letters in plain(word).split()]
+    if longer and letters:
+        return did_you_mean(letters, longer)
+    return "gark explain lists the terms"
+
+
+@lru_cache(maxsize=1)
+def _by_plain() -> dict[str, list[tuple[Sense, str]]]:
+    """Every spelling with what it leads to."""
+    found: dict[str, list[tuple[Sense, str]]] = {}
+    for sense in every_sense():
+        for name, spellings in sense.names.items():
+            for spelling in {plain(x) for x in (name, *spellings)}:
+                found.setdefault(spelling, []).append((sense, name))
+    return found
 
 
 def known_words() -> list[str]:
     """Every word that has a meaning, in order."""
-    return sorted({name for _, names in _senses() for name in names})
-
-
-def _term(word: str) -> Meaning:
-    return term_meaning(by_word()[word])
-
-
-def term_meaning(term: Term) -> Meaning:
-    """A term of the glossary as the meaning of a word."""
-    return Meaning(
-        "term",
-        term.name,
-        term.text,
-        formula=term.formula,
-        source=term.source,
-        see=term.see,
-    )
-
-
-def _claims() -> tuple[str, ...]:
-    from garkcli.methodfile.expectations import CLAIMS
-
-    return CLAIMS
-
-
-def claim_meaning(key: str) -> Meaning:
-    """What a claim of a method file means.
-
-    Raises:
-        UsageProblem: there is no such claim.
-    """
-    from garkcli.properties.definitions import definition
-
-    found = definition(key)
-    return Meaning(
-        "claim under expect",
-        key,
-        found.text,
-        values=found.values.replace("`", ""),
-        scope=found.meaning,
-        source=found.source,
-    )
-
-
-def _keys(inside: str = "") -> Mapping[str, Any]:
-    """The keys of method files with their schemas."""
-    from garkcli.methodfile.schema import method_file_schema
-
-    schema: Any = method_file_schema()
-    keys: dict[str, Any] = schema["properties"]
-    if not inside:
-        return keys
-    within: dict[str, Any] = keys[inside]["properties"]
-    return within
-
-
-def _key(key: str) -> Meaning:
-    text = _described(_keys()[key])
-    source = "docs/method-file.md"
-    return Meaning("key of method files", key, text, source=source)
-
-
-def _described(entry: Mapping[str, Any]) -> str:
-    """What the schema of a key says of it, or the definition that it refers to."""
-    if "description" in entry:
-        return str(entry["description"])
-    from garkcli.methodfile.schema import method_file_schema
-
-    schema: Any = method_file_schema()
-    _, _, name = entry["$ref"].rpartition("/")
-    return str(schema["definitions"][name]["description"])
-
-
-def _design_key(key: str) -> Meaning:
-    text = _sentence(_described(_keys("design")[key]))
-    return Meaning("key under design", key, text, source="docs/design.md")
-
-
-def _families() -> Mapping[str, Any]:
-    from garkcli.families.registry import FAMILIES
-
-    return FAMILIES
-
-
-def _family(name: str) -> Meaning:
-    family = _families()[name]
-    text = f"{_sentence(family.summary)} Order {family.order}."
-    return Meaning("family of methods", name, text, source="gark list")
-
-
-def _rules() -> Mapping[str, str]:
-    from garkcli.transfer import SUMMARIES
-
-    return SUMMARIES
-
-
-def _rule(name: str) -> Meaning:
-    return Meaning(
-        "transfer rule", name, _sentence(_rules()[name]), source="gark list"
-    )
-
-
-def _schemes() -> Mapping[str, Scheme]:
-    from garkcli.constructions.schemes.registry import SCHEMES
-
-    return SCHEMES
-
-
-def _scheme(name: str) -> Meaning:
-    found = _schemes()[name]
-    text = f"{_sentence(found.summary)} Order {found.order}."
-    return Meaning("scheme of compose", name, text, source=found.reference)
-
-
-def _splittings() -> Mapping[str, Splitting]:
-    from garkcli.constructions.schemes.flows import SPLITTINGS
-
-    return SPLITTINGS
-
-
-def _splitting(name: str) -> Meaning:
-    found = _splittings()[name]
-    text = f"{_sentence(found.summary)} Order {found.order}."
-    source = found.reference or "gark list"
-    return Meaning("scheme of splitting", name, text, source=source)
-
-
-def _finding(code: str) -> Meaning:
-    text = _sentence(KINDS[code].text)
-    return Meaning("finding of gark check", code, text, source="docs/ci.md")
-
-
-def _sentence(text: str) -> str:
-    """A remark as a sentence."""
-    begun = text[:1].upper() + text[1:]
-    return begun if begun.endswith(".") else f"{begun}."
+    return sorted({name for sense in every_sense() for name in sense.names})

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 
 from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.coefficient_schema import Schema
+from garkcli.methodfile.described import described
 from garkcli.methodfile.problem_text import (
     KEYS,
     MAX_INVARIANTS,
@@ -44,11 +45,16 @@ _FORMULA: Schema = {
 
 
 def problem_file_schema() -> Schema:
-    """The JSON Schema of problem files, as plain data.
+    """The JSON Schema of problem files, as plain data, with what each key means.
 
     >>> problem_file_schema()["title"]
     'gark problem file'
     """
+    return described(_of_keys(), "problem")
+
+
+def _of_keys() -> Schema:
+    """What each key may have, and which go together."""
     properties = _properties()
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -107,44 +113,19 @@ def _properties() -> Schema:
     by_name: Schema = {"type": "object", "additionalProperties": formula}
     sides = _one_or_list({"anyOf": [formula, by_name]}, MAX_TERMS)
     return {
-        "gark": {"description": "Version of the format.", "enum": [1, "1"]},
-        "name": {**_TEXT, "description": "What people call the problem."},
-        "description": {**_TEXT, "description": "What it is."},
-        "reference": {**_TEXT, "description": "Where it was published."},
-        "variables": {
-            "description": "Names of the positions, or of the unknowns.",
-            **_names(_NAME),
-        },
-        "parameters": {
-            **constants,
-            "propertyNames": {"pattern": _NAME},
-            "description": "Named constants.",
-        },
-        "hamiltonian": {
-            **terms,
-            "description": "H in positions x and momenta px; a list: one term a colour.",
-        },
-        "lagrangian": {
-            **terms,
-            "description": "L in positions x and velocities vx; a list: one term a colour.",
-        },
-        "rhs": {
-            **sides,
-            "description": "Derivatives of variables by their names, of variables and t; a list: "
-            "one term a colour.",
-        },
-        "initial": {
-            **constants,
-            "description": "Initial values of all variables, and of momenta (or velocities).",
-        },
-        "exact": {
-            **by_name,
-            "description": "The solution of rhs: a formula in t for each variable.",
-        },
+        "gark": {"enum": [1, "1"]},
+        "name": _TEXT,
+        "description": _TEXT,
+        "reference": _TEXT,
+        "variables": _names(_NAME),
+        "parameters": {**constants, "propertyNames": {"pattern": _NAME}},
+        "hamiltonian": terms,
+        "lagrangian": terms,
+        "rhs": sides,
+        "initial": constants,
+        "exact": by_name,
         "t_end": {"$ref": "#/definitions/constant"},
         "invariants": {
-            "description": "First integrals besides H, in positions and momenta, or in the "
-            "variables of rhs.",
             "type": "object",
             "additionalProperties": formula,
             "maxProperties": MAX_INVARIANTS,

@@ -27,6 +27,7 @@ from garkcli.methodfile.coefficient_schema import (
 )
 from garkcli.methodfile.constructed.registry import construction
 from garkcli.methodfile.content import KEYS_OF_METHOD
+from garkcli.methodfile.described import described
 from garkcli.methodfile.description import (
     BESIDE,
     CONSTRUCTIONS,
@@ -48,11 +49,16 @@ _MEASURE: Schema = {
 
 
 def method_file_schema() -> Schema:
-    """The JSON Schema of method files, as plain data.
+    """The JSON Schema of method files, as plain data, with what each key means.
 
     >>> method_file_schema()["title"]
     'gark method file'
     """
+    return described(_of_keys(), "method")
+
+
+def _of_keys() -> Schema:
+    """What each key may have, and which go together."""
     forms = [{"required": [form]} for form in (*FORMS, "unknown")]
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -138,51 +144,35 @@ def _properties() -> Schema:
     method = {"$ref": "#/definitions/method"}
     methods = {"type": "array", "minItems": 1, "items": method}
     return {
-        "gark": {"description": "Version of the format.", "enum": [1, "1"]},
-        "name": {**TEXT, "description": "What people call the method."},
+        "gark": {"enum": [1, "1"]},
+        "name": TEXT,
         "aliases": aliases(),
-        "description": {**TEXT, "description": "What it is for."},
+        "description": TEXT,
         "reference": reference(),
-        "methods": {
-            "description": "The diagonal methods, one a colour; one on its own needs no list.",
-            "anyOf": [methods, method],
-        },
+        "methods": {"anyOf": [methods, method]},
         **tableau_keys(),
         "transfer": _transfer(),
         "tableau": tableau(),
         "ark": ark(),
         "prk": prk(),
         **{key: construction(key).schema() for key in CONSTRUCTIONS},
-        "structure": {
-            "description": "Which vector fields the problem has.",
-            "enum": list(STRUCTURES),
-        },
-        "conjugate": {
-            "description": "The method is the symplectic conjugate of all this.",
-            "type": "boolean",
-        },
+        "structure": {"enum": list(STRUCTURES)},
+        "conjugate": {"type": "boolean"},
         "linear": {
-            "description": "Colours whose vector field is linear.",
             "type": "array",
             "items": {"type": "integer", "minimum": 1},
         },
         "unknown": unknown(),
         "design": design(),
         "parameters": parameters(),
-        "tolerance": {
-            **NUMBER,
-            "description": "The rounding of the coefficients, for instance 1e-13.",
-        },
+        "tolerance": NUMBER,
         "expect": _expect(),
     }
 
 
 def _family() -> Schema:
     """A family with what its members are chosen by; most by their stages alone."""
-    names = {
-        "enum": list(FAMILIES),
-        "description": "A family of methods, see gark list.",
-    }
+    names = {"enum": list(FAMILIES)}
     keys: Schema = {"family": names, "name": TEXT, **beside()}
     for family in FAMILIES.values():
         keys[family.size] = {"type": "integer", "minimum": 1}
@@ -248,10 +238,7 @@ def _transfer() -> Schema:
         "additionalProperties": False,
         "minProperties": 1,
     }
-    return {
-        "description": "How the off-diagonal blocks are made.",
-        "anyOf": [rule, split],
-    }
+    return {"anyOf": [rule, split]}
 
 
 def _expect() -> Schema:
@@ -276,7 +263,6 @@ def _expect() -> Schema:
     }
     properties |= {x.key: by_kind[x.kind] for x in every_property()}
     return {
-        "description": "Claims that gark check confirms.",
         "type": "object",
         "properties": properties,
         "additionalProperties": False,

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 
 from garkcli.families.registry import BY_STAGES
 from garkcli.methodfile.coefficient_schema import Schema
+from garkcli.methodfile.described import described
 from garkcli.methodfile.sweep_file import KEYS
 from garkcli.methodfile.sweep_search import FREE
 from garkcli.methodfile.transfers import ALL_RULES
@@ -28,36 +29,22 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
     """
     columns = _one_or_more({"enum": list(kinds)})
     properties = {
-        "name": {
-            "type": "string",
-            "description": "What people call the sweep.",
-        },
+        "name": {"type": "string"},
         "methods": {
-            "description": "One entry a colour; families times stages of each.",
             "type": "array",
             "minItems": 1,
             "items": _method(),
         },
-        "transfer": {
-            "description": "Rules for the blocks between the methods, each tried.",
-            **_one_or_more(_rule()),
-        },
-        "files": {
-            "description": "Method files, beside the spec file.",
-            **_one_or_more({"type": "string"}),
-        },
-        "parameters": {
-            "description": "Values of parameters.",
-            "type": "object",
-            "additionalProperties": _grid(),
-        },
+        "transfer": _one_or_more(_rule()),
+        "files": _one_or_more({"type": "string"}),
+        "parameters": {"type": "object", "additionalProperties": _grid()},
         "search": _search(),
-        "columns": {"description": "What is told of each method.", **columns},
+        "columns": columns,
         "where": _conditions(kinds),
-        "best": {"description": "Columns to sort by, best first.", **columns},
-        "pareto": {"description": "Columns of the Pareto front.", **columns},
+        "best": columns,
+        "pareto": columns,
     }
-    return {
+    schema: Schema = {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark sweep file",
         "description": "Which methods are swept, and what is told of each.",
@@ -67,6 +54,7 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
         "anyOf": [{"required": ["methods"]}, {"required": ["files"]}],
         "properties": {key: properties[key] for key in KEYS},
     }
+    return described(schema, "sweep")
 
 
 def _one_or_more(item: Schema) -> Schema:
@@ -120,7 +108,6 @@ def _search() -> Schema:
     seeds = {"type": "string", "pattern": r"^[0-9]{1,9}\.\.[0-9]{1,9}$"}
     number = {"type": "integer", "minimum": 1}
     return {
-        "description": "How parameters and unknowns without values are searched for.",
         "type": "object",
         "additionalProperties": False,
         "required": ["seeds"],
@@ -143,7 +130,6 @@ def _conditions(kinds: Mapping[str, str]) -> Schema:
         for name, kind in kinds.items()
     }
     return {
-        "description": "What a method has to have to be kept.",
         "type": "object",
         "additionalProperties": False,
         "properties": properties,

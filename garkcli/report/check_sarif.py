@@ -28,7 +28,11 @@ def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
         kinds: every rule, in words.
     """
     rules = [
-        {"id": key, "shortDescription": {"text": text}}
+        {
+            "id": key,
+            "shortDescription": {"text": text},
+            "help": {"text": f"gark explain {key} says what it means."},
+        }
         for key, text in kinds.items()
     ]
     places = list(kinds)
@@ -59,6 +63,7 @@ def _result(finding: Finding, place: int) -> dict[str, Any]:
         else finding.message
     )
     region = {"startLine": finding.line, "startColumn": finding.column}
+    code = {"properties": {"code": finding.code}} if finding.code else {}
     return {
         "ruleId": finding.rule,
         "ruleIndex": place,
@@ -73,6 +78,7 @@ def _result(finding: Finding, place: int) -> dict[str, Any]:
             }
         ],
         "partialFingerprints": {"gark/v1": finding.fingerprint},
+        **code,
     }
 
 

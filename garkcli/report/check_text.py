@@ -12,6 +12,7 @@ from garkcli.check.findings import CLAIM
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import excerpt
 from garkcli.exact.display import decimal
+from garkcli.glossary.faults import code_of
 from garkcli.page.paint import Paint, counted, folded, indented
 from garkcli.page.plain import inert, printable
 from garkcli.report.check_conditions import (
@@ -146,7 +147,8 @@ def faults_text(outcome: Outcome, paint: Paint) -> str:
         if fault.line:
             place += f":{fault.line}:{fault.column}"
         message = printable(fault.message)
-        lines.append(f"{place}: {error}: {message}")
+        kind = f"{error}[{code_of(fault.message)}]"
+        lines.append(f"{place}: {kind}: {message}")
         if 0 < fault.line <= len(source):
             shown = source[fault.line - 1]
             lines += excerpt(shown, fault.line, fault.column, caret)

@@ -30,6 +30,9 @@ _MEANING: Record[Meaning] = Record(
     Field("formula", TEXT, lambda x: x.formula or None, is_optional=True),
     Field("values", TEXT, lambda x: x.values or None, is_optional=True),
     Field("for", TEXT, lambda x: x.scope or None, is_optional=True),
+    Field("default", TEXT, lambda x: x.default or None, is_optional=True),
+    Field("example", TEXT, lambda x: x.example or None, is_optional=True),
+    Field("cure", TEXT, lambda x: x.cure or None, is_optional=True),
     Field("source", TEXT, lambda x: x.source),
     Field("see", array(TEXT), lambda x: list(x.see)),
 )
@@ -64,8 +67,18 @@ def _lines(meaning: Meaning, paint: Paint) -> Iterator[str]:
         yield ""
     yield from _part("claim", meaning.values)
     yield from _part("for", meaning.scope)
+    yield from _part("default", meaning.default)
+    yield from _example(meaning.example)
+    yield from _part("cure", meaning.cure)
     yield from _part("source", meaning.source)
     yield from _part("see", ", ".join(meaning.see))
+
+
+def _example(text: str) -> Iterator[str]:
+    """Lines of a file or a command, as they are written."""
+    for number, line in enumerate(text.splitlines()):
+        label = "  example" if number == 0 else ""
+        yield label.ljust(_MARGIN) + line
 
 
 def _part(label: str, text: str) -> list[str]:

@@ -410,7 +410,8 @@ def test_a_fault_in_one_file_stops_nothing(
     run = gark("check", ".", cwd=tmp_path)
     assert run.code == 3
     assert (
-        "b.gark.yaml: error: internal fault: RuntimeError: broken" in run.out
+        "b.gark.yaml: error[internal-fault]: internal fault: RuntimeError: broken"
+        in run.out
     )
     assert run.out.count("found 4") == 2
 
@@ -438,13 +439,19 @@ def test_a_bad_path_stops_nothing(tmp_path: Path) -> None:
     through = "good.gark.yaml/x"
     run = gark("check", long, ".", through, cwd=tmp_path)
     assert run.code == 2
-    assert f"{long}: error: cannot be read: File name too long" in run.out
     assert (
-        "loop.gark.yaml: error: cannot be read: Too many levels of symbolic links"
+        f"{long}: error[cannot-read]: cannot be read: File name too long"
         in run.out
     )
-    assert "nothing.gark.yaml: error: no such file" in run.out
-    assert f"{through}: error: cannot be read: Not a directory" in run.out
+    assert (
+        "loop.gark.yaml: error[cannot-read]: cannot be read: Too many levels of symbolic links"
+        in run.out
+    )
+    assert "nothing.gark.yaml: error[no-such-file]: no such file" in run.out
+    assert (
+        f"{through}: error[cannot-read]: cannot be read: Not a directory"
+        in run.out
+    )
     assert "ok   good.gark.yaml: order 4" in run.out
 
 
@@ -467,7 +474,7 @@ def test_a_folder_that_cannot_be_read(
         assert run.code == 2
         closed = os.path.join("sub", "closed")
         assert (
-            f"{closed}: error: this folder cannot be read: Permission denied"
+            f"{closed}: error[cannot-read]: this folder cannot be read: Permission denied"
             in run.out
         )
         assert ("order 4" in run.out) is (path == "sub")

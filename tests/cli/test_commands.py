@@ -303,7 +303,9 @@ def test_a_method_comes_from_standard_input() -> None:
     )
     run = gark("check", "-", stdin="methods: [{family: gaus, stages: 2}]")
     assert run.code == 2
-    assert run.out.startswith("<stdin>:1:20: error: no family 'gaus'\n")
+    assert run.out.startswith(
+        "<stdin>:1:20: error[unknown-word]: no family 'gaus'\n"
+    )
 
 
 def test_a_directory_is_all_method_files_below_it(tmp_path: Path) -> None:

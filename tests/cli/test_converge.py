@@ -73,7 +73,7 @@ def test_a_faulty_file_stops_none() -> None:
     )
     assert run.code == 2
     assert f"{INVALID}:" in run.err
-    assert "nowhere.gark.yaml: error: no such file" in run.err
+    assert "nowhere.gark.yaml: error[no-such-file]: no such file" in run.err
     assert run.out.count("they agree") == 2
     assert run.out.count("FAILED") == 2
 
@@ -99,7 +99,10 @@ def test_a_method_for_other_problems_stops_none() -> None:
         "1/8,1/16,1/32,1/64",
     )
     assert run.code == 2
-    assert f"{RECTANGULAR}: error: H{{1}} of generic depends on q" in run.err
+    assert (
+        f"{RECTANGULAR}: error[other-problem]: H{{1}} of generic depends on q"
+        in run.err
+    )
     assert "they agree" in run.out
 
 

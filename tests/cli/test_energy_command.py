@@ -210,7 +210,7 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
     run = gark("energy", "methods")
     assert run.code == 2
     assert (
-        "methods: error: a directory, where one method file is expected"
+        "methods: error[folder]: a directory, where one method file is expected"
         in run.err
     )
     assert "such as methods/ark-ars222.gark.yaml" in run.err

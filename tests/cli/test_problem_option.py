@@ -116,7 +116,10 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
     ("arguments", "said"),
     [
         (("--problem", "keppler"), "did you mean 'kepler'"),
-        (("--problem", "no-such.yaml"), "no-such.yaml: error: no such file"),
+        (
+            ("--problem", "no-such.yaml"),
+            "no-such.yaml: error[no-such-file]: no such file",
+        ),
         (("--problem", "problems"), "no problem 'problems'"),
         (("--problem", "./problems"), "not a regular file"),
         (

@@ -87,7 +87,7 @@ def refused(run: subprocess.CompletedProcess[str] | Run) -> str:
     assert "Traceback" not in text
     assert "internal fault" not in text
     assert run.returncode == 2, text[-500:]
-    assert "error: " in text or "gark: " in text
+    assert "error[" in text or "Error: " in text or "gark: " in text
     return text
 
 
@@ -266,7 +266,8 @@ def test_a_hostile_file_is_refused(
     assert "Traceback" not in answer.text
     assert answer.code == 2, answer.text[-500:]
     assert re.match(
-        r"m[0-9]+\.gark\.yaml(:[0-9]+:[0-9]+)?: error: .", answer.text
+        r"m[0-9]+\.gark\.yaml(:[0-9]+:[0-9]+)?: error\[[a-z0-9-]+\]: .",
+        answer.text,
     )
     assert answer.seconds < SECONDS
     assert answer.megabytes < 1000
@@ -641,7 +642,9 @@ def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
     told = [
         line
         for line in lines
-        if line.endswith("error: internal fault: RuntimeError: broken")
+        if line.endswith(
+            "error[internal-fault]: internal fault: RuntimeError: broken"
+        )
     ]
     helps = [line for line in lines if "please report it" in line]
     count = len(list((ROOT / "methods").rglob("*.gark.yaml")))

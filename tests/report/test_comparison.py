@@ -127,6 +127,7 @@ def test_failures_are_told_among_the_others() -> None:
         {
             "line": 3,
             "column": 4,
+            "code": "no-such-file",
             "message": "no such file",
             "help": "look elsewhere",
         }

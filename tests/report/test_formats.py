@@ -104,13 +104,18 @@ _RESULT = {
             "additionalProperties": {"type": "string"},
             "minProperties": 1,
         },
+        "properties": {"type": "object"},
     },
     "additionalProperties": False,
 }
 _RULE = {
     "type": "object",
     "required": ["id"],
-    "properties": {"id": {"type": "string"}, "shortDescription": _TEXT},
+    "properties": {
+        "id": {"type": "string"},
+        "shortDescription": _TEXT,
+        "help": _TEXT,
+    },
     "additionalProperties": False,
 }
 _DRIVER = {
@@ -619,6 +624,16 @@ def test_sarif_names_its_rules() -> None:
     assert all(
         rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"]
     )
+
+
+def test_sarif_has_the_codes_of_faults() -> None:
+    """What is wrong with a file that cannot be read has its code, other results have none."""
+    run = sarif(outcome(WRONG), outcome("methods: 1\n"))
+    codes = {x["ruleId"]: x.get("properties") for x in run["results"]}
+    assert codes == {
+        "claim": None,
+        "unreadable": {"code": "list-expected"},
+    }
 
 
 def test_sarif_points_at_the_claim() -> None:

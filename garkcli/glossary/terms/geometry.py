@@ -27,7 +27,7 @@ TERMS = (
         paper(
             _VARIATIONAL + ", definition of symplectic conjugate GARK methods"
         ),
-        ("symplectic conjugate", "conjugate order"),
+        ("symplectic conjugate", "conjugate order", "Â", "A-hat"),
         ("pair", "weight"),
     ),
     Term(

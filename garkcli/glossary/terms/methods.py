@@ -160,7 +160,7 @@ TERMS = (
         " a step, from which the step size is chosen.",
         "ŷ_1 = y_0 + h Σ_i b̂_i f(Y_i)",
         "E. Hairer, S. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, section II.4",
-        ("embedded", "embedded order", "embedded method"),
+        ("embedded", "embedded order", "embedded method", "b̂", "b-hat"),
         ("weight", "order"),
     ),
     Term(

@@ -118,7 +118,7 @@ TERMS = (
         "The weights of every colour integrate polynomials of degree below r.",
         "Σ_i b_i^{l} (c_i^{l})^(k−1) = 1/k,  k = 1, …, r",
         paper(_ORDER + ", definition of the simplifying conditions"),
-        ("B",),
+        ("B", "B(p)", "B(k)"),
         ("C(η)", "D(ζ)", "bound"),
     ),
     Term(
@@ -126,7 +126,7 @@ TERMS = (
         "The stages of a block are exact for polynomials of degree up to η: the stage order.",
         "A^{l,m} (c^{m})^(k−1) = (c^{l})^k / k,  k = 1, …, η",
         paper(_ORDER + ", definition of the simplifying conditions"),
-        ("C", "C(eta)"),
+        ("C", "C(eta)", "C(q)", "C(k)"),
         ("B(r)", "D(ζ)", "stage order"),
     ),
     Term(
@@ -135,7 +135,7 @@ TERMS = (
         " k − 1 leaves and one branch more follows from simpler ones.",
         "(A^{l,m})ᵀ B^{l} (c^{l})^(k−1) = B^{m} (𝟙 − (c^{m})^k) / k,  k = 1, …, ζ",
         paper(_ORDER + ", definition of the simplifying conditions"),
-        ("D", "D(zeta)"),
+        ("D", "D(zeta)", "D(s)", "D(k)"),
         ("B(r)", "C(η)", "bound"),
     ),
     Term(

@@ -1,0 +1,131 @@
+"""What errors mean: each kind of fault has a code, and the messages it is told by.
+
+A message is made where the fault is found, with what it is filled with. Its kind is told by the
+words that stay the same, which ``data/faults-*.toml`` has; so one cause has one code wherever it
+shows, in whatever sentence.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from garkcli.glossary.data import read
+
+TOPICS = {
+    "files": "Files",
+    "values": "Numbers, sizes and words",
+    "methods": "Methods and problems",
+    "usage": "Options",
+}
+"""The files of faults in the order of the documentation, with what they are about."""
+UNKNOWN = "fault"
+"""The code of a message that no kind has."""
+HOLE = "{}"
+_REST = r"(?: \(also at .*\)|; .*|, and \d+ more.*)?"
+"""What is added to a message: other places, or the cure."""
+
+
+@dataclass(frozen=True)
+class FaultKind:
+    """A kind of fault.
+
+    Attributes:
+        code: what it is called in reports for machines.
+        text: what it means and why it is one, in whole sentences.
+        cure: what to do.
+        says: its messages, with ``{}`` for what they are filled with.
+        example: what has it: a method file, or a command after ``$``; empty where that would need
+            more than a few lines.
+    """
+
+    code: str
+    text: str
+    cure: str
+    says: tuple[str, ...]
+    example: str = ""
+
+
+@lru_cache(maxsize=len(TOPICS))
+def faults_of(topic: str) -> tuple[FaultKind, ...]:
+    """The kinds of faults of a topic."""
+    found = []
+    for code, entry in read(f"faults-{topic}").items():
+        kind = FaultKind(
+            code,
+            " ".join(entry["text"].split()),
+            " ".join(entry["cure"].split()),
+            tuple(entry["says"]),
+            entry.get("example", "").strip(),
+        )
+        found.append(kind)
+    return tuple(found)
+
+
+@lru_cache(maxsize=1)
+def by_code() -> Mapping[str, FaultKind]:
+    """Every kind of fault by its code."""
+    return {kind.code: kind for topic in TOPICS for kind in faults_of(topic)}
+
+
+def code_of(message: str, least: int = 1) -> str:
+    """The code of the kind of fault that a message tells.
+
+    Of several kinds the one with the longest words is meant; what a message says of the place,
+    before a colon, is passed over.
+
+    Args:
+        message: what is wrong.
+        least: how many letters of it have to be the program's own.
+
+    >>> code_of("A^{1,1}, row 1, entry 1: 'gama' is not a parameter")
+    'unknown-name'
+    """
+    codes = codes_of(message, least)
+    return codes[0] if codes else UNKNOWN
+
+
+def codes_of(message: str, least: int = 1) -> list[str]:
+    """The codes of the kinds with the longest words; of messages of the program it is one."""
+    found: list[str] = []
+    for said in _messages():
+        if said.letters < least:
+            break
+        if said.code not in found and said.is_told_by(message):
+            found.append(said.code)
+            least = said.letters
+    return found
+
+
+@dataclass(frozen=True)
+class _Message:
+    """A message of a kind: the words between its holes."""
+
+    letters: int
+    code: str
+    words: tuple[str, ...]
+
+    def is_told_by(self, message: str) -> bool:
+        """Whether a message is this one, filled."""
+        if not all(word in message for word in self.words):
+            return False
+        filled = ".*".join(map(re.escape, self.words))
+        pattern = f"(?:.*: )?{filled}{_REST}"
+        return re.fullmatch(pattern, message, re.DOTALL) is not None
+
+
+@lru_cache(maxsize=1)
+def _messages() -> tuple[_Message, ...]:
+    """Those of all kinds, those with the longest words first."""
+    found = []
+    for kind in by_code().values():
+        for said in kind.says:
+            words = tuple(said.split(HOLE))
+            found.append(_Message(sum(map(len, words)), kind.code, words))
+    return tuple(sorted(found, key=_letters, reverse=True))
+
+
+def _letters(said: _Message) -> int:
+    return said.letters

@@ -1,0 +1,212 @@
+"""Every message that the program has for what it is given: read out of its source."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "garkcli"
+ERRORS = {
+    *("Fault", "GarkError", "MethodError", "UsageProblem", "ShapeMismatch"),
+    *("CoincidingNodes", "BlockTooLarge", "ZeroWeight", "UnknownFamily"),
+    *("VanishingDenominator", "NoLegendreTransform", "ExpressionError"),
+    *("LimitExceeded", "UndefinedValue", "CannotExport", "CannotConvert"),
+    *("NoUniqueStep", "NoMethod", "NoSuchMethod", "TableTooLarge"),
+    *("WorkerLost", "NotationError"),
+}
+"""Errors whose first argument is the message."""
+READERS = PACKAGE / "bridges" / "readers"
+METHODS = {"fault": 1, "error": 0}
+"""Methods that make faults, with the place of the message among their arguments."""
+HOLE = "{}"
+
+
+@dataclass(frozen=True)
+class Site:
+    """A place where a message is made, with ``{}`` for what it is filled with."""
+
+    place: str
+    message: str
+
+
+class _File:
+    """A file of the package: its calls and assignments, each with the function around it."""
+
+    def __init__(self, path: Path, text: str) -> None:
+        self.path = path
+        self.tree = ast.parse(text)
+        self.around: dict[ast.AST, ast.AST] = {}
+        self.calls: dict[str, list[ast.Call]] = {}
+        self.assigned: dict[tuple[ast.AST, str], list[ast.expr]] = {}
+        self._walk(self.tree, self.tree)
+
+    def _walk(self, node: ast.AST, function: ast.AST) -> None:
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.Call):
+                self.around[child] = function
+                self.calls.setdefault(_name(child.func), []).append(child)
+            elif isinstance(child, ast.Assign):
+                for target in child.targets:
+                    self._assign(target, child.value, function)
+            is_function = isinstance(child, ast.FunctionDef)
+            self._walk(child, child if is_function else function)
+
+    def _assign(
+        self, target: ast.expr, value: ast.expr, function: ast.AST
+    ) -> None:
+        if isinstance(target, ast.Name):
+            place = (function, target.id)
+            self.assigned.setdefault(place, []).append(value)
+        elif isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple):
+            for part, given in zip(target.elts, value.elts, strict=True):
+                self._assign(part, given, function)
+
+
+@cache
+def _files() -> tuple[_File, ...]:
+    """The files that make errors."""
+    words = (*(f"{name}(" for name in ERRORS), ".fault(", ".error(")
+    found = []
+    for path in _paths():
+        text = path.read_text(encoding="utf-8")
+        if any(word in text for word in words):
+            found.append(_File(path, text))
+    return tuple(found)
+
+
+_JOINT = re.compile(r'"\s+f?"')
+"""Between two pieces of a text that goes on in the next line."""
+
+
+def source() -> str:
+    """The package as one text, in which what is written in pieces is whole."""
+    texts = [path.read_text(encoding="utf-8") for path in _paths()]
+    return _JOINT.sub("", "\n".join(texts))
+
+
+def _paths() -> list[Path]:
+    return sorted(PACKAGE.rglob("*.py"))
+
+
+def sites() -> list[Site]:
+    """Every message with the place it is made at, those of helpers at each of their callers.
+
+    What readers of other people's sources cannot read is told inside of other messages.
+    """
+    found = []
+    for file in _files():
+        if READERS in file.path.parents:
+            continue
+        for node in file.around:
+            assert isinstance(node, ast.Call)
+            place = _message_place(node)
+            if place is None:
+                continue
+            message = _argument(node, place, "message")
+            if message is None:
+                continue
+            where = f"{file.path.relative_to(ROOT)}:{node.lineno}"
+            found += [
+                Site(where, text)
+                for text in _texts(message, file, node, depth=3)
+            ]
+    return found
+
+
+def _message_place(call: ast.Call) -> int | None:
+    """Where the message of a call stands that makes a fault; None for other calls."""
+    name = _name(call.func)
+    if isinstance(call.func, ast.Name) and name in ERRORS:
+        return 0
+    if isinstance(call.func, ast.Attribute) and name in METHODS:
+        return METHODS[name]
+    return None
+
+
+def _name(node: ast.expr) -> str:
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
+    if place < len(call.args):
+        return call.args[place]
+    for keyword in call.keywords:
+        if keyword.arg == name:
+            return keyword.value
+    return None
+
+
+def _texts(
+    node: ast.expr, file: _File, at: ast.AST, depth: int
+) -> Iterator[str]:
+    """What an expression may say; nothing where it hands on what another site has said."""
+    if isinstance(node, ast.Constant):
+        yield str(node.value)
+    elif isinstance(node, ast.JoinedStr):
+        yield "".join(
+            str(x.value) if isinstance(x, ast.Constant) else HOLE
+            for x in node.values
+        )
+    elif isinstance(node, ast.IfExp):
+        yield from _texts(node.body, file, at, depth)
+        yield from _texts(node.orelse, file, at, depth)
+    elif isinstance(node, ast.BinOp):
+        for left in _texts(node.left, file, at, depth):
+            for right in _texts(node.right, file, at, depth):
+                yield left + right
+    elif isinstance(node, ast.Attribute):
+        if node.attr not in {"message", "help"}:
+            yield HOLE
+    elif isinstance(node, ast.Name):
+        yield from _named(node.id, file, at, depth)
+    elif isinstance(node, ast.Call) and _name(node.func) == "printable":
+        yield from _texts(node.args[0], file, at, depth)
+    else:
+        yield HOLE
+
+
+def _named(name: str, file: _File, at: ast.AST, depth: int) -> Iterator[str]:
+    """What a name stands for: what is assigned to it, or what callers give."""
+    function = file.around[at]
+    assigned = file.assigned.get((function, name), [])
+    if not assigned and function is not file.tree:
+        parameter = _parameter(name, function)
+        if parameter is not None and depth:
+            yield from _of_callers(function, file, parameter, name, depth - 1)
+            return
+        assigned = file.assigned.get((file.tree, name), [])
+    if not assigned:
+        yield HOLE
+    for value in assigned:
+        yield from _texts(value, file, at, depth)
+
+
+def _parameter(name: str, function: ast.AST) -> int | None:
+    if not isinstance(function, ast.FunctionDef):
+        return None
+    names = [x.arg for x in function.args.args]
+    if name not in names:
+        return None
+    place = names.index(name)
+    return place - (1 if names[0] in {"self", "cls"} else 0)
+
+
+def _of_callers(
+    function: ast.AST, file: _File, place: int, name: str, depth: int
+) -> Iterator[str]:
+    assert isinstance(function, ast.FunctionDef)
+    if function.name in METHODS or function.name == "__init__":
+        return  # each of its calls is a site of its own
+    is_private = function.name.startswith("_")
+    for caller in [file] if is_private else _files():
+        for node in caller.calls.get(function.name, []):
+            value = _argument(node, place, name)
+            if value is not None:
+                yield from _texts(value, caller, node, depth)

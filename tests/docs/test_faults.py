@@ -1,0 +1,149 @@
+"""Every error of the program has a code, and the code says what it means."""
+
+from __future__ import annotations
+
+import shlex
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from garkcli.check.meanings import meanings
+from garkcli.errors import GarkError, MethodFileError
+from garkcli.glossary.faults import (
+    HOLE,
+    UNKNOWN,
+    FaultKind,
+    by_code,
+    code_of,
+    codes_of,
+)
+from garkcli.methodfile.load import load, loads
+from tests.cli.harness import ROOT, gark
+from tests.docs.fault_sites import ERRORS, sites, source
+
+KINDS = list(by_code().values())
+FILLED = "\N{BLACK SQUARE}"
+"""Stands where a message is filled; no kind has it among its words."""
+HANDED_ON = {
+    *("", "{}", "{}: {}", "{} {}", "{}: {}: {}", "{} {}: {}", "{}, not {}"),
+    *("initial: {}", "colour {}: {}"),
+}
+"""What is put around a message that was made elsewhere, where it is a site of its own."""
+OF_THE_COMMAND_LINE = {
+    *("no such option {}", "no such command {}", "invalid value for {}: {}"),
+    *("missing argument {}", "missing parameter: {}"),
+    "option {} requires an argument",
+}
+"""Messages that click makes, or that are made for it."""
+NO_MESSAGES = {
+    *("MethodFileError", "HasFreeParameters"),  # have faults, with messages
+    *("StepFailed", "Unreadable"),  # are caught where they are made
+}
+
+
+def test_every_message_has_one_code() -> None:
+    """Whatever the program says of what it is given belongs to one kind of fault, and to no
+    second.
+    """
+    found = sites()
+    assert len(found) > 700
+    wrong = []
+    for site in found:
+        if site.message in HANDED_ON:
+            continue
+        codes = codes_of(site.message.replace(HOLE, FILLED))
+        if len(codes) != 1:
+            wrong.append((site.place, site.message, codes))
+    assert wrong == []
+
+
+def test_no_site_escapes() -> None:
+    """The errors whose messages are looked for are all that there are."""
+    for name in ("trees.notation", "bridges.cannot", "catalogue.facts"):
+        import_module(f"garkcli.{name}")
+    found, left = set(), [GarkError]
+    while left:
+        error = left.pop()
+        left += error.__subclasses__()
+        if error.__module__.startswith("garkcli."):
+            found.add(error.__name__)
+    assert found - NO_MESSAGES <= ERRORS
+
+
+def test_every_message_of_a_kind_is_said() -> None:
+    """The messages by which kinds are told are those of the program: none is left behind by a
+    sentence that was changed.
+    """
+    said = source()
+    for kind in KINDS:
+        for message in set(kind.says) - OF_THE_COMMAND_LINE:
+            for part in message.split(HOLE):
+                assert part.strip() in said, (kind.code, message)
+
+
+def test_no_message_is_of_two_kinds() -> None:
+    """Each message leads to one kind."""
+    every = [message for kind in KINDS for message in kind.says]
+    assert len(every) == len(set(every))
+    for kind in KINDS:
+        for message in kind.says:
+            filled = message.replace(HOLE, FILLED)
+            assert codes_of(filled) == [kind.code], message
+
+
+def _codes_of_file(text: str) -> set[str]:
+    """What is wrong with a method file."""
+    with pytest.raises(MethodFileError) as caught:
+        loads(text + "\n")
+    return {code_of(fault.message) for fault in caught.value.faults}
+
+
+def _codes_of_run(command: str) -> set[str]:
+    """What is wrong with a command."""
+    run = gark(*shlex.split(command.removeprefix("$ gark ")))
+    assert run.code == 2
+    lines = (run.err + run.out).splitlines()
+    said = [x.partition("gark: ")[2] for x in lines if x.startswith("gark: ")]
+    said += [x.partition("]: ")[2] for x in lines if "error[" in x]
+    return set(map(code_of, said))
+
+
+@pytest.mark.parametrize(
+    "kind", [x for x in KINDS if x.example], ids=lambda x: x.code
+)
+def test_the_example_has_the_fault(
+    kind: FaultKind, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What stands as the example of a kind is met with it."""
+    monkeypatch.chdir(ROOT)
+    is_command = kind.example.startswith("$ ")
+    found = (_codes_of_run if is_command else _codes_of_file)(kind.example)
+    assert kind.code in found
+    (meaning,) = [x for x in meanings(kind.code) if x.kind == "error"]
+    assert meaning.cure.endswith(".")
+    assert meaning.text.endswith(".")
+
+
+def test_every_invalid_file_has_codes() -> None:
+    """Every fault of every invalid example has one code, which is not that of the unknown."""
+    for path in sorted(Path(ROOT, "tests/examples/invalid").glob("*.yaml")):
+        with pytest.raises(MethodFileError) as caught:
+            load(str(path))
+        for fault in caught.value.faults:
+            assert len(codes_of(fault.message)) == 1, fault.message
+
+
+def test_messages_are_words_of_explain() -> None:
+    """A message that is pasted leads to its kind; nonsense does not."""
+    (meaning,) = meanings("the file: unknown key 'nam'; did you mean 'name'?")
+    assert (meaning.kind, meaning.name) == ("error", "unknown-key")
+    assert code_of("nonsense") == UNKNOWN
+    run = gark("explain", "zzzq")
+    assert run.err.endswith("help: gark explain lists the terms\n")
+
+
+def test_texts_have_codes() -> None:
+    """The report on a file that cannot be read names the code of each fault."""
+    run = gark("check", "tests/examples/invalid/capitals.gark.yaml")
+    assert "1:1: error[unknown-key]: the file: unknown key 'a'" in run.out

@@ -1,0 +1,107 @@
+"""What schemas say of keys: every key has its meaning, an example that is right, its default."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from jsonschema import Draft7Validator
+
+from garkcli.check.meanings import meanings
+from garkcli.cli.project import _READERS
+from garkcli.glossary.key import KINDS, keys_of
+from garkcli.methodfile.described import (
+    claimed_keys,
+    column_keys,
+    wanted_keys,
+)
+from garkcli.methodfile.problem_schema import problem_file_schema
+from garkcli.methodfile.schema import method_file_schema
+from garkcli.sweep.load import sweep_schema
+
+SCHEMAS = {
+    "method": method_file_schema,
+    "problem": problem_file_schema,
+    "sweep": sweep_schema,
+}
+
+
+def every_key(part: Any) -> Iterator[tuple[str, Any]]:
+    """The keys in a schema, wherever they are allowed."""
+    if isinstance(part, list):
+        for item in part:
+            yield from every_key(item)
+    if not isinstance(part, dict):
+        return
+    for word, item in part.items():
+        if word == "properties":
+            for name, value in item.items():
+                if isinstance(value, dict):  # others are barred
+                    yield name, value
+                    yield from every_key(value)
+        elif word == "definitions":
+            for value in item.values():
+                yield from every_key(value)
+        elif word not in {"if", "then", "not"}:
+            yield from every_key(item)
+
+
+@pytest.mark.parametrize("kind", SCHEMAS)
+def test_every_key_is_described(kind: str) -> None:
+    """Each key of a schema says what it is, and has an example that it allows itself."""
+    schema = SCHEMAS[kind]()
+    definitions = schema.get("definitions", {})
+    found = list(every_key(schema))
+    assert len(found) > 10
+    for name, key in found:
+        assert key["description"].endswith("."), name
+        validator = Draft7Validator({**key, "definitions": definitions})
+        examples = [
+            *key["examples"],
+            *([key["default"]] if "default" in key else []),
+        ]
+        for example in examples:
+            assert validator.is_valid(example), (name, example)
+
+
+@pytest.mark.parametrize("kind", SCHEMAS)
+def test_no_key_is_described_that_is_none(kind: str) -> None:
+    """Each entry is of a key that a schema has."""
+    more: dict[str, Callable[[], Any]] = {
+        "method": lambda: claimed_keys() | wanted_keys(),
+        "sweep": column_keys,
+        "problem": dict,
+    }
+    texts = {key["description"] for _, key in every_key(SCHEMAS[kind]())}
+    entries = {**keys_of(kind), **more[kind]()}
+    shown = {
+        path: key
+        for path, key in entries.items()
+        if not path.startswith("where.") or path in keys_of(kind)
+    }
+    for path, key in shown.items():
+        assert key.text in texts, path
+
+
+def test_keys_of_projects_are_described() -> None:
+    """Each key of .gark.toml has an entry, whose example is one that is read."""
+    keys = keys_of("project")
+    assert list(keys) == list(_READERS)
+    for name, key in keys.items():
+        value = tomllib.loads(key.example)[name]
+        _, _, is_right = _READERS[name]
+        assert is_right(value), name
+        assert key.default is None or is_right(key.default)
+
+
+def test_every_key_is_a_word() -> None:
+    """Keys are found by their paths and by their own names, also in files of other kinds."""
+    for kind, (files, _) in KINDS.items():
+        for path in keys_of(kind):
+            name = path.rpartition(".")[2]
+            is_word = keys_of(kind)[path].is_word and len(name) > 1
+            for word in (path, name) if is_word else (path,):
+                found = {(x.kind, x.name) for x in meanings(word)}
+                assert (f"key of {files}", path) in found, word
