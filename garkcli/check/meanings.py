@@ -26,9 +26,6 @@ __all__ = [
 _SURELY = 8
 """Letters that a pasted message has in common with one of the program."""
 
-    def __repr__(self) -> str:
-        return f"<Meaning {self.name}: {self.kind}>"
-
 
 def meanings(word: str) -> list[Meaning]:
     """What a word means, in every sense that it has: ``gark explain``.

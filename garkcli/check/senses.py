@@ -43,6 +43,9 @@ class Meaning:
     source: str = ""
     see: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Meaning {self.name}: {self.kind}>"
+
 
 @dataclass(frozen=True)
 class Sense:

@@ -17,7 +17,7 @@ ERRORS = {
     *("VanishingDenominator", "NoLegendreTransform", "ExpressionError"),
     *("LimitExceeded", "UndefinedValue", "CannotExport", "CannotConvert"),
     *("NoUniqueStep", "NoMethod", "NoSuchMethod", "TableTooLarge"),
-    *("WorkerLost", "NotationError"),
+    *("WorkerLost", "NotationError", "TreeError", "NoSuchColour"),
 }
 """Errors whose first argument is the message."""
 READERS = PACKAGE / "bridges" / "readers"

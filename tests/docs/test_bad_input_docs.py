@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 from garkcli.errors import MethodFileError
+from garkcli.glossary.faults import code_of
 from garkcli.methodfile.load import load
+from garkcli.report.reference import codes_page, findings_table
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "bad-input.md"
@@ -21,12 +23,26 @@ LONGEST = 120
 """Characters of a message that are shown."""
 HEAD = """# Bad input
 
-Each kind of bad input with the message it gets, made by running every file of `tests/examples/invalid`. A file
-with several faults gets them all in one run; the table shows the first. `gark check` shows the line with a caret
-under the text, and ends with exit code 2. Nothing in a file is ever executed, and no file is met with a traceback.
+What is wrong with a file or with options is told with the place, the line with a caret under the text, and the cure, all faults of a file in
+one run; the exit code is 2. Nothing in a file is ever executed, and no file is met with a traceback. Each kind of fault has a code:
+`error[unknown-key]` in text, `code` in JSON, `properties.code` in SARIF. `gark explain CODE` says what is below, and `gark explain` of a message leads to its kind.
 
-| kind | the line | message | help |
-|---|---|---|---|
+## Codes
+
+"""
+FINDINGS = """
+## Findings of gark check
+
+The rules of SARIF and of `--format github`; those of `gark audit` are [on its page](audit.md#what-is-found).
+
+"""
+EXAMPLES = """
+## Examples
+
+Made by running every file of `tests/examples/invalid`; of a file with several faults the first is shown.
+
+| kind | code | the line | message | help |
+|---|---|---|---|---|
 """
 
 
@@ -70,14 +86,16 @@ def row(path: Path) -> str:
         else ""
     )
     kind = path.name.removesuffix(SUFFIX).replace("-", " ")
-    return f"| {kind} | {code(line)} | {cell(fault.message)} | {cell(fault.help)} |\n"
+    told = f"{cell(fault.message)} | {cell(fault.help)}"
+    return f"| {kind} | {code_of(fault.message)} | {code(line)} | {told} |\n"
 
 
 def page() -> str:
     """The whole page."""
-    return HEAD + "".join(
-        map(row, sorted((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
-    )
+    paths = sorted((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}"))
+    rows = "".join(map(row, paths))
+    found = findings_table("check")
+    return HEAD + codes_page() + FINDINGS + found + EXAMPLES + rows
 
 
 def test_the_page_is_what_happens() -> None:
@@ -88,21 +106,18 @@ def test_the_page_is_what_happens() -> None:
     assert PAGE.read_text(encoding="utf-8") == wanted
 
 
-def test_every_row_has_four_cells() -> None:
-    """Nothing in a message or a line breaks the table: each row has four cells, and a message."""
-    rows = [
-        line
-        for line in PAGE.read_text(encoding="utf-8").splitlines()
-        if line.startswith("|")
-    ][2:]
+def test_every_row_has_five_cells() -> None:
+    """Nothing in a message or a line breaks the table: each row has five cells, and a message."""
+    _, _, table = PAGE.read_text(encoding="utf-8").partition(EXAMPLES)
+    rows = table.splitlines()
     assert len(rows) == len(
         list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}"))
     )
     for line in rows:
         cells = line.replace("\\|", "").split("|")[1:-1]
-        assert len(cells) == 4
+        assert len(cells) == 5
         assert cells[0].strip()
-        assert cells[2].strip()
+        assert cells[3].strip()
         assert all(len(x) < 2 * LONGEST for x in cells)
 
 

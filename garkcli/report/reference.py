@@ -1,0 +1,69 @@
+"""The pages of reference that are made from the entries of the glossary: errors, findings, keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from garkcli.glossary.faults import TOPICS, FaultKind, faults_of
+from garkcli.glossary.findings import findings_of
+from garkcli.glossary.key import Key, keys_of
+
+
+def codes_page() -> str:
+    """Every code of an error in Markdown: what it means, an example, the cure."""
+    parts = []
+    for topic, title in TOPICS.items():
+        parts += [f"### {title}", ""]
+        for kind in faults_of(topic):
+            parts += _code(kind)
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _code(kind: FaultKind) -> Iterator[str]:
+    yield f"#### {kind.code}"
+    yield ""
+    yield f"{kind.text} {kind.cure}"
+    yield ""
+    if kind.example.startswith("$ "):
+        command = kind.example.removeprefix("$ ")
+        yield f"For instance `{command}`."
+        yield ""
+    elif kind.example:
+        yield from (f"    {line}" for line in kind.example.splitlines())
+        yield ""
+
+
+def keys_table(kind: str) -> str:
+    """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
+    lines = ["| key | what it is | example |", "|---|---|---|"]
+    for key in keys_of(kind).values():
+        example = key.example.replace("|", "\\|")
+        row = (f"`{key.path}`", _cell(_said(key)), f"`{example}`")
+        lines.append(f"| {' | '.join(row)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _said(key: Key) -> str:
+    """What a key is, and what holds without it."""
+    if key.default is None:
+        return key.text
+    default = str(key.default)
+    if isinstance(key.default, bool):
+        default = default.lower()
+    return f"{key.text} By default {default}."
+
+
+def findings_table(command: str) -> str:
+    """The findings of a command as a table in Markdown."""
+    lines = ["| code | what it means | what to do |", "|---|---|---|"]
+    for found in findings_of(command).values():
+        row = (f"`{found.code}`", _cell(found.text), _cell(found.cure))
+        lines.append(f"| {' | '.join(row)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _cell(text: str) -> str:
+    """A text in a cell of a table: its signs are no signs of Markdown."""
+    for sign in "\\*_|":
+        text = text.replace(sign, f"\\{sign}")
+    return text
