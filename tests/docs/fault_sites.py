@@ -18,10 +18,11 @@ ERRORS = {
     *("LimitExceeded", "UndefinedValue", "CannotExport", "CannotConvert"),
     *("NoUniqueStep", "NoMethod", "NoSuchMethod", "TableTooLarge"),
     *("WorkerLost", "NotationError", "TreeError", "NoSuchColour"),
+    "NotDecided",
 }
 """Errors whose first argument is the message."""
 READERS = PACKAGE / "bridges" / "readers"
-METHODS = {"fault": 1, "error": 0}
+METHODS = {"fault": 1, "error": 0, "__init__": 0}
 """Methods that make faults, with the place of the message among their arguments."""
 HOLE = "{}"
 
@@ -202,7 +203,7 @@ def _of_callers(
     function: ast.AST, file: _File, place: int, name: str, depth: int
 ) -> Iterator[str]:
     assert isinstance(function, ast.FunctionDef)
-    if function.name in METHODS or function.name == "__init__":
+    if function.name in METHODS:
         return  # each of its calls is a site of its own
     is_private = function.name.startswith("_")
     for caller in [file] if is_private else _files():
