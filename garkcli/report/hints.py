@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
 
 from garkcli.check.explained import repair_text
 from garkcli.order.blame import Blame
@@ -27,8 +28,11 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     hint = paint("note", "hint")
     failing = _failing(blame, has_colours)
     suspects = _suspects(blame, names)
-    lines = [f"  {hint}: {failing}"]
-    lines += indented(suspects, _MARGIN)
+    first, *further = _wrapped(failing)
+    lines = [f"  {hint}: {first}"]
+    lines += indented(further, _MARGIN)
+    for text in suspects:
+        lines += indented(_wrapped(text), _MARGIN)
     for place, repair in enumerate(blame.repairs[:_SHOWN_REPAIRS]):
         text = repair_text(repair, own)
         lines += _repair_lines("the claimed order", text)
@@ -36,6 +40,14 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
             claims = ", ".join(blame.restores)
             lines.append(f"{_MARGIN}and so would {claims}")
     return lines
+
+
+def _wrapped(text: str) -> list[str]:
+    """A sentence in lines that fit behind the margin."""
+    width = WIDTH - len(_MARGIN)
+    return wrap(
+        text, width, subsequent_indent="  ", break_on_hyphens=False
+    )
 
 
 def _suspects(blame: Blame, names: Sequence[str]) -> list[str]:

@@ -212,6 +212,23 @@ def test_hints_and_constants_of_one_colour() -> None:
     assert "coupling" not in shown
 
 
+def test_long_hints_fit_a_screen(tmp_path: Path) -> None:
+    """Sentences and lists of blocks go on in the next line, further in."""
+    method = """
+methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 4}]
+transfer: collocation
+expect: {pair-order: 4}
+"""
+    path = tmp_path / "pair.gark.yaml"
+    path.write_text(method, encoding="utf-8")
+    text = render([check_file(str(path))], Paint())
+    _, hint = text.split("  hint: ")
+    lines = f"  hint: {hint}".rstrip().splitlines()
+    assert max(map(len, lines)) <= 80
+    assert lines[1] == "          conditions"
+    assert " ".join(hint.split()).endswith("A{V2,V2}, A{V2,F2}")
+
+
 def test_long_places_have_a_line_of_their_own() -> None:
     """Where the file is long the name of the method and the place of a failed claim go on in the
     next line, and what was found fits 80 columns.
