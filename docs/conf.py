@@ -1,10 +1,10 @@
 """The documentation as a site, which `make docs` builds with Sphinx.
 
 The pages are plain Markdown that reads well where the code is hosted, so
-they have no directives. What Sphinx needs besides, the contents in the
-margin, is made here from the headings and lists of `index.md`; and
-`CONTRIBUTING.md`, which stands outside of this folder, is the first page
-for contributors.
+they have no directives. What the site has besides is made here: the contents
+in the margin, from the headings and lists of `index.md`; `CONTRIBUTING.md`,
+which stands outside of this folder, as the first page for contributors; and
+titles in place of the names of files, in links that show these.
 """
 
 from __future__ import annotations
@@ -62,11 +62,31 @@ def contributing() -> str:
     return from_here.replace("](docs/", "](../")
 
 
+def titled(text: str, folder: Path) -> str:
+    """Links that show the name of a page with its title.
+
+    Args:
+        text: a page.
+        folder: where it is.
+    """
+
+    def with_title(link: re.Match[str]) -> str:
+        page = folder / link["page"]
+        first = page.read_text(encoding="utf-8").partition("\n")[0]
+        return f"[{first.removeprefix('# ')}]({link['page']}"
+
+    return re.sub(
+        r"\[(?:docs/)?[\w-]+\.md\]\((?P<page>[\w./-]+\.md)", with_title, text
+    )
+
+
 def _complete(_: Sphinx, page: str, source: list[str]) -> None:
     if page == "index":
         source[0] += "\n" + contents(source[0])
     elif page == "contributing/index":
         source[0] = contributing()
+    folder = (Path(__file__).parent / page).parent
+    source[0] = titled(source[0], folder)
 
 
 def scrollable(html: str) -> str:

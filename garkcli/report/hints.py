@@ -45,9 +45,7 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
 def _wrapped(text: str) -> list[str]:
     """A sentence in lines that fit behind the margin."""
     width = WIDTH - len(_MARGIN)
-    return wrap(
-        text, width, subsequent_indent="  ", break_on_hyphens=False
-    )
+    return wrap(text, width, subsequent_indent="  ", break_on_hyphens=False)
 
 
 def _suspects(blame: Blame, names: Sequence[str]) -> list[str]:

@@ -60,3 +60,13 @@ def test_what_scrolls_can_have_the_focus() -> None:
         '<p>a</p><pre tabindex="0">b</pre>'
         '<div tabindex="0" class="table-wrapper x"><table>'
     )
+
+
+def test_links_have_titles_on_the_site() -> None:
+    """Where a page shows the name of a file; other links stay, and so does what stands behind."""
+    made = runpy.run_path(str(DOCS / "conf.py"))["titled"]
+    text = "[tour.md](tour.md#a), [docs/tour.md](tour.md) and [this](tour.md)"
+    shown = "[A tour](tour.md#a), [A tour](tour.md) and [this](tour.md)"
+    assert made(text, DOCS) == shown
+    above = made("[tour.md](../tour.md)", DOCS / "contributing")
+    assert above == "[A tour](../tour.md)"
