@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from garkcli.check.every_value import EveryValue
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
 from garkcli.report.check_orders import order_number
@@ -46,9 +47,13 @@ def heading(method: Reported) -> Heading:
         outcome.file,
         _about(outcome),
         _verdict(outcome),
-        MARKS[outcome.exit_code],
+        _mark(outcome),
         method.description,
     )
+
+
+def _mark(outcome: Outcome) -> str:
+    return MARKS[outcome.exit_code]
 
 
 def _about(outcome: Outcome) -> str:
@@ -102,22 +107,21 @@ def comparison_row(method: Reported) -> dict[str, Any]:
     analysis = outcome.analysis
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")
     if outcome.every is not None:
-        cells["order"] = f"{outcome.every.order.order} for every value"
+        cells |= _of_family(outcome.every)
     if analysis is not None:
         cells |= _cells(data)
         cells["order"] = order_number(analysis.order)
         cells["how"] = said(analysis.order)[1]
-    if outcome.is_read:
-        cells["claims"] = _claims(outcome)
+    cells["claims"] = _claims(outcome)
     return {
         "title": outcome.name,
-        "mark": MARKS[outcome.exit_code],
+        "mark": "none" if outcome.makes_no_claim else _mark(outcome),
         "cells": cells,
     }
 
 
 COLUMNS = (
-    "stages",
+    "claims",
     "order",
     "how",
     "embedded",
@@ -126,9 +130,9 @@ COLUMNS = (
     "symplectic",
     "symmetric",
     "stage order",
-    "claims",
+    "stages",
 )
-"""Of the comparison."""
+"""Of the comparison; the first has the verdict."""
 _WORDS = {True: "yes", False: "no", None: "–"}
 
 
@@ -151,7 +155,26 @@ def _cells(data: dict[str, Any]) -> dict[str, str]:
     return cells
 
 
+def _of_family(every: EveryValue) -> dict[str, str]:
+    """Orders for every value of the parameters."""
+    found = {
+        "order": every.order,
+        "embedded": every.embedded,
+        "conjugate": every.conjugate,
+        "pair": every.pair,
+    }
+    cells = {
+        key: "–" if order is None else str(order.order)
+        for key, order in found.items()
+    }
+    tableau = every.tableau
+    stages = [str(tableau.space(l).stages) for l in range(tableau.size)]
+    return {**cells, "how": "for every value", "stages": ", ".join(stages)}
+
+
 def _claims(outcome: Outcome) -> str:
+    if not outcome.is_read:
+        return "cannot be read"
     if not outcome.claims:
         return "none"
     failed = len(outcome.failed_claims)

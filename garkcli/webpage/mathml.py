@@ -29,6 +29,8 @@ _OF_ONE = re.compile(r"\^\{\\\{1(,1)?\\\}\}")
 """The number of the only colour."""
 _DOUBLE_ONE = "\U0001d7d9"
 """The vector of ones as the paper has it, which MathML has as a letter."""
+_MARKUP = frozenset("<>&")
+"""Signs that no formula of ours has."""
 _MOST_KEPT = 1 << 12
 _LONGEST = 60
 """Signs of an exact number; longer ones are shown in decimals beside which that is said."""
@@ -42,6 +44,8 @@ def typeset(latex: str) -> Markup:
     >>> print(typeset(r"\frac{1}{2}"))
     <math><mfrac><mn>1</mn><mn>2</mn></mfrac></math>
     """
+    if set(latex) & _MARKUP:  # which the converter would hand through
+        return Markup("<math><mtext>{}</mtext></math>").format(latex)
     text = convert(_ONES.sub(_DOUBLE_ONE, latex))
     text = _OPENING.sub("<math>", text, count=1)
     text = text.replace("<math><mrow>", "<math>", 1)

@@ -10,6 +10,7 @@ from base64 import b64encode
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
+from html import escape
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from garkcli.order.listing import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.report.check_json import as_data
 from garkcli.webpage.calls import report_page
+from garkcli.webpage.mathml import typeset
 from garkcli.webpage.pictures import Picture
 from garkcli.webpage.registry import SECTIONS
 from garkcli.webpage.sections import conditions, pictures
@@ -390,8 +392,10 @@ def test_several_methods_are_compared() -> None:
     assert text_of(next(elements(root, "h1"))) == "3 methods"
     table = next(elements(by_id(root, "comparison"), "table"))
     rows = [[text_of(cell) for cell in row] for row in rows_of(table)]
-    assert [row[1] for row in rows] == ["4", "2, 3", "–"]
-    assert [row[2] for row in rows] == ["4", "4", "2 for every value"]
+    assert [row[1] for row in rows] == ["all hold", "all hold", "none"]
+    assert [row[2] for row in rows] == ["4", "4", "2"]
+    assert [row[3] for row in rows] == ["exact", "exact", "for every value"]
+    assert [row[-1] for row in rows] == ["4", "2, 3", "2"]
     links = [x.get("href") for x in elements(table, "a")]
     assert links == ["#m1", "#m2", "#m3"]
     alone = text_of(section(RECTANGULAR, "orders"))
@@ -436,6 +440,12 @@ def test_texts_of_strangers_are_texts(tmp_path: Path) -> None:
     assert said.count(HOSTILE) >= 4
     assert "49" not in text_of(by_id(root, "m1-title"))
     assert str(file) in said
+
+
+def test_formulas_are_no_markup() -> None:
+    """What is no formula is shown as text: the converter would hand it through."""
+    hostile = r"\frac{1}{2}<script>alert(1)</script>"
+    assert typeset(hostile) == f"<math><mtext>{escape(hostile)}</mtext></math>"
 
 
 def test_signs_that_cannot_be_seen_are_written_out() -> None:

@@ -28,6 +28,8 @@ MOST_COLUMNS = 64
 LONGEST = 64
 """Signs of an exact entry; a longer one is shown as a decimal."""
 _DIGITS = 17
+_WIDE, _VAST = 6, 12
+"""More columns need smaller letters on paper."""
 
 
 @dataclass(frozen=True)
@@ -198,12 +200,20 @@ def _part(
         feet.append(_foot(label, found.embedded, found, colours))
     return {
         "letter": letter,
+        "width": _width(sum(len(found.b[m]) for m in colours)),
         "heads": heads,
         "lines": lines,
         "feet": feet,
         "has_colours": tableau.size > 1,
         "has_embedded": found.embedded is not None,
     }
+
+
+def _width(columns: int) -> str:
+    """A class for what needs small letters on paper."""
+    if columns > _VAST:
+        return "vast"
+    return "wide" if columns > _WIDE else ""
 
 
 def _lines(
