@@ -10,9 +10,11 @@ READY  := $(VENV)/.ready
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
 
+# compat: a line with the path, where the other way looks through a table at every start of Python
 $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check \
+	  --config-settings editable_mode=compat --editable ".[dev]"
 	touch $(READY)
 
 run: $(READY) ## check the paper's methods and run the oscillator convergence test on the rectangular method

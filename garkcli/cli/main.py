@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import sys
@@ -158,6 +159,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     prepare()
     # few objects are in circles: to look for them as often as Python does costs a twentieth
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS, 10, 10)
+    # nor is there any use in looking for them a last time, in all that was loaded
+    atexit.register(gc.freeze)
     if COMPLETION in os.environ:
         gark.main(arguments, prog_name="gark", complete_var=COMPLETION)
     sys.exit(_exit_code(arguments))

@@ -15,6 +15,7 @@ import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import Fault, printable
+from garkcli.methodfile.scanning import QuickLoader
 
 MAX_NODES = 50_000
 """Most YAML values in one file, with aliases counted each time they are used."""
@@ -38,34 +39,13 @@ class TooLargeError(Exception):
         self.message, self.cure = message, cure
 
 
-class _Composer(yaml.SafeLoader):
+class _Composer(QuickLoader):
     """PyYAML's composer; it refuses too many values and too deep nesting as it meets them."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self._depth = 0
         self._count = 0
-        self._settled = -1
-
-    def need_more_tokens(self) -> bool | None:
-        """Whether the scanner has to go on; the parser asks many times before it takes a token."""
-        if self.tokens_taken == self._settled:
-            return False
-        needed = super().need_more_tokens()
-        if not needed:
-            self._settled = self.tokens_taken
-        return needed
-
-    def check_token(self, *choices: Any) -> bool:
-        """Whether the next token is one of ``choices``, or whether there is one; as PyYAML has it,
-        without a call for a token that is settled.
-        """
-        if self.tokens_taken != self._settled:
-            while self.need_more_tokens():
-                self.fetch_more_tokens()
-        if not self.tokens:
-            return False
-        return not choices or isinstance(self.tokens[0], choices)
 
     def _next_event(self) -> yaml.Event:
         event: yaml.Event = self.peek_event()  # type: ignore[no-untyped-call]
