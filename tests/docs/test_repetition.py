@@ -14,8 +14,8 @@ LENGTH = 9
 formulas are left out.
 """
 
-MADE = "<!-- "
-"""What a page has behind such a line is made by the program, which has it from one place."""
+MADE = re.compile(r"<!-- (\w+) -->.*?(?:<!-- end of \1 -->|\Z)", re.DOTALL)
+"""What the program makes of a page, which has it from one place."""
 
 TITLES = (
     "discrete variational methods and symplectic generalized additive runge kutta methods",
@@ -29,7 +29,7 @@ ELSEWHERE = {"package-page.md", "glossary.md"}
 
 def words(text: str) -> list[str]:
     """What people read of a page: no code, no targets of links, no signs, ``§`` for titles."""
-    by_hand = text.partition(MADE)[0]
+    by_hand = MADE.sub("", text)
     shown = re.sub(r"\]\([^)]*\)", "]", without_code(by_hand))
     plain = " ".join(re.findall(r"[^\W_]+", shown.lower()))
     for title in TITLES:
@@ -78,4 +78,6 @@ def test_a_sentence_on_two_pages_is_found() -> None:
     linked = said.replace(" three ", " [three](b.md#c)\n").title()
     assert len(shared({"a": f"# A\n\n{said}\n", "b": linked})) == 1
     assert not shared({"a": said, "b": f"```text\n{said}\n```\n"})
-    assert not shared({"a": said, "b": f"x\n\n<!-- made -->\n\n{said}\n"})
+    made = f"x\n\n<!-- made -->\n\n{said}\n"
+    assert not shared({"a": said, "b": made})
+    assert shared({"a": said, "b": f"{made}<!-- end of made -->\n{said}\n"})
