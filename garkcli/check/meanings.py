@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from garkcli.check.senses import (
@@ -23,6 +24,8 @@ __all__ = [
     "meanings",
     "term_meaning",
 ]
+_FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")
+"""Where the label of a line ends: a number or a tree follows."""
 _SURELY = 8
 """Letters that a pasted message has in common with one of the program."""
 
@@ -42,7 +45,7 @@ def meanings(word: str) -> list[Meaning]:
     'γ(u) = ρ(u) Π γ(u_i), over the branches u_i'
     """
     exactly, nearly = [], []
-    for sense, name in _by_plain().get(plain(word), ()):
+    for sense, name in _known(plain(word)):
         if name == word:
             exactly.append(sense.mean(name))
         else:
@@ -52,6 +55,15 @@ def meanings(word: str) -> list[Meaning]:
     # b is a weight, and B a condition: letters alone are taken at their word
     is_letter = len(plain(word)) == 1
     return exactly if is_letter and exactly else _once(exactly + nearly)
+
+
+def _known(word: str) -> list[tuple[Sense, str]]:
+    """What a word leads to; of a line of a report what stands before a number or a tree."""
+    every = _by_plain()
+    if word not in every:
+        label = _FIRST_VALUE.split(word)[0]
+        return every.get(label, []) if len(label) > 1 else []
+    return every[word]
 
 
 def _once(found: list[Meaning]) -> list[Meaning]:

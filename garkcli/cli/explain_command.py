@@ -28,9 +28,9 @@ class _Word(click.ParamType):  # type: ignore[type-arg]
 def command(words: tuple[str, ...], output: Output) -> int:
     """What a word of a report or of a file means: its definition, its formula, its source.
 
-    WORD is a term such as density or "stage order", the label of a line of a report, a claim, a key
-    of method files, a family, a transfer rule, or the code of a finding. Without one the terms are
-    listed.
+    WORD is a term such as density or "stage order", a line of a report, a claim, a key of a file
+    such as compose.steps, a family, a transfer rule, a problem, the code of an error or its
+    message. Without one the terms are listed.
     """
     from garkcli.check.meanings import meanings
     from garkcli.report import meaning as report

@@ -13,6 +13,7 @@ TOPICS = {
     "geometry": "Symplectic methods over a long time",
     "stability": "Stability",
     "design": "Methods with unknowns",
+    "reports": "What reports say",
 }
 """The files of ``terms`` in the order of the documentation, with what they are about."""
 

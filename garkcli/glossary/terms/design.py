@@ -13,7 +13,7 @@ TERMS = (
         " design says which values have an order, gark check what holds for every value.",
         "",
         _DESIGN,
-        ("unknown", "unknowns", "parameter", "every value"),
+        ("unknown", "unknowns", "parameter", "every value", "elsewhere"),
         ("family of dimension d", "shape"),
     ),
     Term(

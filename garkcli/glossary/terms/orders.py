@@ -57,7 +57,7 @@ TERMS = (
         " p where those of all trees with up to p vertices hold.",
         "b^{l}ᵀ 𝒜^[u] = 1/γ(u)",
         paper(_ORDER + ", theorem on the order of GARK methods"),
-        ("condition", "holds", "all trees", "coupling trees"),
+        ("condition", "holds", "FAILS", "all trees", "coupling trees"),
         ("tree", "elementary weight", "residual", "order"),
     ),
     Term(
@@ -144,7 +144,7 @@ TERMS = (
         " η^{l,m} + ζ^{l,m} of a block. The order may be larger.",
         "min{r, 2η+2, ξ+1, η+ζ+1}",
         paper(_ORDER + ", Simplifying Assumption Theorem"),
-        ("pair bound", "simplifying assumption"),
+        ("pair bound", "simplifying assumption", "B, C, D"),
         ("B(r)", "C(η)", "D(ζ)", "sharper bound"),
     ),
     Term(

@@ -117,7 +117,7 @@ TERMS = (
         " though it is stable on each spring alone.",
         "4D² − N² changes its sign",
         _OURS,
-        ("resonances", "slow", "fast", "factors"),
+        ("resonances", "slow", "fast", "factors", "factors of 4D² − N²"),
         ("P-stable",),
     ),
 )
