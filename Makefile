@@ -64,7 +64,9 @@ catalogue: $(READY) ## make the index of the catalogue anew, and the copies in m
 	$(BIN)/python -m garkcli.catalogue
 
 figures: $(READY) ## draw the figures of the documentation anew
+	mkdir -p build
 	$(BIN)/python docs/figures/rectangular.py
+	$(BIN)/python docs/figures/gallery.py > build/figures.txt
 
 docs: $(READY) ## the documentation as a site, in build/docs; a warning, such as a link to nowhere, fails
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"

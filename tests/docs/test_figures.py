@@ -6,7 +6,9 @@ import re
 import runpy
 import struct
 import sys
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -39,3 +41,57 @@ def test_figures_of_the_readme_exist() -> None:
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)
     assert "docs/figures/rectangular.png" in pictures
     assert all((ROOT / x).is_file() for x in pictures)
+
+
+GALLERY = ROOT / "docs" / "figures" / "gallery"
+MOST_BYTES = 150_000
+MOST_IN_ALL = 1_500_000
+"""Of the pictures of the gallery, one and all together."""
+
+
+@pytest.fixture(scope="module")
+def script() -> dict[str, Any]:
+    """What docs/figures/gallery.py defines."""
+    return runpy.run_path(str(GALLERY.with_suffix(".py")))
+
+
+def test_the_gallery_has_its_pictures(script: dict[str, Any]) -> None:
+    """Each picture of the page has a text for those who do not see it and a command; the folder
+    has them, none besides, and none is large.
+    """
+    page = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    shown = re.findall(r"!\[([^\]]*)\]\(figures/gallery/([^)]+)\)", page)
+    names = {name for _, name in shown}
+    assert len(names) == len(shown) >= 12
+    assert all(len(text) > 15 for text, _ in shown)
+    assert names == set(script["commands"]())
+    drawn = {x for x in GALLERY.iterdir() if x.suffix != ".yaml"}
+    assert {x.name for x in drawn} == names
+    sizes = [x.stat().st_size for x in drawn]
+    assert max(sizes) < MOST_BYTES
+    assert sum(sizes) < MOST_IN_ALL
+
+
+def test_commands_of_the_gallery_are_commands(script: dict[str, Any]) -> None:
+    """Each is read as it stands, with all its options; the last word is the picture."""
+    for name, words in script["commands"]().items():
+        command, *arguments = words
+        module = import_module(f"garkcli.cli.{command}_command")
+        context = module.command.make_context(command, arguments)
+        assert name in context.params.values()
+
+
+def test_the_gallery_is_drawn_anew(
+    script: dict[str, Any], tmp_path: Path
+) -> None:
+    """The script draws what the page shows by the commands that stand there: of those that are
+    drawn in no time the same, of another one a picture.
+    """
+    commands = script["commands"]()
+    trees = ["trees.svg", "coloured-trees.svg"]
+    chosen = {name: commands[name] for name in [*trees, "traces.svg"]}
+    script["draw_all"](chosen, tmp_path)
+    for name in trees:
+        made = (tmp_path / name).read_text(encoding="utf-8")
+        assert made == (GALLERY / name).read_text(encoding="utf-8")
+    assert "</svg>" in (tmp_path / "traces.svg").read_text(encoding="utf-8")
