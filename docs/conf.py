@@ -1,10 +1,11 @@
 """The documentation as a site, which `make docs` builds with Sphinx.
 
 The pages are plain Markdown that reads well where the code is hosted, so
-they have no directives. What the site has besides is made here: the contents
-in the margin, from the headings and lists of `index.md`; `CONTRIBUTING.md`,
-which stands outside of this folder, as the first page for contributors; and
-titles in place of the names of files, in links that show these.
+they have no directives, but for the cells of the notebook. What the site has
+besides is made here: the contents in the margin, from the headings and lists
+of `index.md`; `CONTRIBUTING.md`, which stands outside of this folder, as the
+first page for contributors; and titles in place of the names of files, in
+links that show these.
 """
 
 from __future__ import annotations
@@ -107,6 +108,10 @@ def _make_scrollable(*event: Any) -> None:
 
 
 def setup(app: Sphinx) -> None:
-    """Complete pages when they are read."""
+    """Complete pages when they are read, and show the cells of a notebook as code."""
+    # imported here: who reads the contents alone has no Sphinx
+    from sphinx.directives.code import CodeBlock
+
+    app.add_directive("code-cell", CodeBlock)
     app.connect("source-read", _complete)
     app.connect("html-page-context", _make_scrollable)

@@ -11,7 +11,8 @@ Trees: Tree, parse_tree, format_tree, all_trees, count_trees; conditions, all_co
 On problems: problem, hamiltonian, load_problem, loads_problem, Oscillator; converge, long_run,
     symplecticity_defects; bind, integrate, trajectory.
 The modified equation: backward_analysis, modified_formula, modified_run.
-Design: load_family, loads_family, find_parameters, minimise, search_methods; run_sweep.
+Design: load_family, loads_family, find_parameters, minimise, search_methods,
+    found_methods; run_sweep.
 To others: export, cite, report_page, with_claims, method_file_schema, problem_file_schema,
     sweep_schema, report_schema; what there is: names, explain.
 Errors: GarkError, and of it MethodFileError, HasFreeParameters, MethodError, ZeroWeight,
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     )
     from garkcli.api.design import (
         find_parameters,
+        found_methods,
         minimise,
         search_methods,
     )
@@ -162,6 +164,7 @@ _HOMES = {
     "find_order": "api.methods",
     "find_orders": "api.asserting",
     "find_parameters": "api.design",
+    "found_methods": "api.design",
     "find_property": "api.properties",
     "find_stability": "api.calls",
     "format_tree": "api.trees",
@@ -260,6 +263,7 @@ __all__ = [
     "find_property",
     "find_stability",
     "format_tree",
+    "found_methods",
     "from_arrays",
     "gark",
     "hamiltonian",

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
-from garkcli.api.files import load_family
+from garkcli.api.files import load_family, loads
 from garkcli.api.numbers import Whole, whole
 from garkcli.design import design as designing
-from garkcli.design.design import Design, Whose
+from garkcli.design.chosen import accepted_methods, values_text
+from garkcli.design.design import CLAIMS, Design, Whose
 from garkcli.design.minimise import minimise as minimising
 from garkcli.design.minimise.registry import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.search import run as searching
 from garkcli.design.search.run import Result
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.design.search.told import TOLERANCE
+from garkcli.errors import MethodError, UsageProblem, did_you_mean
+from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.tableau.family import Family
 
 AnyFamily: TypeAlias = "Family | str | os.PathLike[str]"
@@ -130,3 +135,89 @@ def search_methods(
         whole(most, "most", 1),
         whose,
     )
+
+
+def found_methods(
+    found: Design | Minimum | Result,
+    family: AnyFamily | None = None,
+    whose: Whose = "method",
+) -> list[MethodFile]:
+    r"""The methods that were found, each with the text of its file: ``gark design --emit-all``.
+
+    Args:
+        found: what ``find_parameters``, ``minimise`` or ``search_methods`` returned. Of a design
+            those of the highest order that has finitely many, of a minimum those with the value.
+        family: that was searched; a design and a minimum know theirs.
+        whose: order a search was for.
+
+    Raises:
+        MethodError: a search is given without its family, the family is not from a file or a text,
+            or its values cannot be written in a method file.
+
+    >>> from garkcli import loads_family
+    >>> text = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
+    >>> (ralston,) = found_methods(minimise(loads_family(text), "error"))
+    >>> ralston.A, ralston.b, ralston.order
+    (((0, 0), (2/3, 0)), (1/4, 3/4), 2)
+    """
+    if isinstance(found, Result):
+        if family is None:
+            raise MethodError(
+                "a search does not know its family",
+                "found_methods(result, family)",
+            )
+        return list(_searched(found, _file_of(family_of(family)), whose))
+    if isinstance(found, Minimum):
+        return list(_least(found, _file_of(found.design.family)))
+    chosen = accepted_methods(found)
+    read = _file_of(found.family)
+    return [_made(read, x.values, found.whose, x.order) for x in chosen]
+
+
+def _searched(
+    result: Result, family: FamilyFile, whose: Whose
+) -> Iterator[MethodFile]:
+    for method in result.methods:
+        yield _made(
+            family, method.values, whose, method.order, method.is_exact
+        )
+
+
+def _least(minimum: Minimum, family: FamilyFile) -> Iterator[MethodFile]:
+    for candidate in minimum.minimisers:
+        solution = candidate.found.solution
+        elements = {x: solution.values[x] for x in family.parameters}
+        values = values_text(elements, solution.real[candidate.index])
+        order = minimum.step.order
+        if candidate.found.order is not None:
+            order = candidate.found.order.order
+        yield _made(family, values, minimum.design.whose, order)
+
+
+def _file_of(family: Family) -> FamilyFile:
+    """A family that has a text.
+
+    Raises:
+        MethodError: it has none.
+    """
+    if isinstance(family, FamilyFile):
+        return family
+    raise MethodError(
+        f"{family!r} has no text",
+        "give what load_family or loads_family return",
+    )
+
+
+def _made(
+    family: FamilyFile,
+    values: Mapping[str, str],
+    whose: Whose,
+    order: int,
+    is_exact: bool = True,
+) -> MethodFile:
+    """A method of a family, its parameters as texts."""
+    claim = f"{CLAIMS[whose]}: {order}"
+    text = with_values(family, values, f"found by gark: {claim}", claim)
+    if not is_exact and "tolerance:" not in text:
+        text += f"tolerance: {TOLERANCE}\n"
+    return loads(text, family.source)

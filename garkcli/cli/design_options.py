@@ -18,13 +18,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-CLAIMS = {
-    "method": "order",
-    "conjugate": "conjugate-order",
-    "pair": "pair-order",
-}
-"""What a file claims of the order found, by whose it is."""
-
 
 def _finite(
     _context: click.Context, _parameter: click.Parameter, seconds: float

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from garkcli.cli.design_options import CLAIMS
 from garkcli.cli.options import Output
 from garkcli.design.chosen import Chosen, accepted_methods, first_method
-from garkcli.design.design import Design
+from garkcli.design.design import CLAIMS, Design
 from garkcli.errors import MethodError, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.methodfile.folders import STDIN

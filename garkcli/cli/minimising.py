@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from garkcli.cli.design_options import CLAIMS
 from garkcli.cli.streams import say_problem
 from garkcli.design.chosen import values_text
+from garkcli.design.design import CLAIMS
 from garkcli.design.groebner import NotDecided
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level

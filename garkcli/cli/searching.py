@@ -5,12 +5,12 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from garkcli.cli.design_options import CLAIMS
 from garkcli.cli.emitting import file_names
 from garkcli.cli.signals import INTERRUPTED
 from garkcli.cli.streams import say_problem
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost
+from garkcli.design.design import CLAIMS
 from garkcli.design.search.run import MOST, Result, Task, Timed, results
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import TOLERANCE, Method

@@ -129,6 +129,12 @@ TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "pair": pair,
 }
 """The tableau that is meant, from that of a file."""
+CLAIMS: dict[Whose, str] = {
+    "method": "order",
+    "conjugate": "conjugate-order",
+    "pair": "pair-order",
+}
+"""What a file claims of the order found, by whose it is."""
 
 
 def find_parameters(

@@ -137,6 +137,20 @@ def root_text(root: RealRoot) -> str | None:
     return f"{middle} {sign} {radical}"
 
 
+def root_in_short(root: RealRoot) -> str:
+    """A root in radicals where it has simple ones, else in decimals with what it is a root of.
+
+    >>> from flint import fmpz_poly
+    >>> root_in_short(RealRoot(fmpz_poly([-12, 6, -3, 1]), 0))
+    '2.51274532662, a root of x^3 - 3*x^2 + 6*x - 12'
+    """
+    simple = root_text(root)
+    if simple is not None:
+        return simple
+    polynomial = Polynomial([fmpq(a) for a in root.polynomial.coeffs()])
+    return f"{root_decimal(root, 12)}, a root of {polynomial_text(polynomial, 'x')}"
+
+
 def root_decimal(root: RealRoot, digits: int) -> str:
     """A root rounded to significant digits, zeros at the end left out."""
     bits = int(digits * BITS_A_DIGIT) + 40

@@ -15,6 +15,7 @@ from garkcli.exact.isolating import isolated, precision
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.signs import FIRST_BITS as FIRST_BITS
 from garkcli.exact.signs import sign as sign
+from garkcli.upward import found
 
 
 @total_ordering
@@ -55,6 +56,14 @@ class RealRoot:
         balls = isolated(_integers(self.polynomial), bits)
         return balls[self.number]
 
+    def __float__(self) -> float:
+        """A float next to it; nothing is decided with it."""
+        return float(self.ball(80))
+
+    def __repr__(self) -> str:
+        text: str = found("exact.polynomial_text", "root_in_short")(self)
+        return f"<RealRoot {text}>"
+
     def __lt__(self, other: RealRoot) -> bool:
         if self.polynomial == other.polynomial:
             return self.number < other.number
@@ -65,9 +74,6 @@ class RealRoot:
             if mine < theirs or mine > theirs:
                 return bool(mine < theirs)
             bits *= 2
-
-    def __repr__(self) -> str:
-        return f"RealRoot({self.polynomial}, {self.number})"
 
 
 def _integers(polynomial: fmpz_poly) -> tuple[int, ...]:
@@ -84,7 +90,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
         ValueError: p is zero.
 
     >>> real_roots(Polynomial([2, -3, 0, 1]))
-    [(RealRoot(x + 2, 0), 1), (RealRoot(x + (-1), 0), 2)]
+    [(<RealRoot -2>, 1), (<RealRoot 1>, 2)]
     """
     if not p:
         raise ValueError("every number is a root of the zero polynomial")

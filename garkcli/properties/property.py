@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
@@ -33,6 +34,13 @@ class Size:
     """
 
     root: RealRoot | None
+
+    def __float__(self) -> float:
+        """A float next to it; nothing is decided with it."""
+        return inf if self.root is None else float(self.root)
+
+    def __repr__(self) -> str:
+        return f"<Size {self}>"
 
     def __str__(self) -> str:
         if self.root is None:

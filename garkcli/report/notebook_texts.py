@@ -97,4 +97,5 @@ def modified_run_html(run: ModifiedRun) -> str:
 def preformatted(lines: Iterable[str]) -> str:
     """Lines as they stand, in letters of one width."""
     text = "\n".join(printable(line) for line in lines).strip("\n")
-    return f'<pre style="line-height:1.25">{escape(text)}</pre>'
+    style = "font-family:monospace;line-height:1.25"
+    return f'<pre style="{style}">{escape(text)}</pre>'

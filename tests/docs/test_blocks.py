@@ -31,6 +31,8 @@ TESTED = {
     ("docs/ci.md", "sh"): "test_ci_docs.py",
     ("docs/command-line.md", "text"): "test_command_line_docs.py",
     ("docs/json.md", "json"): "test_json_docs.py",
+    ("docs/notebook.md", "{code-cell} python"): "test_notebook_docs.py",
+    ("docs/notebook.md", "text"): "test_notebook_docs.py",
     ("docs/tutorial-student.md", "text"): "test_tutorials.py",
 }
 """Blocks that a test of their page compares with what the program does, by page and language."""
