@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import NoReturn
 
 import click
+from click.shell_completion import CompletionItem
 
 from garkcli.cli.options import help_option
 from garkcli.cli.signals import INTERRUPTED, READER_GONE, Ended, ending
@@ -30,6 +31,8 @@ from garkcli.page.plain import printable
 from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
+HELP = "help"
+"""Before the name of a command: what its option ``--help`` shows."""
 COMPLETION = "_GARK_COMPLETE"
 """The variable in which shells ask for completions."""
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
@@ -82,10 +85,21 @@ class _LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+        # a shell that asks what may follow is told no mistakes
+        is_run = not ctx.resilient_parsing
+        if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
             what = f"no such command {printable(args[0])!r}"
             ctx.fail(f"{what}; {did_you_mean(args[0], COMMANDS)}")
         return super().resolve_command(ctx, args)
+
+    def shell_complete(
+        self, ctx: click.Context, incomplete: str
+    ) -> list[CompletionItem]:
+        """Commands, also behind the word that shows their help, and that word."""
+        found = super().shell_complete(ctx, incomplete)
+        if HELP.startswith(incomplete):
+            found.append(CompletionItem(HELP, help="more of one command"))
+        return found
 
     def format_commands(
         self, ctx: click.Context, formatter: click.HelpFormatter
@@ -206,7 +220,7 @@ def _run(arguments: list[str]) -> int:
     """Run the command line without what click does at its end: it exits 1 where a reader goes away,
     which is the code of a claim that fails.
     """
-    if arguments[:1] == ["help"]:
+    if arguments[:1] == [HELP]:
         arguments = [*arguments[1:], "--help"]
     try:
         with gark.make_context("gark", list(arguments)) as context:

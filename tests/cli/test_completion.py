@@ -32,6 +32,13 @@ def test_commands_are_completed() -> None:
     ]
 
 
+def test_the_word_for_help_is_completed() -> None:
+    """And commands behind it; behind what is no command a shell is not told of the mistake."""
+    assert completions("he") == [("plain", "help")]
+    assert completions("help", "che") == [("plain", "check")]
+    assert completions("chekc", "che") == [("plain", "check")]
+
+
 @pytest.mark.parametrize(
     "words",
     [
