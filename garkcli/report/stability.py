@@ -78,10 +78,16 @@ def _latex(report: StabilityReport) -> str:
 def _latex_line(
     name: str, numerator: Polynomial, denominator: Polynomial, variable: str
 ) -> str:
+    quotient = quotient_latex(numerator, denominator, variable)
+    return f"  {name} &= {quotient}"
+
+
+def quotient_latex(
+    numerator: Polynomial, denominator: Polynomial, variable: str
+) -> str:
+    """A rational function in LaTeX."""
     over, under = (
         polynomial_latex(p, variable)
         for p in integral([numerator, denominator])
     )
-    return f"  {name} &= " + (
-        over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
-    )
+    return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"

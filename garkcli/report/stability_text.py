@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TypeAlias
 
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_text
@@ -34,6 +35,9 @@ from garkcli.stability.slow_interval import SlowInterval
 from garkcli.stability.summary import LinearStability, Stability
 from garkcli.stability.two_frequencies import TwoFrequencies
 from garkcli.stability.within import StabilityWithin
+
+Fact: TypeAlias = tuple[str, str]
+"""A label and a text; the label is empty where it is that of the fact before."""
 
 
 def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
@@ -97,27 +101,39 @@ def _linear_text(
         whose = f", colour {found.name} alone"
     title = paint("strong", "linear test equation")
     yield f"  {title}{whose}, z = hλ"
-    if found.real is None or found.imaginary is None:
-        yield from line("A-stable", decided(found.a_stable, paint))
-        yield from line("L-stable", decided(found.l_stable, paint))
-        if found.within is not None:
-            yield from _within_text(found.within, digits)
-        return
     R = found.R
-    yield from line("R(z)", quotient(R.numerator, R.denominator, "z"))
-    limit = R.at_infinity()
-    at_infinity = "unbounded" if limit is None else to_text(limit)
-    yield from line("R(∞)", at_infinity)
+    if found.within is None:
+        yield from line("R(z)", quotient(R.numerator, R.denominator, "z"))
+    yield from _lines(linear_facts(found, digits, paint))
+
+
+def _lines(facts: Iterable[Fact]) -> Iterator[str]:
+    for label, text in facts:
+        yield from line(label, text)
+
+
+def linear_facts(
+    found: LinearStability, digits: int, paint: Paint
+) -> Iterator[Fact]:
+    """What R(z) tells, without itself."""
+    if found.real is None or found.imaginary is None:
+        yield "A-stable", decided(found.a_stable, paint)
+        yield "L-stable", decided(found.l_stable, paint)
+        if found.within is not None:
+            yield from _within_facts(found.within, digits)
+        return
+    limit = found.R.at_infinity()
+    yield "R(∞)", "unbounded" if limit is None else to_text(limit)
     a_stable = decided(found.a_stable, paint)
     if not found.a_stable:
         reason = _why_not_a_stable(found)
         a_stable += f": {reason}"
-    yield from line("A-stable", a_stable)
-    yield from line("L-stable", decided(found.l_stable, paint))
-    yield from line("A(α)-stable", _sector_text(found.sector, digits))
-    yield from line("real axis", real_text(found.real, digits))
-    yield from line("imaginary axis", imaginary_text(found.imaginary, digits))
-    yield from line("SSP coefficient", ssp_text(found.ssp, digits))
+    yield "A-stable", a_stable
+    yield "L-stable", decided(found.l_stable, paint)
+    yield "A(α)-stable", _sector_text(found.sector, digits)
+    yield "real axis", real_text(found.real, digits)
+    yield "imaginary axis", imaginary_text(found.imaginary, digits)
+    yield "SSP coefficient", ssp_text(found.ssp, digits)
 
 
 def _why_not_a_stable(found: LinearStability) -> str:
@@ -150,28 +166,37 @@ def _oscillator_text(
     yield f"  {title}, z = hω, x = z²"
     yield from line("trace", _ratio(found.trace))
     yield from line("determinant", _ratio(found.determinant))
+    yield from _lines(oscillator_facts(found, digits, paint))
+
+
+def oscillator_facts(
+    found: OscillatorStability, digits: int, paint: Paint
+) -> Iterator[Fact]:
+    """What the step matrix tells, without itself."""
     [discriminant] = integral([found.discriminant])
-    yield from line("4D² − N²", polynomial_text(discriminant, "x"))
-    yield from _stable_text(found.stable, digits)
+    yield "4D² − N²", polynomial_text(discriminant, "x")
+    yield from _stable_facts(found.stable, digits)
     p_stable = paint.verdict(found.is_p_stable)
     if not found.is_p_stable:
         reason = _why_not_p_stable(found, digits)
         p_stable += f": {reason}"
-    yield from line("P-stable", p_stable)
-    yield from line("phase lag", _phase_text(found))
-    yield from line("conserved form", _conserved_text(found))
+    yield "P-stable", p_stable
+    yield "phase lag", _phase_text(found)
+    yield "conserved form", _conserved_text(found)
 
 
 def _ratio(ratio: Ratio) -> str:
     return quotient(ratio.numerator, ratio.denominator, "x")
 
 
-def _stable_text(intervals: Sequence[Interval], digits: int) -> Iterator[str]:
+def _stable_facts(
+    intervals: Sequence[Interval], digits: int
+) -> Iterator[Fact]:
     if not intervals:
-        yield from line("stable", "for no x")
+        yield "stable", "for no x"
     label = "stable"
     for interval in intervals:
-        yield from line(label, interval_text(interval, digits))
+        yield label, interval_text(interval, digits)
         label = ""
 
 
@@ -217,11 +242,14 @@ def _conserved_text(found: OscillatorStability) -> str:
 def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
     title = paint("strong", "nonlinear")
     yield f"  {title}"
+    yield from line(*nonlinear_fact(found, paint))
+
+
+def nonlinear_fact(found: Stability, paint: Paint) -> Fact:
+    """Whether the method is algebraically stable, and why it is not."""
     label = "algebraically stable"
     if found.algebraic is None:
-        meaning = "has no meaning: colours do not see one another"
-        yield from line(label, meaning)
-        return
+        return label, "has no meaning: colours do not see one another"
     reasons = []
     if not found.algebraic.weights_are_positive:
         reasons.append("a weight is negative")
@@ -231,7 +259,7 @@ def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
     if reasons:
         told = ", ".join(reasons)
         verdict += f": {told}"
-    yield from line(label, verdict)
+    return label, verdict
 
 
 def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
@@ -246,7 +274,7 @@ def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
             text += f", {power} times"
         yield from line(label, text)
         label = ""
-    yield from _stable_text(found.stable, digits)
+    yield from _lines(_stable_facts(found.stable, digits))
 
 
 def _slow_text(
@@ -255,7 +283,7 @@ def _slow_text(
     yield ""
     yield "  two springs, x = (hω_fast)²"
     yield f"  for every a = (hω_slow)² from {found.low} to {found.high}"
-    yield from _stable_text(found.stable, digits)
+    yield from _lines(_stable_facts(found.stable, digits))
     for x in found.open_points:
         point = number(x, digits)
         polynomial = minimal_text(x, "x")
@@ -265,14 +293,14 @@ def _slow_text(
     yield from line("stable for all x > 0", verdict)
 
 
-def _within_text(found: StabilityWithin, digits: int) -> Iterator[str]:
+def _within_facts(found: StabilityWithin, digits: int) -> Iterator[Fact]:
     """What is known of rounded coefficients besides A- and L-stability."""
     real = bounds_text(found.real, digits, "−z ≤ ")
     imaginary = bounds_text(found.imaginary, digits, "y² ≤ ")
     ssp = bounds_text(found.ssp, digits)
-    yield from line("real axis", real)
-    yield from line("imaginary axis", imaginary)
-    yield from line("SSP coefficient", ssp)
+    yield "real axis", real
+    yield "imaginary axis", imaginary
+    yield "SSP coefficient", ssp
 
 
 def _rounded_text(found: Stability, paint: Paint) -> Iterator[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
@@ -15,9 +16,12 @@ from garkcli.errors import counted, printable
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
 from garkcli.webpage.pictures import STYLE
 from garkcli.webpage.registry import SECTIONS
-from garkcli.webpage.reported import Reported
+from garkcli.webpage.reported import MOST_CONDITIONS, Reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.tree_picture import dots
+
+MOST_ROWS = 2000
+"""Conditions of all methods of a page together: about 3 MB."""
 
 
 def render(methods: Sequence[Reported]) -> str:
@@ -27,6 +31,8 @@ def render(methods: Sequence[Reported]) -> str:
         methods: at least one; several are compared in a table.
     """
     has_several = len(methods) > 1
+    room = min(MOST_CONDITIONS, MOST_ROWS // max(len(methods), 1))
+    methods = [replace(x, most_conditions=room) for x in methods]
     shown = [
         _method(method, number) for number, method in enumerate(methods, 1)
     ]

@@ -12,6 +12,7 @@ from garkcli.webpage.sections import (
     properties,
     reference,
     simplifying,
+    stability,
     tableau,
 )
 
@@ -22,6 +23,7 @@ SECTIONS: tuple[Section, ...] = (
     claims.SECTION,
     simplifying.SECTION,
     properties.SECTION,
+    stability.SECTION,
     pictures.SECTION,
     conditions.SECTION,
     reference.SECTION,

@@ -25,6 +25,13 @@ from garkcli.report.check_json import as_data
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
+MOST_CONDITIONS = 500
+"""Of one method in one page; of many methods fewer each."""
+MOST_STAGES = 12
+"""Of methods with irrational or rounded coefficients: with 16 their intervals of stability take up
+to ten seconds.
+"""
+
 
 @dataclass(frozen=True)
 class Reported:
@@ -39,6 +46,7 @@ class Reported:
         wanted_order: up to which order its conditions are listed; None for the first one that
             fails.
         has_pictures: whether there are pictures of it.
+        most_conditions: how many of its conditions are listed at most.
     """
 
     outcome: Outcome
@@ -48,6 +56,7 @@ class Reported:
     description: str = ""
     wanted_order: int | None = None
     has_pictures: bool = True
+    most_conditions: int = MOST_CONDITIONS
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -63,6 +72,15 @@ class Reported:
             return self.outcome.analysis.tableau
         every = self.outcome.every
         return None if every is None else every.tableau
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether its stability takes long: of many stages, with irrational or rounded numbers."""
+        if self.tableau is None:
+            return False
+        stages = sum(space.stages for space in self.tableau.spaces)
+        is_rational = self.tableau.degree == 1 and self.tolerance is None
+        return stages > MOST_STAGES and not is_rational
 
     @property
     def tolerance(self) -> fmpq | None:

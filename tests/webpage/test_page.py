@@ -23,12 +23,16 @@ from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError
 from garkcli.order.listing import count_conditions
 from garkcli.page.safety import written_out
+from garkcli.properties.keys import KEYS
 from garkcli.report.check_json import as_data
+from garkcli.webpage import page as page_module
+from garkcli.webpage import reported as reported_module
 from garkcli.webpage.calls import report_page
 from garkcli.webpage.mathml import typeset
 from garkcli.webpage.pictures import Picture
 from garkcli.webpage.registry import SECTIONS
-from garkcli.webpage.sections import conditions, pictures
+from garkcli.webpage.reported import reported
+from garkcli.webpage.sections import pictures, properties, stability
 from tests.cli.harness import ROOT, gark
 from tests.webpage.reading import (
     by_id,
@@ -328,7 +332,7 @@ def test_a_large_table_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whole orders as long as there is room; of the next one it is told how many are left out, and
     what lists them.
     """
-    monkeypatch.setattr(conditions, "MOST_CONDITIONS", 10)
+    monkeypatch.setattr(page_module, "MOST_ROWS", 10)
     root = read(report_page(VERLET, order=4, pictures=False))
     shown = by_id(root, "m1-conditions")
     tableau = garkcli.load(VERLET).tableau
@@ -496,6 +500,49 @@ def test_a_section_is_a_file_with_its_template() -> None:
     shared = {"page", "head", "contents", "comparison"}
     templates = {x.stem for x in (room / "templates").glob("*.html")}
     assert templates == files | shared
+
+
+def test_hints_are_those_of_the_check() -> None:
+    """What the failing conditions of a misprinted method tell, line by line."""
+    printed = gark("check", FAILING).out
+    (shown,) = elements(section(FAILING, "orders"), "pre")
+    lines = (shown.text or "").splitlines()
+    assert "hint:" in lines[0]
+    for line in lines:
+        assert line.strip() in printed
+
+
+def test_stability_is_that_of_its_command() -> None:
+    """Each fact as it is printed, and the stability function typeset."""
+    printed = " ".join(gark("stability", RECTANGULAR, "rk4").out.split())
+    for method in (RECTANGULAR, "rk4"):
+        shown = section(method, "stability")
+        facts = [text_of(x) for x in elements(shown, "dd")]
+        assert len(facts) > 4
+        for fact in facts:
+            assert fact in printed, fact
+    heads = [text_of(x) for x in elements(section("rk4", "stability"), "h3")]
+    assert heads[0] == "Linear test equation"
+    formula = next(elements(section("rk4", "stability"), "math"))
+    assert text_of(formula) == "R(z)=z4+4z3+12z2+24z+2424"
+
+
+def test_what_takes_long_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of many stages with rounded coefficients the page says which command decides their
+    stability; rational ones are decided.
+    """
+    monkeypatch.setattr(reported_module, "MOST_STAGES", 1)
+    slow = reported(ROUNDED)
+    assert slow.is_slow
+    assert not reported("rk4").is_slow
+    content = stability.SECTION.content(slow)
+    assert content is not None
+    assert content["parts"] == []
+    left_out = properties.SECTION.content(slow)
+    assert left_out is not None
+    assert "real-stability" in left_out["left_out"]
+    keys = [one["key"] for one in left_out["verdicts"]]
+    assert {*keys, *left_out["left_out"]} == set(KEYS)
 
 
 def test_pictures_stand_on_the_page(monkeypatch: pytest.MonkeyPatch) -> None:

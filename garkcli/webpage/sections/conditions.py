@@ -18,8 +18,6 @@ from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.tree_picture import tree_picture
 
-MOST_CONDITIONS = 500
-"""Rows of the table; further orders are counted and left out."""
 _STATES = ("holds", "within", "varies", "fails")
 
 
@@ -76,7 +74,7 @@ def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
     rows: list[Condition] = []
     for n in range(1, wanted + 1):
         count = count_conditions(tableau, n)
-        if len(rows) + count > MOST_CONDITIONS:
+        if len(rows) + count > method.most_conditions:
             return Listed(rows, n - 1, count)
         rows += all_conditions(tableau, n, tolerance)
     return Listed(rows, wanted, 0)

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from textwrap import dedent
 
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.every_facts import Fact
 from garkcli.check.every_orders import EveryOrder
 from garkcli.check.every_value import EveryValue
 from garkcli.check.every_words import fact_text
+from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
 from garkcli.order.certificate import Order, Witness
 from garkcli.order.dense import DenseOrder
 from garkcli.order.nonautonomous import with_time
+from garkcli.page.paint import Paint
 from garkcli.report.check_further import estimate_text, fit_text
-from garkcli.report.check_orders import doubt_text, order_number, size
+from garkcli.report.check_orders import (
+    doubt_text,
+    order_number,
+    size,
+    suggestion_lines,
+)
+from garkcli.report.hints import blame_lines, misprint_lines
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, format_tree
 from garkcli.trees.tree import Tree
@@ -56,7 +65,30 @@ def _content(method: Reported) -> Content | None:
         found = list(_of_method(outcome.analysis))
     else:
         return None
-    return {"orders": list(_told_once(found))}
+    left_behind = " and ".join(outcome.left_behind)
+    return {
+        "orders": list(_told_once(found)),
+        "hints": _hints(outcome),
+        "left_behind": left_behind,
+    }
+
+
+def _hints(outcome: Outcome) -> str:
+    """What failing conditions tell, in the lines of ``gark check``; empty where that is nothing."""
+    analysis = outcome.analysis
+    if analysis is None:
+        return ""
+    paint = Paint(False)
+    tableau = analysis.tableau
+    lines: list[str] = []
+    if analysis.suggestion is not None:
+        near = analysis.tolerance
+        lines += suggestion_lines(analysis.suggestion, near, paint)
+    if analysis.misprint is not None:
+        lines += misprint_lines(analysis.misprint, tableau, paint)
+    if outcome.blame is not None:
+        lines += blame_lines(outcome.blame, tableau, paint)
+    return dedent("\n".join(lines))
 
 
 def _told_once(found: Sequence[Shown]) -> Iterator[Shown]:

@@ -12,20 +12,14 @@ from garkcli.properties.property import Verdict
 from garkcli.properties.registry import every_property
 from garkcli.report.check_properties import property_lines, verdict_text
 from garkcli.report.every_text import property_text
-from garkcli.tableau.tableau import Tableau
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
-
-MOST_STAGES = 12
-"""Of methods whose coefficients are in a number field: with more, intervals of stability take up to
-ten seconds.
-"""
 
 
 def _content(method: Reported) -> Content | None:
     analysis = method.outcome.analysis
     if analysis is not None:
-        keys, left_out = _keys(analysis.tableau)
+        keys, left_out = _keys(method)
         return {
             "lines": _lines(analysis),
             "verdicts": [_verdict(analysis, key) for key in keys],
@@ -43,10 +37,9 @@ def _content(method: Reported) -> Content | None:
     }
 
 
-def _keys(tableau: Tableau) -> tuple[list[str], list[str]]:
+def _keys(method: Reported) -> tuple[list[str], list[str]]:
     """The properties that are told, and those that are left out as they take long."""
-    stages = sum(space.stages for space in tableau.spaces)
-    if tableau.degree == 1 or stages <= MOST_STAGES:
+    if not method.is_slow:
         return list(KEYS), []
     slow = [one.key for one in every_property() if not one.is_cheap]
     return [key for key in KEYS if key not in slow], slow
