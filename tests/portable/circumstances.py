@@ -90,9 +90,23 @@ INSTALLED = (
     "tests/integration",
 )
 """Commands as people use them: every one, by what the documentation and the records show."""
-PROCESSES = ("tests/methodfile/test_hostile.py", "tests/cli")
+PROCESSES = (
+    "tests/cli/test_baseline_and_jobs.py",
+    "tests/cli/test_process.py",
+    "tests/cli/test_signals.py",
+    "tests/cli/test_streams.py",
+    "tests/crew",
+    "tests/methodfile/test_hostile.py",
+    "tests/sweep",
+)
 """Everything that starts and stops processes."""
-ELSEWHERE = (*FILES, "tests/crew", "tests/page", "tests/sweep", "tests/design")
+ELSEWHERE = (
+    "tests/cli",
+    "tests/crew",
+    "tests/methodfile",
+    "tests/page",
+    "tests/sweep",
+)
 """Everything that asks for something of the system, which may not be there."""
 
 Environment = Callable[[Path], dict[str, str]]
@@ -140,9 +154,9 @@ class Circumstance:
 def circumstances() -> Iterator[Circumstance]:
     """All of them, the quickest to fail first."""
     newest = Venv(sys.executable, "newest")
-    yield Circumstance(
-        "newest", "the newest version of each dependency", newest
-    )
+    what = "the newest versions; other orders of sets, another time zone"
+    # at once, as what they may break is different
+    yield Circumstance("newest", what, newest, WHOLE, _hash_seed)
     floors = Venv(sys.executable, "floors")
     yield Circumstance(
         "floors", "the oldest declared version of each dependency", floors
@@ -169,8 +183,6 @@ def circumstances() -> Iterator[Circumstance]:
     yield Circumstance("no-simd", what, newest, MEASURED, _no_simd)
     what = "functions of libm and LAPACK off by units of the last place"
     yield Circumstance("noise", what, newest, RECORDED, _noise)
-    what = "other orders of sets, another time zone"
-    yield Circumstance("hash-seed", what, newest, WHOLE, _hash_seed)
     yield Circumstance(
         "locale", "the locale of another country", newest, FILES, _locale
     )
@@ -186,7 +198,7 @@ def circumstances() -> Iterator[Circumstance]:
     for python in other_pythons():
         version = version_of(python)
         what = f"Python {version} with the newest versions"
-        yield Circumstance(f"python{version}", what, Venv(python, "newest"))
+        yield Circumstance(f"python{version}", what, Venv(python, "tested"))
 
 
 def other_pythons() -> list[str]:

@@ -60,7 +60,7 @@ def test_every_extra_of_users_is_tried() -> None:
     declared = tomllib.loads(
         (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     )["project"]
-    ours = {"bench", "dev", "docs", "fuzz", "test"}
+    ours = {"bench", "browser", "dev", "docs", "fuzz", "test"}
     assert {*declared["optional-dependencies"]} - ours == {*EXTRAS, MSOLVE}
 
 

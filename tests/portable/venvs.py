@@ -23,17 +23,14 @@ EXTRAS = ("cluster", "parquet", "plot")
 """What users may have beside the program."""
 MSOLVE = "design"
 """One more; it needs a newer numpy than the program does."""
-BARE = (
-    "hypothesis",
-    "jsonschema",
-    "pytest",
-    "pytest-benchmark",
-    "pytest-xdist",
-)
+BARE = ("hypothesis", "jsonschema", "pytest", "pytest-xdist")
 """What runs the tests of commands that need nothing but the program."""
 
-Versions = Literal["newest", "floors", "no-libyaml", "no-unix", "wheel"]
-"""``newest`` and ``floors`` have the extras too; all but ``floors`` are of the newest of each.
+Versions = Literal[
+    "newest", "floors", "tested", "no-libyaml", "no-unix", "wheel"
+]
+"""``newest`` and ``floors`` have the extras too, which not every Python has; all but ``floors`` are
+of the newest of each.
 ``wheel`` has what a user has: a wheel of gark, not the checkout, and what the program needs.
 """
 
