@@ -11,10 +11,12 @@ from garkcli.check.senses import (
     claim_meaning,
     every_sense,
     fault_meaning,
+    field_meanings,
     term_meaning,
 )
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.glossary.faults import UNKNOWN, code_of
+from garkcli.glossary.fields import field_entries
 from garkcli.glossary.registry import plain
 
 __all__ = [
@@ -36,7 +38,8 @@ def meanings(word: str) -> list[Meaning]:
     Args:
         word: a term, a label of a report, a claim, a key of a file with or without those above it,
             a family, a transfer rule, a scheme, a shape, a problem, the code of an error or of a
-            finding, or the message of an error; in any case, with hyphens or blanks.
+            finding, the message of an error, or a field of JSON reports; in any case, with hyphens
+            or blanks.
 
     Raises:
         UsageProblem: nobody knows it.
@@ -51,7 +54,7 @@ def meanings(word: str) -> list[Meaning]:
         else:
             nearly.append(sense.mean(name))
     if not exactly and not nearly:
-        return [_of_message(word)]
+        return field_meanings(word) or [_of_message(word)]
     # b is a weight, and B a condition: letters alone are taken at their word
     is_letter = len(plain(word)) == 1
     return exactly if is_letter and exactly else _once(exactly + nearly)
@@ -109,4 +112,5 @@ def _by_plain() -> dict[str, list[tuple[Sense, str]]]:
 
 def known_words() -> list[str]:
     """Every word that has a meaning, in order."""
-    return sorted({name for sense in every_sense() for name in sense.names})
+    words = {name for sense in every_sense() for name in sense.names}
+    return sorted(words | set(field_entries()))

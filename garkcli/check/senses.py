@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from garkcli.glossary.faults import by_code
+from garkcli.glossary.fields import field_entries
 from garkcli.glossary.findings import COMMANDS, findings_of
 from garkcli.glossary.key import KINDS, Key, keys_of
-from garkcli.glossary.registry import by_word
+from garkcli.glossary.registry import by_word, plain
 from garkcli.glossary.term import Term
 
 
@@ -217,6 +218,17 @@ def fault_meaning(code: str) -> Meaning:
         cure=kind.cure,
         source="docs/bad-input.md",
     )
+
+
+def field_meanings(word: str) -> list[Meaning]:
+    """What the fields of JSON reports of a name hold: one meaning for each place that differs."""
+    wanted = plain(word)
+    found = []
+    for name, text in field_entries().items():
+        if wanted in {plain(name), plain(name.rpartition(".")[2])}:
+            kind, page = "field of JSON reports", "docs/json-fields.md"
+            found.append(Meaning(kind, name, text, source=page))
+    return found
 
 
 def sentence(text: str) -> str:

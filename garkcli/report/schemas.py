@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import Any
 
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.report.field_texts import told
 
 _TABLEAU = "garkcli.report.tableau_json:tableau_report_schema"
 REPORTS = {
@@ -64,4 +65,4 @@ def report_schema(command: str) -> dict[str, Any]:
         )
     module, function = REPORTS[command].split(":")
     schema: dict[str, Any] = getattr(import_module(module), function)()
-    return schema
+    return told(schema, command)

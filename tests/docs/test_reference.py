@@ -10,10 +10,12 @@ from garkcli.bridges.audit import CODES
 from garkcli.check.findings import KINDS
 from garkcli.glossary.findings import findings_of
 from garkcli.glossary.key import KINDS as FILES
+from garkcli.report.field_texts import fields_table
 from garkcli.report.reference import keys_table
 from tests.cli.harness import ROOT
 
 BEGIN, END = "<!-- keys -->\n", "<!-- end of keys -->"
+FIELDS = "<!-- fields -->\n"
 UPDATE = "GARK_UPDATE_SNAPSHOTS"
 
 
@@ -33,6 +35,19 @@ def test_the_keys_of_a_page_are_those_of_the_program(kind: str) -> None:
         path.write_text(whole, encoding="utf-8")
         return
     assert found == wanted
+
+
+def test_the_list_of_fields_is_that_of_the_program() -> None:
+    """docs/json-fields.md has every field of every report with what it holds."""
+    path = ROOT / "docs" / "json-fields.md"
+    head, begin, _ = path.read_text(encoding="utf-8").partition(FIELDS)
+    assert begin
+    wanted = f"{head}{FIELDS}\n{fields_table()}"
+    if os.environ.get(UPDATE):
+        path.write_text(wanted, encoding="utf-8")
+    assert path.read_text(encoding="utf-8") == wanted
+    for row in fields_table().splitlines():
+        assert row.replace("\\|", "").count("|") == 4, row
 
 
 def test_every_row_of_keys_has_three_cells() -> None:

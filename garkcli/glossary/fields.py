@@ -1,0 +1,43 @@
+"""What the fields of JSON reports hold, as data/fields.toml has it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+
+from garkcli.glossary.data import read
+
+ORDERS = (
+    *("order", "conjugate_order", "pair_order", "nonautonomous_order"),
+    *("embedded_order", "embedded_nonautonomous_order", "dense_order"),
+    *("stage_order", "symplectic_order", "energy_order", "effective_order"),
+    "exact_order",
+)
+"""The fields with an order, beside which others say how sure it is."""
+
+
+@lru_cache(maxsize=1)
+def field_entries() -> Mapping[str, str]:
+    """What each field holds, by its name or by that of the one above and its own."""
+    entries: dict[str, str] = read("fields")
+    endings = {x: text for x, text in entries.items() if x.startswith("_")}
+    found = {x: text for x, text in entries.items() if x not in endings}
+    for order in ORDERS:
+        found |= {order + ending: text for ending, text in endings.items()}
+    return found
+
+
+def field_text(path: Sequence[str]) -> str:
+    """What a field holds; empty where there is no entry.
+
+    Args:
+        path: the report, the fields above, its name.
+
+    >>> field_text(("diff", "first"))
+    'The first of both methods.'
+    >>> field_text(("diff", "orders", "first"))
+    'What the first of both methods has.'
+    """
+    entries = field_entries()
+    within = ".".join(path[-2:])
+    return entries.get(within) or entries.get(path[-1], "")

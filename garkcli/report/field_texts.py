@@ -1,0 +1,97 @@
+"""The JSON Schemas of reports with what each field holds, and the table of all fields."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from typing import Any
+
+from garkcli.glossary.fields import field_text
+from garkcli.glossary.key import keys_of
+from garkcli.page.schema import Schema
+
+
+def told(schema: Schema, report: str) -> Schema:
+    """A schema of a report in which each field says what it holds."""
+    found: Schema = _walked(schema, (report,))
+    return found
+
+
+def _walked(node: Any, path: tuple[str, ...]) -> Any:
+    if isinstance(node, list):
+        return [_walked(part, path) for part in node]
+    if not isinstance(node, dict):
+        return node
+    found = {}
+    for word, part in node.items():
+        if word == "properties":
+            found[word] = {
+                name: _field(value, (*path, name))
+                for name, value in part.items()
+            }
+        else:
+            found[word] = _walked(part, path)
+    return found
+
+
+def _field(schema: Any, path: tuple[str, ...]) -> Any:
+    """What a field may be, and what it holds; what was said of its numbers stays."""
+    inner = _walked(schema, path)
+    text = text_of(path)
+    if not (text and isinstance(inner, dict)):
+        return inner
+    number = inner.get("description", "")
+    return {**inner, "description": f"{text} {number}".rstrip()}
+
+
+def text_of(path: tuple[str, ...]) -> str:
+    """What a field holds: by its entry, or as the claim, the column or the key that it is."""
+    return field_text(path) or _elsewhere().get(path[-1], "")
+
+
+@lru_cache(maxsize=1)
+def _elsewhere() -> Mapping[str, str]:
+    """What is said of names in other places: claims, columns of sweeps, parts of references."""
+    from garkcli.properties.definitions import every_definition
+
+    found = {}
+    for kind, above in (("method", "reference."), ("sweep", "where.")):
+        for path, key in keys_of(kind).items():
+            if path.startswith(above):
+                name = path.removeprefix(above)
+                found[name] = found[name.replace("-", "_")] = key.text
+    for claim in every_definition():
+        found[claim.key] = found[claim.key.replace("-", "_")] = claim.text
+    return found
+
+
+def fields_table() -> str:
+    """Every field of every report as a table in Markdown: its name, its reports, what it holds."""
+    from garkcli.report.schemas import REPORTS, report_schema
+
+    reports: dict[tuple[str, str], dict[str, None]] = {}
+    for report in REPORTS:
+        for path in dict.fromkeys(fields_of(report_schema(report), (report,))):
+            row = (path[-1], text_of(path))
+            reports.setdefault(row, {})[report] = None
+    lines = ["| field | in the reports | what it holds |", "|---|---|---|"]
+    for (name, text), named in sorted(reports.items()):
+        told_text = text.replace("|", "\\|").replace("*", "\\*")
+        lines.append(f"| `{name}` | {', '.join(named)} | {told_text} |")
+    return "\n".join(lines) + "\n"
+
+
+def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    """The path of each field of a schema."""
+    if isinstance(node, list):
+        for part in node:
+            yield from fields_of(part, path)
+    if not isinstance(node, dict):
+        return
+    for word, part in node.items():
+        if word == "properties":
+            for name, value in part.items():
+                yield (*path, name)
+                yield from fields_of(value, (*path, name))
+        else:
+            yield from fields_of(part, path)

@@ -1,0 +1,71 @@
+"""Every field of every JSON report says what it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from garkcli.check.meanings import meanings
+from garkcli.glossary.data import read
+from garkcli.glossary.fields import ORDERS, field_entries
+from garkcli.report.field_texts import fields_of, text_of
+from garkcli.report.schemas import REPORTS, report_schema
+
+
+@pytest.fixture(scope="module")
+def paths() -> set[tuple[str, ...]]:
+    """The path of every field of every report."""
+    return {
+        path
+        for report in REPORTS
+        for path in fields_of(report_schema(report), (report,))
+    }
+
+
+def _described(node: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(node, list):
+        for part in node:
+            yield from _described(part)
+    if isinstance(node, dict):
+        for word, part in node.items():
+            if word == "properties":
+                yield from part.items()
+                yield from _described(list(part.values()))
+            else:
+                yield from _described(part)
+
+
+def test_every_field_has_a_text(paths: set[tuple[str, ...]]) -> None:
+    """No report has a field of which nothing is said."""
+    assert len(paths) > 1500
+    assert {path for path in paths if not text_of(path)} == set()
+
+
+def test_no_entry_is_of_no_field(paths: set[tuple[str, ...]]) -> None:
+    """Each entry is of a field that a report has."""
+    names = {path[-1] for path in paths}
+    names |= {".".join(path[-2:]) for path in paths}
+    entries = {x for x in read("fields") if not x.startswith("_")}
+    assert entries - names == set()
+    assert set(ORDERS) <= names
+
+
+def test_schemas_tell_their_fields() -> None:
+    """The schema that is printed has the texts, and keeps what it says of numbers."""
+    schema = report_schema("check")
+    for name, field in _described(schema):
+        assert field["description"].strip(), name
+    file = schema["properties"]["files"]["items"]
+    shown = [x for x in _described(file) if x[0] == "residual"]
+    assert any("An exact number" in x["description"] for _, x in shown)
+
+
+def test_every_field_is_a_word() -> None:
+    """What gark explain tells: each field, as a term, a claim or a key, or by its entry."""
+    for name, text in field_entries().items():
+        assert text.endswith("."), name
+        assert meanings(name), name
+    (found,) = meanings("simplifying")
+    assert (found.kind, found.name) == ("field of JSON reports", "simplifying")
