@@ -15,6 +15,7 @@ from garkcli.webpage.pictures.drawing import Frame, Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import (
     common_exponent,
+    in_words,
     linear_marks,
     power_of_ten,
 )
@@ -140,8 +141,12 @@ _WORDS = {
 }
 
 
+def _largest(history: InvariantHistory) -> str:
+    return in_words(measured(history.max_error, history.round_off, 2))
+
+
 def _description(run: LongRun, history: InvariantHistory) -> str:
-    largest = measured(history.max_error, history.round_off, 2)
+    largest = _largest(history)
     return (
         f"Energy error against time, from 0 to {run.end:g}: at most {largest}; "
         f"{_WORDS[history.verdict]}."
@@ -152,7 +157,7 @@ def _note(subject: Subject, run: LongRun, history: InvariantHistory) -> str:
     which = (
         "the symplectic pair" if subject.is_stepped_as_pair else "the method"
     )
-    largest = measured(history.max_error, history.round_off, 2)
+    largest = _largest(history)
     return (
         f"Numerical: {which} on Kepler's problem, {run.steps} steps of "
         f"{run.step}; the largest error is {largest}, and {_WORDS[history.verdict]}."

@@ -82,6 +82,18 @@ def power_of_ten(exponent: int) -> str:
     return f"10{raised}"
 
 
+def in_words(measured: str) -> str:
+    """A measured number as people write it, on one line; words stay as they are.
+
+    >>> in_words("5.9e-06"), in_words("below round-off")
+    ('5.9·10⁻⁶', 'below round-off')
+    """
+    mantissa, mark, exponent = measured.partition("e")
+    if not mark or not mantissa.replace(".", "").isdigit():
+        return measured
+    return f"{mantissa}·{power_of_ten(int(exponent))}"
+
+
 def common_exponent(numbers: Sequence[float]) -> int:
     """The decimal exponent of the largest of some numbers; 0 where all are of usual size.
 
