@@ -89,10 +89,10 @@ def structure_lines(analysis: Analysis, paint: Paint) -> list[str]:
     near = ""
     if analysis.tolerance is not None:
         near = f" within {decimal(analysis.tolerance)}"
-    text = _consistent(analysis.inconsistent, names, "A", near, paint)
+    text = consistent_text(analysis.inconsistent, names, "A", near, paint)
     lines = labelled("consistent", [text])
     if analysis.conjugate is not None:
-        text = _consistent(
+        text = consistent_text(
             analysis.conjugate_inconsistent, names, "Â", near, paint
         )
         lines += labelled("conjugate nodes", [text])
@@ -103,13 +103,22 @@ def structure_lines(analysis: Analysis, paint: Paint) -> list[str]:
     return lines + labelled("symplectic", [symplectic])
 
 
-def _consistent(
+def consistent_text(
     wrong: Sequence[tuple[int, int]],
     names: Sequence[str],
     letter: str,
     near: str,
     paint: Paint,
 ) -> str:
+    """Whether the nodes are the row sums, and of which blocks they are not.
+
+    Args:
+        wrong: these blocks, counted from 0.
+        names: of the colours.
+        letter: of the matrices.
+        near: within which tolerance; empty for exactly.
+        paint: colour or none.
+    """
     if not wrong:
         yes = paint("good", "yes" + near)
         return f"{yes}, {letter}{{l,m}}𝟙 = c{{l}} for every block"

@@ -10,17 +10,18 @@ from base64 import b64encode
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
-from html import escape
+from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
 import pytest
+from hypothesis import given, settings, strategies
 
 import garkcli
 from garkcli.check.check_file import check_file
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, printable
 from garkcli.order.listing import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.keys import KEYS
@@ -28,10 +29,10 @@ from garkcli.report.check_json import as_data
 from garkcli.webpage import page as page_module
 from garkcli.webpage import reported as reported_module
 from garkcli.webpage.calls import report_page
-from garkcli.webpage.mathml import typeset
+from garkcli.webpage.page import render
 from garkcli.webpage.pictures import Picture
 from garkcli.webpage.registry import SECTIONS
-from garkcli.webpage.reported import reported
+from garkcli.webpage.reported import Reported, reported
 from garkcli.webpage.sections import pictures, properties, stability
 from tests.cli.harness import ROOT, gark
 from tests.webpage.reading import (
@@ -446,10 +447,42 @@ def test_texts_of_strangers_are_texts(tmp_path: Path) -> None:
     assert str(file) in said
 
 
-def test_formulas_are_no_markup() -> None:
-    """What is no formula is shown as text: the converter would hand it through."""
-    hostile = r"\frac{1}{2}<script>alert(1)</script>"
-    assert typeset(hostile) == f"<math><mtext>{escape(hostile)}</mtext></math>"
+class Tags(HTMLParser):
+    """The elements of a page by their names, and its title."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.title = ""
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:  # noqa: ARG002 -- given by the class above
+        self.tags.append(tag)
+
+    def handle_data(self, data: str) -> None:
+        if self.tags and self.tags[-1] == "title" and not self.title:
+            self.title = data
+
+    def of(self, name: str) -> Tags:
+        """Of the page of a method that is called so."""
+        known = found_once()
+        outcome = replace(known.outcome, name=name)
+        self.feed(render([replace(known, outcome=outcome)]))
+        return self
+
+
+@cache
+def found_once() -> Reported:
+    """What is found of a small method."""
+    return reported(garkcli.load("euler").conjugate, 1, has_pictures=False)
+
+
+@settings(max_examples=10, deadline=None)
+@given(strategies.text(min_size=1, max_size=40))
+def test_any_name_is_text(name: str) -> None:
+    """Whatever a method is called, the page has the same elements, and its title is the name."""
+    found = Tags().of(name)
+    assert found.tags == Tags().of("plain").tags
+    assert found.title == f"{printable(name)} – gark report"
 
 
 def test_signs_that_cannot_be_seen_are_written_out() -> None:

@@ -7,9 +7,12 @@ from collections.abc import Iterator
 from garkcli.check.analysis import Analysis
 from garkcli.check.every_value import EveryValue
 from garkcli.check.every_words import fact_text
+from garkcli.exact.display import decimal
+from garkcli.page.paint import Paint
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import every_property
+from garkcli.report.check_conditions import consistent_text
 from garkcli.report.check_properties import property_lines, verdict_text
 from garkcli.report.every_text import property_text
 from garkcli.webpage.reported import Reported
@@ -47,10 +50,15 @@ def _keys(method: Reported) -> tuple[list[str], list[str]]:
 
 def _lines(analysis: Analysis) -> list[tuple[str, str]]:
     """What is worth a word, as ``gark check`` tells it, symplecticity and row sums before it."""
-    symplectic = "yes" if analysis.symplectic else "no"
-    consistent = "no"
-    if not analysis.inconsistent:
-        consistent = "yes, the nodes are the row sums of every block"
+    symplectic = "no"
+    names = [colour.name for colour in analysis.tableau.colours]
+    near = ""
+    if analysis.tolerance is not None:
+        near = f" within {decimal(analysis.tolerance)}"
+    wrong = analysis.inconsistent
+    consistent = consistent_text(wrong, names, "A", near, Paint(False))
+    if analysis.symplectic:
+        symplectic = f"yes{near}"
     has_further = analysis.embedded is not None or analysis.dense is not None
     return [
         ("symplectic", symplectic),
