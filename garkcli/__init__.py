@@ -2,9 +2,9 @@
 
 A method: load, loads, from_arrays, diagonal_method, gark, method_of; catalogue["rk4"]; from other
     sources import_methods, audit. MethodFile, GarkMethod, Tableau.
-What is true of it: find_order, find_orders, find_property, find_stability, is_symplectic, analyse,
-    simplifying, claims_of; of a file check_file; in tests assert_order; proved by prove_method,
-    certificate.
+What is true of it: find_order, find_orders, find_property, find_stability, two_springs,
+    is_symplectic, analyse, simplifying, claims_of; of a file check_file; in tests assert_order;
+    proved by prove_method, certificate.
 Methods from it: conjugate, pair, symplectic_pair, reduced, convert; side by side: compare.
 Trees: Tree, parse_tree, format_tree, all_trees, count_trees; conditions, all_conditions,
     elementary_weight.
@@ -12,9 +12,9 @@ On problems: problem, hamiltonian, load_problem, loads_problem, Oscillator; conv
     symplecticity_defects; bind, integrate, trajectory.
 The modified equation: backward_analysis, modified_formula, modified_run.
 Design: load_family, loads_family, find_parameters, minimise, search_methods,
-    found_methods; run_sweep.
-To others: export, cite, report_page, with_claims, method_file_schema, problem_file_schema,
-    sweep_schema, report_schema; what there is: names, explain.
+    found_methods, stable_values; run_sweep.
+To others: render, plot, export, cite, report_page, with_claims, method_file_schema,
+    problem_file_schema, sweep_schema, report_schema; what there is: names, explain.
 Errors: GarkError, and of it MethodFileError, HasFreeParameters, MethodError, ZeroWeight,
     ExpressionError, TreeError, UsageProblem.
 
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
         claims_of,
         find_stability,
         prove_method,
+        two_springs,
         with_claims,
     )
     from garkcli.api.construction import (
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
         found_methods,
         minimise,
         search_methods,
+        stable_values,
     )
     from garkcli.api.files import (
         check_file,
@@ -121,6 +123,7 @@ if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.problem_schema import problem_file_schema
     from garkcli.methodfile.schema import method_file_schema
+    from garkcli.plots.calls import plot
     from garkcli.problems.oscillator import Oscillator
     from garkcli.report.calls import (
         certificate,
@@ -128,6 +131,7 @@ if TYPE_CHECKING:
         names,
         run_sweep,
     )
+    from garkcli.report.rendering import render
     from garkcli.report.schemas import report_schema
     from garkcli.sweep.load import sweep_schema
     from garkcli.tableau.garkmethod import GarkMethod
@@ -205,6 +209,10 @@ _HOMES = {
     "run_sweep": "report.calls",
     "search_methods": "api.design",
     "simplifying": "api.methods",
+    "stable_values": "api.design",
+    "two_springs": "api.calls",
+    "plot": "plots.calls",
+    "render": "report.rendering",
     "sweep_schema": "sweep.load",
     "symplectic_pair": "api.methods",
     "symplecticity_defects": "api.runs",
@@ -285,19 +293,23 @@ __all__ = [
     "names",
     "pair",
     "parse_tree",
+    "plot",
     "problem",
     "problem_file_schema",
     "prove_method",
     "reduced",
+    "render",
     "report_page",
     "report_schema",
     "run_sweep",
     "search_methods",
     "simplifying",
+    "stable_values",
     "sweep_schema",
     "symplectic_pair",
     "symplecticity_defects",
     "trajectory",
+    "two_springs",
     "with_claims",
 ]
 

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+
+from flint import fmpq
 
 from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
 from garkcli.api.methods import analyse
-from garkcli.api.numbers import Number, Whole, whole
+from garkcli.api.numbers import (
+    Number,
+    Whole,
+    colour_of,
+    rational,
+    rationals,
+    whole,
+)
 from garkcli.check import proof
 from garkcli.check.proof import MethodProof
 from garkcli.check.true_claims import true_claims, usual_keys
@@ -14,10 +23,16 @@ from garkcli.errors import MethodError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.claims_writer import write_claims
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.stability.slow_interval import SlowInterval, slow_interval
 from garkcli.stability.summary import (
     Stability,
     stability,
     stability_of_rounded,
+)
+from garkcli.stability.two_frequencies import (
+    TwoFrequencies,
+    springs,
+    two_frequencies,
 )
 
 
@@ -67,7 +82,9 @@ def with_claims(method: AnyMethod, keys: Iterable[str] = ()) -> str:
 
 
 def find_stability(
-    method: AnyMethod, tolerance: Number | None = None
+    method: AnyMethod,
+    tolerance: Number | None = None,
+    ratios: Sequence[Number] = (),
 ) -> Stability:
     """Everything that ``gark stability`` decides of a method.
 
@@ -75,15 +92,79 @@ def find_stability(
         method: whatever ``method_of`` takes.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
+        ratios: r_2/r_1 of further additive SSP radii of a method of two colours with exact
+            coefficients.
+
+    Raises:
+        MethodError: there are ratios for another method, or one is not positive.
 
     >>> found = find_stability("gauss-3")
     >>> found, found.linear[0].a_stable
     (<Stability A-stable, not L-stable>, True)
     """
     method, near = with_tolerance(method, tolerance)
+    further = rationals(ratios, "ratios")
+    if further and (near is not None or method.tableau.size != 2):
+        raise MethodError(
+            "ratios are for exact methods of two colours", "leave them out"
+        )
+    if any(ratio <= 0 for ratio in further):
+        raise MethodError("ratios are positive", "the axes are always there")
     if near is None:
-        return stability(method.tableau)
+        return stability(method.tableau, ratios=further)
     return stability_of_rounded(method.tableau, near)
+
+
+def two_springs(
+    method: AnyMethod,
+    slow: Number | tuple[Number, Number],
+    fast: Whole = 1,
+) -> TwoFrequencies | SlowInterval:
+    """The step sizes at which a method is stable on a fast and a slow spring:
+    ``gark stability --slow --fast``.
+
+    Args:
+        method: whatever ``method_of`` takes; its coefficients are exact.
+        slow: a = (hω_s)², at least 0; or the ends of an interval of them.
+        fast: the colour of the fast spring, counted from 1.
+
+    Returns:
+        What is found for one slow frequency, or for all of the interval: ``stable`` are the
+        x = (hω_f)² with all powers of the step matrix bounded.
+
+    Raises:
+        MethodError: the coefficients are rounded, a number is negative, or there is no such colour.
+        UsageProblem: the method has no two terms for the springs.
+
+    >>> two_springs("collocation", "1/4")
+    <TwoFrequencies slow 1/4: stable in 2 intervals>
+    """
+    method = method_of(method)
+    if method.tolerance is not None:
+        raise MethodError(
+            "with rounded coefficients nothing is decided about two springs",
+            "give exact coefficients, without tolerance",
+        )
+    tableau = method.tableau
+    colour = colour_of(fast, "fast", tableau.size)
+    split = springs(tableau, tableau.colours[colour].term)
+    if not isinstance(slow, tuple):
+        return two_frequencies(tableau, split, _square(slow))
+    low, high = map(_square, slow)
+    if low >= high:
+        raise MethodError(
+            "slow: the ends are not in ascending order", "give (low, high)"
+        )
+    return slow_interval(tableau, split, low, high)
+
+
+def _square(given: Number) -> fmpq:
+    number = rational(given, "slow")
+    if number < 0:
+        raise MethodError(
+            f"slow: {number}: a square is not negative", "give 0 or more"
+        )
+    return number
 
 
 def prove_method(

@@ -7,8 +7,16 @@ from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from garkcli.api.files import load_family, loads
-from garkcli.api.numbers import Whole, whole
+from garkcli.api.numbers import (
+    Number,
+    Whole,
+    colour_of,
+    rational,
+    rational_or_none,
+    whole,
+)
 from garkcli.design import design as designing
+from garkcli.design import stable_values as stabilities
 from garkcli.design.chosen import accepted_methods, values_text
 from garkcli.design.design import CLAIMS, Design, Whose
 from garkcli.design.minimise import minimise as minimising
@@ -17,6 +25,8 @@ from garkcli.design.minimise.result import Minimum
 from garkcli.design.search import run as searching
 from garkcli.design.search.run import Result
 from garkcli.design.search.told import TOLERANCE
+from garkcli.design.springs_kind import TwoSprings
+from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile, with_values
@@ -24,6 +34,8 @@ from garkcli.tableau.family import Family
 
 AnyFamily: TypeAlias = "Family | str | os.PathLike[str]"
 """What ``load_family`` and ``loads_family`` return, or the path of a file."""
+
+STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable")
 
 
 def family_of(given: AnyFamily) -> Family:
@@ -135,6 +147,52 @@ def search_methods(
         whole(most, "most", 1),
         whose,
     )
+
+
+def stable_values(
+    family: AnyFamily,
+    wanted: Wanted,
+    whose: Whose = "method",
+    slow: Number | None = None,
+    fast: Whole = 1,
+    up_to: Number | None = None,
+) -> StableValues:
+    r"""The values of the one parameter of a family that make it stable: ``gark design --a-stable``.
+
+    Args:
+        family: as ``find_parameters`` takes it; with one free parameter.
+        wanted: ``"a-stable"``, ``"l-stable"`` or ``"p-stable"``.
+        whose: as in ``find_parameters``.
+        slow: of P-stability on two springs, (hω_s)²; None for the oscillator.
+        fast: the colour of the fast spring, counted from 1.
+        up_to: a bound on (hω_f)²; None for none.
+
+    Raises:
+        MethodError: there is no such colour.
+        UsageProblem: the stability has no meaning for the method, there are several parameters, or
+            coefficients are irrational.
+        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+
+    >>> from garkcli import loads_family
+    >>> theta = loads_family("parameters: {t: free}\nA: [[0, 0], [1 - t, t]]\nb: [1 - t, t]")
+    >>> found = stable_values(theta, "a-stable")
+    >>> found, [(part.start, part.end) for part in found.found]
+    (<StableValues a-stable: 1 interval>, [(<RealRoot 1/2>, None)])
+    """
+    if wanted not in STABILITIES:
+        message = f"no stability {wanted!r}"
+        raise UsageProblem(message, did_you_mean(wanted, STABILITIES))
+    read = family_of(family)
+    springs = None
+    if slow is not None:
+        tableau = designing.TABLEAUS[whose](read.tableau)
+        colour = colour_of(fast, "fast", tableau.size)
+        springs = TwoSprings(
+            rational(slow, "slow"),
+            tableau.colours[colour].term,
+            rational_or_none(up_to, "up_to"),
+        )
+    return stabilities.stable_values(read, wanted, whose, springs)
 
 
 def found_methods(

@@ -31,7 +31,7 @@ from garkcli.design.stability_kinds import (
     Members,
     PStability,
 )
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.root_number import number_of
@@ -89,6 +89,10 @@ class StableValues:
         if len(self.found) != 1:
             return False
         return self.found[0].start is None and self.found[0].end is None
+
+    def __repr__(self) -> str:
+        parts = counted(len(self.found), "interval")
+        return f"<StableValues {self.wanted}: {parts}>"
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:

@@ -31,10 +31,19 @@ def check_suffix(path: Path) -> None:
         message = f"no figure can be saved to {path.name!r}, {kind}"
         endings = ", ".join(SUFFIXES)
         raise UsageProblem(message, f"end it in {endings}")
+    need_matplotlib()
+    refuse_unwritable(str(path))
+
+
+def need_matplotlib() -> None:
+    """Refuse to draw without what draws.
+
+    Raises:
+        UsageProblem: there is no matplotlib.
+    """
     if find_spec("matplotlib") is None:
         cure = "install garkcli[plot]; text and JSON do without"
         raise UsageProblem("a figure needs matplotlib", cure)
-    refuse_unwritable(str(path))
 
 
 def save(figure: Figure, path: Path) -> None:

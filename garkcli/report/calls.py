@@ -69,7 +69,11 @@ def certificate(method: AnyMethod) -> str:
 
 
 def run_sweep(
-    spec: AnyPath, rows: AnyPath, is_resumed: bool = False, jobs: Whole = 1
+    spec: AnyPath,
+    rows: AnyPath,
+    is_resumed: bool = False,
+    jobs: Whole = 1,
+    scheduler: str = "",
 ) -> SweepReport:
     r"""Run a sweep, or what is left of it: ``gark sweep``.
 
@@ -78,6 +82,7 @@ def run_sweep(
         rows: the file that the rows are written to, one by one.
         is_resumed: whether that file may have rows, which are kept.
         jobs: processes to work in.
+        scheduler: the address of a Dask scheduler, to work there instead.
 
     Raises:
         MethodFileError: every fault of the spec.
@@ -95,7 +100,7 @@ def run_sweep(
     source = os.fspath(spec)
     plan = load_plan(source)
     with RowStore(os.fspath(rows), is_resumed) as store:
-        for _ in sweep(plan, store, whole(jobs, "jobs", 1)):
+        for _ in sweep(plan, store, whole(jobs, "jobs", 1), scheduler):
             pass
         return SweepReport(source, plan, store.rows, top=10)
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, where
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
@@ -72,6 +72,10 @@ class SlowInterval:
         if self.open_points:
             return None
         return True
+
+    def __repr__(self) -> str:
+        parts = counted(len(self.stable), "interval")
+        return f"<SlowInterval {self.low} to {self.high}: stable in {parts}>"
 
 
 def slow_interval(

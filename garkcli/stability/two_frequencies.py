@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
@@ -69,6 +69,10 @@ class TwoFrequencies:
     determinant: Ratio
     discriminant: Polynomial
     stable: tuple[Interval, ...]
+
+    def __repr__(self) -> str:
+        parts = counted(len(self.stable), "interval")
+        return f"<TwoFrequencies slow {self.slow}: stable in {parts}>"
 
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
+import click
 import pytest
 
 import garkcli
 from garkcli.cli.main import COMMANDS
+from garkcli.cli.main import gark as group
 from garkcli.errors import MethodError
 from tests.cli.harness import gark
 
@@ -41,6 +44,57 @@ def test_every_command_has_its_calls() -> None:
         for name in public:
             value = getattr(garkcli, name)
             assert callable(value) or name == "catalogue"
+
+
+def options() -> Iterator[tuple[str, str]]:
+    """Every command with each of its options."""
+    context = click.Context(group)
+    for name in COMMANDS:
+        command = group.get_command(context, name)
+        assert command is not None
+        for option in command.params:
+            if isinstance(option, click.Option):
+                yield name, "/".join(option.opts)
+
+
+def rows() -> list[tuple[set[str], set[str], str]]:
+    """The table of options: options, commands, and what they are in Python."""
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    part = page.partition("## Options as arguments")[2].partition("\n## ")[0]
+    found = []
+    for line in part.splitlines():
+        cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
+        if len(cells) == 3 and not cells[0].startswith(("option", "---")):
+            told = set(re.findall(r"`(-[\w-]+)`", cells[0]))
+            if "filters" in cells[0]:
+                told |= {
+                    x
+                    for of, y in options()
+                    if of == "list"
+                    for x in y.split("/")
+                }
+            found.append((told, set(cells[1].split(", ")), cells[2]))
+    return found
+
+
+def test_every_option_is_an_argument() -> None:
+    """The page says of each option of each command what it is in Python, and names no other."""
+    table = rows()
+    known = set(options())
+    for command, option in known:
+        assert any(
+            told & {*option.split("/")} and of & {command, "every command"}
+            for told, of, _ in table
+        ), f"gark {command} {option}"
+    for told, of, python in table:
+        named = of - {"every command"}
+        assert named <= set(COMMANDS)
+        every = {
+            x for of, y in known if of in (named or {of}) for x in y.split("/")
+        }
+        assert told <= every, told - every
+        for call in re.findall(r"`(\w+)\(", python):
+            assert call in garkcli.__all__, call
 
 
 def shown(*arguments: str) -> str:
