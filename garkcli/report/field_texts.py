@@ -1,4 +1,4 @@
-"""The JSON Schemas of reports with what each field holds, and the table of all fields."""
+"""The JSON Schemas of reports with what each field holds."""
 
 from __future__ import annotations
 
@@ -63,22 +63,6 @@ def _elsewhere() -> Mapping[str, str]:
     for claim in every_definition():
         found[claim.key] = found[claim.key.replace("-", "_")] = claim.text
     return found
-
-
-def fields_table() -> str:
-    """Every field of every report as a table in Markdown: its name, its reports, what it holds."""
-    from garkcli.report.schemas import REPORTS, report_schema
-
-    reports: dict[tuple[str, str], dict[str, None]] = {}
-    for report in REPORTS:
-        for path in dict.fromkeys(fields_of(report_schema(report), (report,))):
-            row = (path[-1], text_of(path))
-            reports.setdefault(row, {})[report] = None
-    lines = ["| field | in the reports | what it holds |", "|---|---|---|"]
-    for (name, text), named in sorted(reports.items()):
-        told_text = text.replace("|", "\\|").replace("*", "\\*")
-        lines.append(f"| `{name}` | {', '.join(named)} | {told_text} |")
-    return "\n".join(lines) + "\n"
 
 
 def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[str, ...]]:

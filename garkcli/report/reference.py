@@ -1,4 +1,4 @@
-"""The pages of reference that are made from the entries of the glossary: errors, findings, keys."""
+"""The parts of pages that are made from the entries of the glossary."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from garkcli.glossary.faults import TOPICS, FaultKind, faults_of
 from garkcli.glossary.findings import findings_of
 from garkcli.glossary.key import Key, keys_of
+from garkcli.report.field_texts import fields_of, text_of
+from garkcli.report.schemas import REPORTS, report_schema
 
 
 def codes_page() -> str:
@@ -59,6 +61,20 @@ def findings_table(command: str) -> str:
     for found in findings_of(command).values():
         row = (f"`{found.code}`", _cell(found.text), _cell(found.cure))
         lines.append(f"| {' | '.join(row)} |")
+    return "\n".join(lines) + "\n"
+
+
+def fields_table() -> str:
+    """Every field of every report as a table in Markdown: its name, its reports, what it holds."""
+    reports: dict[tuple[str, str], dict[str, None]] = {}
+    for report in REPORTS:
+        for path in dict.fromkeys(fields_of(report_schema(report), (report,))):
+            row = (path[-1], text_of(path))
+            reports.setdefault(row, {})[report] = None
+    lines = ["| field | in the reports | what it holds |", "|---|---|---|"]
+    for (name, text), named in sorted(reports.items()):
+        row_of = (f"`{name}`", ", ".join(named), _cell(text))
+        lines.append(f"| {' | '.join(row_of)} |")
     return "\n".join(lines) + "\n"
 
 

@@ -10,6 +10,7 @@ from jsonschema import Draft7Validator
 
 from garkcli.page.plaintext import plain_text
 from garkcli.report.modified_data import modified_report_schema
+from garkcli.report.schemas import report_schema
 from garkcli.trees.notation import parse_tree
 from tests.cli.harness import gark
 
@@ -58,7 +59,7 @@ def test_ascii_fits_80_columns() -> None:
 def test_json_is_of_its_schema(arguments: tuple[str, ...]) -> None:
     """Reports have the schema, a damaged one has not, and trees can be read."""
     report = json.loads(gark("modified", *arguments, "--format", "json").out)
-    schema = modified_report_schema()
+    schema = report_schema("modified")
     Draft7Validator.check_schema(schema)
     validator = Draft7Validator(schema)
     assert not list(validator.iter_errors(report))

@@ -10,8 +10,7 @@ from garkcli.bridges.audit import CODES
 from garkcli.check.findings import KINDS
 from garkcli.glossary.findings import findings_of
 from garkcli.glossary.key import KINDS as FILES
-from garkcli.report.field_texts import fields_table
-from garkcli.report.reference import keys_table
+from garkcli.report.reference import fields_table, keys_table
 from tests.cli.harness import ROOT
 
 BEGIN, END = "<!-- keys -->\n", "<!-- end of keys -->"
