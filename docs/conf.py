@@ -25,8 +25,6 @@ release = version = __version__
 extensions = ["myst_parser"]
 exclude_patterns = ["package-page.md"]  # the page of the package index
 html_theme = "furo"
-html_static_path = ["_static"]
-html_css_files = ["gark.css"]
 html_title = f"gark {__version__}"
 html_show_copyright = False
 html_copy_source = False
@@ -101,10 +99,23 @@ def scrollable(html: str) -> str:
     return html.replace("<pre>", '<pre tabindex="0">').replace(table, focused)
 
 
-def _make_scrollable(*event: Any) -> None:
+def breakable(html: str) -> str:
+    """Paths and names of fields may go on in another line of a narrow column.
+
+    Args:
+        html: the article of a page.
+    """
+
+    def with_breaks(code: re.Match[str]) -> str:
+        return re.sub(r"([/_])(?=\w)", r"\1<wbr>", code[0])
+
+    return re.sub(r'(?<=<span class="pre">)[^<]+', with_breaks, html)
+
+
+def _make_readable(*event: Any) -> None:
     *_, context, _ = event
     if "body" in context:
-        context["body"] = scrollable(context["body"])
+        context["body"] = scrollable(breakable(context["body"]))
 
 
 def setup(app: Sphinx) -> None:
@@ -114,4 +125,4 @@ def setup(app: Sphinx) -> None:
 
     app.add_directive("code-cell", CodeBlock)
     app.connect("source-read", _complete)
-    app.connect("html-page-context", _make_scrollable)
+    app.connect("html-page-context", _make_readable)

@@ -70,3 +70,11 @@ def test_links_have_titles_on_the_site() -> None:
     assert made(text, DOCS) == shown
     above = made("[tour.md](../tour.md)", DOCS / "contributing")
     assert above == "[A tour](../tour.md)"
+
+
+def test_long_names_have_places_to_break() -> None:
+    """After a slash and a low line within code, and nowhere else."""
+    made = runpy.run_path(str(DOCS / "conf.py"))["breakable"]
+    html = '<a href="a_b/c">a_b</a><span class="pre">a/b_c/</span>'
+    shown = '<a href="a_b/c">a_b</a><span class="pre">a/<wbr>b_<wbr>c/</span>'
+    assert made(html) == shown
