@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.harness import gark
+from tests.portable.venvs import EXTRAS, MSOLVE
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "garkcli"
@@ -66,6 +67,16 @@ def test_every_file_can_be_unpacked_everywhere() -> None:
     assert [part for part in parts if RESERVED.fullmatch(part)] == []
     assert [name for name in names if len(name) > LONGEST] == []
     assert [name for name in names if not name.isascii()] == []
+
+
+def test_the_page_names_every_extra() -> None:
+    """Those that users may want are in the table on installing, and no others."""
+    text = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
+    section = text.split("## Installing\n")[1].split("\n## ")[0]
+    table = section.split("| extra |")[1]
+    assert sorted(re.findall(r"^\| `(\w+)`", table, re.M)) == sorted(
+        [*EXTRAS, MSOLVE]
+    )
 
 
 @pytest.mark.parametrize("command", ["stability", "converge", "energy"])
