@@ -67,15 +67,20 @@ def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
 
 def _all_pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
     inside = (padded <= 0).astype(int)
-    below, above = inside[:-1], inside[1:]
-    kinds = below[:, :-1] + 2 * below[:, 1:]
-    kinds += 4 * above[:, 1:] + 8 * above[:, :-1]
-    passed = np.argwhere((kinds > 0) & (kinds < 15))
-    for i, j in passed.tolist():
+    below = inside[:-1]
+    above = inside[1:]
+    kinds = below[:, :-1]
+    kinds = kinds + 2 * below[:, 1:]
+    kinds = kinds + 4 * above[:, 1:]
+    kinds = kinds + 8 * above[:, :-1]
+    is_passed = (kinds > 0) & (kinds < 15)
+    for i, j in np.argwhere(is_passed).tolist():
         kind = int(kinds[i, j])
         corners = padded[i : i + 2, j : j + 2]
         for piece in _pieces_of(kind, corners):
-            yield _edge(i, j, piece[0]), _edge(i, j, piece[1])
+            start = _edge(i, j, piece[0])
+            end = _edge(i, j, piece[1])
+            yield start, end
 
 
 def _pieces_of(kind: int, corners: Floats) -> tuple[str, ...]:
@@ -98,35 +103,46 @@ def _edge(i: int, j: int, side: str) -> _Edge:
 def _crossing(padded: Floats, edge: _Edge) -> Point:
     """Where the outline crosses an edge, in the grid without its surroundings."""
     i, j, is_upward = edge
+    next_node = (i + 1, j) if is_upward else (i, j + 1)
     here = float(padded[i, j])
-    there = float(padded[i + 1, j] if is_upward else padded[i, j + 1])
+    there = float(padded[next_node])
     part = here / (here - there)
-    x, y = j - 1.0, i - 1.0
-    return (x, y + part) if is_upward else (x + part, y)
+    x = j - 1.0
+    y = i - 1.0
+    if is_upward:
+        return x, y + part
+    return x + part, y
 
 
 def _thinned(points: list[Point], tolerance: float) -> list[Point]:
     """Ramer, Douglas, Peucker: the points without which a line would be too far off."""
-    keeps = {0, len(points) - 1}
-    spans = [(0, len(points) - 1)]
+    end = len(points) - 1
+    keeps = {0, end}
+    spans = [(0, end)]
     while spans:
         first, last = spans.pop()
-        between = range(first + 1, last)
-        if not between:
+        start = points[first]
+        stop = points[last]
+        between = points[first + 1 : last]
+        distances = [_distance(x, start, stop) for x in between]
+        largest = max(distances, default=0.0)
+        if largest <= tolerance:
             continue
-        line = points[first], points[last]
-        far = max(between, key=lambda k: _distance(points[k], *line))
-        if _distance(points[far], *line) > tolerance:
-            keeps.add(far)
-            spans += [(first, far), (far, last)]
+        far = first + 1 + distances.index(largest)
+        keeps.add(far)
+        spans.append((first, far))
+        spans.append((far, last))
     return [points[k] for k in sorted(keeps)]
 
 
 def _distance(point: Point, start: Point, end: Point) -> float:
     """From the line through both ends; from the end where they are one."""
-    x, y = point[0] - start[0], point[1] - start[1]
-    u, v = end[0] - start[0], end[1] - start[1]
+    x = point[0] - start[0]
+    y = point[1] - start[1]
+    u = end[0] - start[0]
+    v = end[1] - start[1]
     length = hypot(u, v)
     if length == 0:
         return hypot(x, y)
-    return abs(x * v - y * u) / length
+    area = x * v - y * u
+    return abs(area) / length

@@ -15,7 +15,8 @@ from garkcli.plots.slopes import Curve, place_line
 from garkcli.report.convergence import order_text, predicted
 from garkcli.report.convergence_data import problem_name
 from garkcli.report.costs import curve
-from garkcli.webpage.pictures.drawing import Frame, Point
+from garkcli.webpage.pictures.drawing import Frame
+from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import Mark, decade_marks
 from garkcli.webpage.pictures.subject import Subject
@@ -89,13 +90,17 @@ def _curve(points: Iterable[tuple[Any, Any]], label: str) -> Curve | None:
 
 def _frame(curves: list[Curve]) -> Frame:
     """With a twentieth of its width, and of its height, around the curves."""
-    horizontal = _ends([x for drawn in curves for x in drawn.xs])
-    vertical = _ends([y for drawn in curves for y in drawn.ys])
-    return Frame.of(horizontal, vertical, _HEIGHT)
+    xs: list[float] = []
+    ys: list[float] = []
+    for drawn in curves:
+        xs += drawn.xs
+        ys += drawn.ys
+    return Frame.of(_ends(xs), _ends(ys), _HEIGHT)
 
 
 def _ends(numbers: list[float]) -> Point:
-    low, high = min(numbers), max(numbers)
+    low = min(numbers)
+    high = max(numbers)
     around = 0.05 * (high - low) or 0.5
     return low - around, high + around
 

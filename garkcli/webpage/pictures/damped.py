@@ -15,7 +15,8 @@ from garkcli.stability.damping import ImexPair, imex_pair
 from garkcli.stability.fraction import stability_fraction
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.summary import directions
-from garkcli.webpage.pictures.drawing import Frame, Point, colour
+from garkcli.webpage.pictures.drawing import Frame, colour
+from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.region import draw_region, finished, frame_of
 from garkcli.webpage.pictures.subject import Subject
@@ -45,7 +46,8 @@ def draw(subject: Subject) -> Picture:
             _fill(frame, low, high, (bottom, top))
             _fill(frame, low, high, (-top, -bottom))
     draw_region(frame, window, explicit, 1, is_filled=False)
-    e, i = pair.explicit + 1, pair.implicit + 1
+    e = pair.explicit + 1
+    i = pair.implicit + 1
     names = f"z{e} with every z{i} damped", f"the same with z{i} = 0 alone"
     frame.legend.extend(enumerate(names))
     description = (
@@ -65,14 +67,17 @@ def _pair(subject: Subject) -> tuple[ImexPair, StabilityFunction]:
     """The pair, and R of its explicit colour alone."""
     method = subject.method
     tableau = method.tableau
-    shares = [x for _, x in directions(tableau)][1:]
-    is_large = sum(method.stages) > _MOST_STAGES
+    alone = directions(tableau)[1:]
+    is_small = sum(method.stages) <= _MOST_STAGES
+    is_exact = method.tolerance is None
     found = None
-    if tableau.size == 2 and shares and not is_large:
-        found = imex_pair(tableau, stability_fraction(tableau))
-    if found is None or method.tolerance is not None:
+    if len(alone) == 2 and is_small and is_exact:
+        R = stability_fraction(tableau)
+        found = imex_pair(tableau, R)
+    if found is None:
         raise NotDrawn("")
-    return found, stability_function(tableau, shares[found.explicit])
+    _, shares = alone[found.explicit]
+    return found, stability_function(tableau, shares)
 
 
 def _damped(
@@ -85,15 +90,21 @@ def _damped(
     """The ends of each run of squares of a row that are damped."""
     b = (bottom + top) / 2
     centres = [(x + y) / 2 for x, y in pairwise(edges)]
-    sizes = modulus(explicit, np.array(centres) + 1j * b)
+    row = np.array(centres) + 1j * b
+    sizes = modulus(explicit, row)
+    exact_b = _exact(b)
     found = []
     for a, size in zip(centres, sizes.tolist(), strict=True):
-        may_be = size <= _ABOVE_ONE
-        found.append(may_be and pair.is_damped(_exact(a), _exact(b)))
-    for is_damped, run in groupby(range(len(found)), found.__getitem__):
-        columns = list(run)
+        is_damped = False
+        if size <= _ABOVE_ONE:
+            is_damped = pair.is_damped(_exact(a), exact_b)
+        found.append(is_damped)
+    every = range(len(found))
+    for is_damped, run in groupby(every, found.__getitem__):
+        first, *others = run
+        last = others[-1] if others else first
         if is_damped:
-            yield edges[columns[0]], edges[columns[-1] + 1]
+            yield edges[first], edges[last + 1]
 
 
 def _exact(x: float) -> fmpq:
@@ -102,6 +113,10 @@ def _exact(x: float) -> fmpq:
 
 def _fill(frame: Frame, low: float, high: float, span: Point) -> None:
     bottom, top = span
-    corners = [(low, bottom), (high, bottom), (high, top), (low, top)]
-    paint = f"fill:{colour(0)}"
-    frame.polygon(corners, f'style="{paint}" fill-opacity="0.35"')
+    paint = colour(0)
+    frame.rectangle(
+        (low, bottom),
+        (high, top),
+        style=f"fill:{paint}",
+        fill_opacity="0.35",
+    )

@@ -1,4 +1,4 @@
-"""SVG in the colours of the page it stands in.
+"""Axes and curves in the colours of the page they stand in.
 
 Text, axes and marks have the colour of the text around them. Curves have the colours --picture-1 to
 --picture-4 of the page, which STYLE sets for light and dark backgrounds; they differ in dashes too,
@@ -7,12 +7,18 @@ so that they can be told apart in grey. There are no ids: any number of pictures
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from html import escape
-from typing import TypeAlias
 
 from garkcli.errors import printable
+from garkcli.webpage.pictures.elements import (
+    Point,
+    Value,
+    element,
+    number,
+    opened,
+    path_of,
+)
 from garkcli.webpage.pictures.scales import Mark, Scale
 
 WIDTH = 360
@@ -23,19 +29,21 @@ INSIDE = WIDTH - LEFT - RIGHT
 COLOURS = ("#24558f", "#a02417", "#35702f", "#76439a")
 """Of clearly different lightness from white, at least 4.5 to 1."""
 _DARK_COLOURS = ("#8ab8f5", "#ff9d8c", "#8fd08a", "#d3a6f2")
-DASHES = ("", "7 3", "2 2.5", "8 2.5 2 2.5")
+DASHES = (None, "7 3", "2 2.5", "8 2.5 2 2.5")
 _LEGEND_ROW = 18
 _LONGEST = 46  # characters of a name
-Point: TypeAlias = tuple[float, float]
 
 
 def _variables(colours: Sequence[str]) -> str:
-    numbered = enumerate(colours, start=1)
-    return ";".join(f"--picture-{k}:{colour}" for k, colour in numbered)
+    found = []
+    for k, colour in enumerate(colours, start=1):
+        found.append(f"--picture-{k}:{colour}")
+    return ";".join(found)
 
 
 def _style() -> str:
-    light, dark = _variables(COLOURS), _variables(_DARK_COLOURS)
+    light = _variables(COLOURS)
+    dark = _variables(_DARK_COLOURS)
     return (
         f":root{{{light}}}\n"
         f"@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}\n"
@@ -48,32 +56,16 @@ STYLE = _style()
 
 
 def colour(k: int) -> str:
-    """The colour of the k-th curve."""
-    number = k % len(COLOURS)
-    return f"var(--picture-{number + 1},{COLOURS[number]})"
+    """The colour of the k-th curve, that of the page or else our own."""
+    place = k % len(COLOURS)
+    ours = COLOURS[place]
+    return f"var(--picture-{place + 1},{ours})"
 
 
-def dashes(k: int) -> str:
-    """The attribute with the dashes of the k-th curve."""
-    pattern = DASHES[k % len(DASHES)]
-    return f' stroke-dasharray="{pattern}"' if pattern else ""
-
-
-def path_of(points: Iterable[Point]) -> str:
-    """A polygon or polyline as the data of a path, to a tenth of a unit.
-
-    >>> path_of([(0, 1.26), (2, -0.01)])
-    'M0 1.3L2 0'
-    """
-    pairs = [f"{number(x)} {number(y)}" for x, y in points]
-    joined = "L".join(pairs)
-    return f"M{joined}"
-
-
-def number(x: float) -> str:
-    """A length to a tenth of a unit."""
-    tenths = f"{x:.1f}".removesuffix(".0")
-    return "0" if tenths == "-0" else tenths
+def dashes(k: int) -> str | None:
+    """The dashes of the k-th curve."""
+    place = k % len(DASHES)
+    return DASHES[place]
 
 
 def shortened(name: str) -> str:
@@ -81,13 +73,8 @@ def shortened(name: str) -> str:
     shown = printable(name)
     if len(shown) <= _LONGEST:
         return shown
-    return shown[: _LONGEST - 1] + "…"
-
-
-def text(x: float, y: float, words: str, more: str = "") -> str:
-    """Words at a place."""
-    place = f'x="{number(x)}" y="{number(y)}"'
-    return f"<text {place}{more}>{escape(words)}</text>"
+    start = shown[: _LONGEST - 1]
+    return f"{start}…"
 
 
 @dataclass(frozen=True)
@@ -113,7 +100,8 @@ class Frame:
         width: float = INSIDE,
     ) -> Frame:
         """A frame for numbers between these ends, in the middle of the picture."""
-        left = LEFT + (INSIDE - width) / 2
+        spare = INSIDE - width
+        left = LEFT + spare / 2
         x = Scale(*horizontal, left, left + width)
         y = Scale(*vertical, TOP + height, TOP)
         return Frame(x, y)
@@ -122,31 +110,43 @@ class Frame:
         """Where points are in the picture."""
         return [(self.x(a), self.y(b)) for a, b in points]
 
-    def draw(self, element: str) -> None:
-        """Add an element."""
-        self.inside.append(element)
+    def path(self, data: str, **attributes: Value) -> None:
+        """Draw a path."""
+        drawn = element("path", None, d=data, **attributes)
+        self.inside.append(drawn)
 
     def curve(self, k: int, points: Iterable[Point], width: float) -> None:
-        """The k-th curve."""
-        data = path_of(self.place(points))
-        style = f'style="stroke:{colour(k)}" stroke-width="{width:g}"'
-        self.draw(f'<path d="{data}" fill="none" {style}{dashes(k)}/>')
+        """Draw the k-th curve."""
+        placed = self.place(points)
+        paint = colour(k)
+        self.path(
+            path_of(placed),
+            fill="none",
+            style=f"stroke:{paint}",
+            stroke_width=width,
+            stroke_dasharray=dashes(k),
+        )
 
     def dots(self, k: int, points: Iterable[Point], radius: float) -> None:
-        """Dots at points of the k-th curve."""
+        """Draw dots at points of the k-th curve."""
+        paint = colour(k)
+        style = f"fill:{paint}"
         for x, y in self.place(points):
-            place = f'cx="{number(x)}" cy="{number(y)}" r="{radius:g}"'
-            self.draw(f'<circle {place} style="fill:{colour(k)}"/>')
+            dot = element("circle", cx=x, cy=y, r=radius, style=style)
+            self.inside.append(dot)
 
-    def polygon(self, corners: Iterable[Point], paint: str) -> None:
-        """A filled polygon."""
-        data = path_of(self.place(corners))
-        self.draw(f'<path d="{data}Z" {paint}/>')
+    def rectangle(self, low: Point, high: Point, **attributes: Value) -> None:
+        """Draw a filled rectangle between two of its corners."""
+        left, bottom = low
+        right, top = high
+        corners = [low, (right, bottom), high, (left, top)]
+        placed = self.place(corners)
+        self.path(path_of(placed) + "Z", **attributes)
 
-    def line(self, start: Point, end: Point, more: str = "") -> None:
-        """A thin line, such as an axis through 0."""
-        data = path_of(self.place([start, end]))
-        self.draw(f'<path d="{data}" stroke="currentColor"{more}/>')
+    def line(self, start: Point, end: Point) -> None:
+        """Draw a thin line, such as an axis through 0."""
+        ends = self.place([start, end])
+        self.path(path_of(ends), stroke="currentColor", stroke_width=0.7)
 
     def finished(
         self,
@@ -163,14 +163,25 @@ class Frame:
             marks: on the horizontal and on the vertical axis.
             labels: of the horizontal and of the vertical axis.
         """
+        across, up = marks
         bottom = self.y.start + BOTTOM
-        height = bottom + _LEGEND_ROW * len(self.legend)
+        rows = _LEGEND_ROW * len(self.legend)
+        height = number(bottom + rows)
+        head = opened(
+            "svg",
+            **{"class": "plot"},
+            role="img",
+            viewBox=f"0 0 {WIDTH} {height}",
+            font_size="12",
+            fill="currentColor",
+            stroke_linejoin="round",
+        )
         lines = [
-            f'<svg class="plot" role="img" viewBox="0 0 {WIDTH} {number(height)}" '
-            'font-size="12" fill="currentColor" stroke-linejoin="round">',
-            f"<title>{escape(title)}</title>",
-            f"<desc>{escape(description)}</desc>",
-            *self._axes(*marks),
+            head,
+            element("title", title),
+            element("desc", description),
+            *self._axis_below(across),
+            *self._axis_beside(up),
             *self._labels(*labels),
             *self._cut_off(),
             *self._legend_rows(bottom),
@@ -178,58 +189,91 @@ class Frame:
         ]
         return "\n".join(lines)
 
-    def _axes(self, across: Sequence[Mark], up: Sequence[Mark]) -> list[str]:
-        left, right = self.x.start, self.x.end
-        bottom, top = self.y.start, self.y.end
-        corners = [(left, top), (left, bottom), (right, bottom), (right, top)]
-        rules = []
-        words = []
-        for mark in across:
+    def _axis_below(self, marks: Sequence[Mark]) -> Iterator[str]:
+        left = self.x.start
+        bottom = self.y.start
+        width = self.x.end - left
+        height = bottom - self.y.end
+        yield element(
+            "rect",
+            x=left,
+            y=self.y.end,
+            width=width,
+            height=height,
+            fill="none",
+            stroke="currentColor",
+        )
+        for mark in marks:
             x = self.x(mark.at)
-            rules.append(path_of([(x, bottom), (x, bottom + 4)]))
-            words.append(
-                text(x, bottom + 16, mark.label, ' text-anchor="middle"')
+            yield _rule((x, bottom), (x, bottom + 4))
+            yield element(
+                "text",
+                mark.label,
+                x=x,
+                y=bottom + 16,
+                text_anchor="middle",
             )
-        for mark in up:
-            y = self.y(mark.at)
-            rules.append(path_of([(left - 4, y), (left, y)]))
-            words.append(text(left - 7, y + 4, mark.label, _AT_END))
-        frame = path_of(corners) + "Z"
-        data = frame + "".join(rules)
-        return [
-            f'<path d="{data}" fill="none" stroke="currentColor"/>',
-            *words,
-        ]
 
-    def _labels(self, below: str, beside: str) -> list[str]:
+    def _axis_beside(self, marks: Sequence[Mark]) -> Iterator[str]:
+        left = self.x.start
+        for mark in marks:
+            y = self.y(mark.at)
+            yield _rule((left - 4, y), (left, y))
+            yield element(
+                "text", mark.label, x=left - 7, y=y + 4, text_anchor="end"
+            )
+
+    def _labels(self, below: str, beside: str) -> Iterator[str]:
         middle = (self.x.start + self.x.end) / 2
+        yield element(
+            "text",
+            below,
+            x=middle,
+            y=self.y.start + 33,
+            text_anchor="middle",
+        )
+        left = self.x.start - LEFT + 12
         height = (self.y.start + self.y.end) / 2
-        x = self.x.start - LEFT + 12
-        centre = f"{number(x)} {number(height)}"
-        turned = f' text-anchor="middle" transform="rotate(-90 {centre})"'
-        return [
-            text(middle, self.y.start + 33, below, ' text-anchor="middle"'),
-            text(x, height, beside, turned),
-        ]
+        across = number(left)
+        down = number(height)
+        yield element(
+            "text",
+            beside,
+            x=left,
+            y=height,
+            text_anchor="middle",
+            transform=f"rotate(-90 {across} {down})",
+        )
 
     def _cut_off(self) -> list[str]:
         """A nested picture cuts off what is outside of it, and needs no id for that."""
-        left, top = self.x.start, self.y.end
-        width, height = self.x.end - left, self.y.start - top
-        place = [number(x) for x in (left, top, width, height)]
-        box = " ".join(place)
-        at = f'x="{place[0]}" y="{place[1]}" width="{place[2]}" height="{place[3]}"'
-        return [f'<svg {at} viewBox="{box}">', *self.inside, "</svg>"]
+        left = self.x.start
+        top = self.y.end
+        width = self.x.end - left
+        height = self.y.start - top
+        sides = [left, top, width, height]
+        box = " ".join(map(number, sides))
+        head = opened(
+            "svg", x=left, y=top, width=width, height=height, viewBox=box
+        )
+        return [head, *self.inside, "</svg>"]
 
-    def _legend_rows(self, top: float) -> list[str]:
-        rows = []
-        for i, (k, name) in enumerate(self.legend):
-            y = top + i * _LEGEND_ROW + 6
-            data = path_of([(LEFT - 46, y), (LEFT - 12, y)])
-            style = f'style="stroke:{colour(k)}" stroke-width="2"'
-            rows.append(f'<path d="{data}" {style}{dashes(k)}/>')
-            rows.append(text(LEFT - 4, y + 4, shortened(name)))
-        return rows
+    def _legend_rows(self, top: float) -> Iterator[str]:
+        y = top + 6
+        for k, name in self.legend:
+            paint = colour(k)
+            yield element(
+                "path",
+                d=path_of([(LEFT - 46, y), (LEFT - 12, y)]),
+                style=f"stroke:{paint}",
+                stroke_width=2.0,
+                stroke_dasharray=dashes(k),
+            )
+            yield element("text", shortened(name), x=LEFT - 4, y=y + 4)
+            y += _LEGEND_ROW
 
 
-_AT_END = ' text-anchor="end"'
+def _rule(start: Point, end: Point) -> str:
+    """A mark on an axis."""
+    data = path_of([start, end])
+    return element("path", d=data, stroke="currentColor")

@@ -11,7 +11,8 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.step import StepFailed
-from garkcli.webpage.pictures.drawing import Frame, Point
+from garkcli.webpage.pictures.drawing import Frame
+from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import (
     common_exponent,
@@ -64,9 +65,10 @@ def svg_of(run: LongRun) -> str:
         raise NotDrawn("There is no error that is a number.")
     frame, exponent = _frame(points)
     factor = 10.0**-exponent
-    frame.curve(0, [(t, e * factor) for t, e in points], 1.1)
+    scaled = [(t, e * factor) for t, e in points]
+    frame.curve(0, scaled, 1.1)
     start, end = frame.x.low, frame.x.high
-    frame.line((start, 0.0), (end, 0.0), ' stroke-width="0.7"')
+    frame.line((start, 0.0), (end, 0.0))
     _draw_drift(frame, history, points, factor)
     description = _description(run, history)
     label = "H(t) − H(0)" if run.energy else f"error of {history.name}"
@@ -107,7 +109,9 @@ def _frame(points: list[Point]) -> tuple[Frame, int]:
     low = min(0.0, *errors) * factor
     high = max(0.0, *errors) * factor
     around = 0.06 * (high - low) or 1.0
-    horizontal = points[0][0], points[-1][0]
+    start, _ = points[0]
+    end, _ = points[-1]
+    horizontal = start, end
     vertical = low - around, high + around
     return Frame.of(horizontal, vertical, _HEIGHT), exponent
 

@@ -10,8 +10,8 @@ from garkcli.plots.plane import Window, modulus, window_of
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.summary import directions
 from garkcli.webpage.pictures.contours import Point, outlines
-from garkcli.webpage.pictures.drawing import INSIDE, Frame, colour, path_of
-from garkcli.webpage.pictures.drawing import dashes as dashes_of
+from garkcli.webpage.pictures.drawing import INSIDE, Frame, colour, dashes
+from garkcli.webpage.pictures.elements import path_of
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import linear_marks
 from garkcli.webpage.pictures.subject import Subject
@@ -43,31 +43,26 @@ def draw(subject: Subject) -> Picture:
             "There is no stability function: colours drive positions or momenta only, or do not "
             "see one another."
         )
-    named = [
-        (
-            _label(name, len(found)),
-            stability_function(subject.method.tableau, x),
-        )
-        for name, x in found[:_MOST_CURVES]
-    ]
-    functions = [R for _, R in named]
+    names = []
+    functions = []
+    for name, shares in found[:_MOST_CURVES]:
+        R = stability_function(subject.method.tableau, shares)
+        functions.append(R)
+        names.append(_label(name, len(found)))
     window = window_of(functions, is_symmetric=False)
     frame = frame_of(window)
     for k, R in enumerate(functions):
         draw_region(frame, window, R, k)
-    if len(named) > 1:
-        frame.legend.extend(enumerate(name for name, _ in named))
-    description = _description([name for name, _ in named], window)
+    if len(names) > 1:
+        frame.legend.extend(enumerate(names))
+    description = _description(names, window)
     labels = "Re z", "Im z"
     svg = finished(frame, window, _TITLE, description, labels)
     note = "Filled: |R(z)| ≤ 1."
-    more = len(found) - len(named)
+    more = len(found) - len(names)
     if more > 0:
         note += f" The regions of the last {more} colours alone are left out."
     return Picture("region", _TITLE, description, svg, note)
-
-
-_THIN = ' stroke-width="0.7"'
 
 
 def _label(name: str, count: int) -> str:
@@ -81,9 +76,11 @@ def frame_of(window: Window) -> Frame:
     across = window.right - window.left
     up = 2 * window.top
     unit = min(INSIDE / across, _HEIGHT / up)
-    width, height = across * unit, up * unit
+    width = across * unit
+    height = up * unit
     horizontal = window.left, window.right
-    return Frame.of(horizontal, (-window.top, window.top), height, width)
+    vertical = -window.top, window.top
+    return Frame.of(horizontal, vertical, height, width)
 
 
 def finished(
@@ -94,8 +91,8 @@ def finished(
     labels: tuple[str, str],
 ) -> str:
     """The picture with both axes of the plane."""
-    frame.line((window.left, 0.0), (window.right, 0.0), _THIN)
-    frame.line((0.0, -window.top), (0.0, window.top), _THIN)
+    frame.line((window.left, 0.0), (window.right, 0.0))
+    frame.line((0.0, -window.top), (0.0, window.top))
     across = linear_marks(window.left, window.right, 6)
     up = linear_marks(-window.top, window.top, 6)
     return frame.finished(title, description, (across, up), labels)
@@ -118,11 +115,14 @@ def draw_region(
         data += path_of(frame.place(points)) + "Z"
     if not data:
         return
-    opacity = 0.16 if is_filled else 0
-    paint = f"fill:{colour(k)};stroke:{colour(k)}"
-    frame.draw(
-        f'<path d="{data}" style="{paint}" fill-opacity="{opacity:g}" fill-rule="evenodd" '
-        f'stroke-width="1.6"{dashes_of(k)}/>'
+    paint = colour(k)
+    frame.path(
+        data,
+        style=f"fill:{paint};stroke:{paint}",
+        fill_opacity="0.16" if is_filled else "0",
+        fill_rule="evenodd",
+        stroke_width=1.6,
+        stroke_dasharray=dashes(k),
     )
 
 

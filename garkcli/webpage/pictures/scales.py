@@ -49,15 +49,19 @@ def linear_marks(low: float, high: float, most: int) -> list[Mark]:
     # an end that rounding has put just beside a mark has it
     first = ceil(low / step - 1e-9)
     last = floor(high / step + 1e-9)
-    return [Mark(k * step, _number(k * step)) for k in range(first, last + 1)]
+    marks = []
+    for k in range(first, last + 1):
+        at = k * step
+        marks.append(Mark(at, _number(at)))
+    return marks
 
 
 def _round_step(least: float) -> float:
-    power = 10.0 ** floor(log10(least))
-    for step in _STEPS:
-        if step * power >= least * (1 - 1e-9):
-            return step * power
-    return 10 * power
+    decade = floor(log10(least))
+    power = 10.0**decade
+    enough = least * (1 - 1e-9)
+    steps = (step * power for step in _STEPS)
+    return next((step for step in steps if step >= enough), 10 * power)
 
 
 def _number(x: float) -> str:
@@ -72,8 +76,10 @@ def decade_marks(low: float, high: float, most: int) -> list[Mark]:
     """
     first = ceil(low - 1e-9)
     last = floor(high + 1e-9)
-    apart = max(1, ceil((last - first + 1) / most))
-    return [Mark(k, power_of_ten(k)) for k in range(first, last + 1, apart)]
+    count = last - first + 1
+    apart = max(1, ceil(count / most))
+    chosen = range(first, last + 1, apart)
+    return [Mark(k, power_of_ten(k)) for k in chosen]
 
 
 def power_of_ten(exponent: int) -> str:

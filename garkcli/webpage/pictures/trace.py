@@ -10,7 +10,8 @@ from garkcli.exact.roots import RealRoot
 from garkcli.plots.plane import values
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.summary import directions, usual_oscillator
-from garkcli.webpage.pictures.drawing import Frame, Point
+from garkcli.webpage.pictures.drawing import Frame
+from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import linear_marks
 from garkcli.webpage.pictures.subject import Subject
@@ -40,13 +41,15 @@ def draw(subject: Subject) -> Picture:
     if not found.determinant.is_one:
         raise NotDrawn(_why_not(subject))
     ends = _ends(found)
-    end = 1.25 * max((high for _, high in ends if high), default=_WITHOUT_END)
+    highest = [high for _, high in ends if high]
+    end = 1.25 * max(highest, default=_WITHOUT_END)
     frame = Frame.of((0.0, end), (0.0, _HIGHEST), _HEIGHT)
     for low, high in ends:
-        _shade(frame, low, end if high is None else high)
+        until = end if high is None else high
+        _shade(frame, low, until)
     for part in _parts(found, end):
         frame.curve(0, part, 1.6)
-    frame.line((0.0, 1.0), (end, 1.0), ' stroke-width="0.8"')
+    frame.line((0.0, 1.0), (end, 1.0))
     description = _description(ends)
     marks = linear_marks(0.0, end, 6), linear_marks(0.0, _HIGHEST, 4)
     labels = "z = hω", "|tr M(z)| / 2"
@@ -66,8 +69,12 @@ def _ends(found: OscillatorStability) -> list[tuple[float, float | None]]:
     """The stable z, as intervals; None where there is no end."""
     intervals = []
     for interval in found.stable:
-        low = 0.0 if interval.start is None else _root(interval.start)
-        high = None if interval.end is None else _root(interval.end)
+        low = 0.0
+        high = None
+        if interval.start is not None:
+            low = _root(interval.start)
+        if interval.end is not None:
+            high = _root(interval.end)
         intervals.append((low, high))
     return intervals
 
@@ -80,8 +87,7 @@ def _root(x: RealRoot) -> float:
 
 
 def _shade(frame: Frame, low: float, high: float) -> None:
-    corners = [(low, 0.0), (high, 0.0), (high, _HIGHEST), (low, _HIGHEST)]
-    frame.polygon(corners, 'fill-opacity="0.12"')
+    frame.rectangle((low, 0.0), (high, _HIGHEST), fill_opacity="0.12")
 
 
 def _parts(found: OscillatorStability, end: float) -> list[list[Point]]:
@@ -95,12 +101,16 @@ def _parts(found: OscillatorStability, end: float) -> list[list[Point]]:
     # a point above the frame is where a line to it leaves the frame
     heights = np.minimum(half, 2 * _HIGHEST).tolist()
     parts: list[list[Point]] = [[]]
-    for here, there in pairwise(zip(z.tolist(), heights, strict=True)):
-        is_seen = here[1] <= _HIGHEST or there[1] <= _HIGHEST
-        if not is_seen:
+    points = zip(z.tolist(), heights, strict=True)
+    for here, there in pairwise(points):
+        lower = min(here[1], there[1])
+        if lower > _HIGHEST:
             parts.append([])
             continue
-        parts[-1] += [there] if parts[-1] else [here, there]
+        last = parts[-1]
+        if not last:
+            last.append(here)
+        last.append(there)
     return [part for part in parts if part]
 
 
