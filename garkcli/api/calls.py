@@ -19,9 +19,10 @@ from garkcli.api.numbers import (
 from garkcli.check import proof
 from garkcli.check.proof import MethodProof
 from garkcli.check.true_claims import true_claims, usual_keys
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.claims_writer import write_claims
+from garkcli.methodfile.expectations import CLAIMS
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.stability.slow_interval import SlowInterval, slow_interval
 from garkcli.stability.summary import (
@@ -36,24 +37,35 @@ from garkcli.stability.two_frequencies import (
 )
 
 
-def claims_of(method: AnyMethod, keys: Iterable[str] = ()) -> dict[str, str]:
+def claims_of(
+    method: AnyMethod, keys: str | Iterable[str] = ()
+) -> dict[str, str]:
     """What is true of a method, as its file would claim it: ``gark claims``.
 
     Args:
         method: whatever ``method_of`` takes.
-        keys: the claims; by default those that ``gark claims`` writes.
+        keys: the claims, or one of them; by default those that ``gark claims`` writes.
 
     Returns:
-        The value of each as YAML.
+        The value of each as YAML; one that has no meaning for the method or is not decided is left
+        out.
+
+    Raises:
+        UsageProblem: there is no such claim.
 
     >>> claims_of("rk4", ["order", "symplectic"])
     {'order': '4', 'symplectic': 'false'}
     """
     found = analyse(method_of(method))
-    return true_claims(found, list(keys) or usual_keys(found))
+    wanted = [keys] if isinstance(keys, str) else list(keys)
+    for key in wanted:
+        if key not in CLAIMS:
+            cure = did_you_mean(key, CLAIMS)
+            raise UsageProblem(f"no claim {key!r}", cure)
+    return true_claims(found, wanted or usual_keys(found))
 
 
-def with_claims(method: AnyMethod, keys: Iterable[str] = ()) -> str:
+def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
     """The text of a method file that claims what is true of it: ``gark claims --write``, and what
     ``gark new`` writes.
 
@@ -63,6 +75,7 @@ def with_claims(method: AnyMethod, keys: Iterable[str] = ()) -> str:
 
     Raises:
         MethodError: it was not read from a text.
+        UsageProblem: there is no such claim.
 
     >>> print(with_claims(([[0]], [1]), ["order", "symplectic"]), end="")
     A: [[0]]

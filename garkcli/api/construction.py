@@ -57,6 +57,10 @@ def gark(
     >>> gark([([["1/2"]], [1]), ([[0]], [1])], {(1, 2): [[1]]}).A
     {(1, 1): ((1/2,),), (1, 2): ((1,),), (2, 1): None, (2, 2): ((0,),)}
     """
+    if isinstance(methods, str) or not methods:
+        raise MethodError(
+            "gark takes a list of methods", "give one a colour: ['gauss-2', …]"
+        )
     given = [method_of(method) for method in methods]
     diagonal = [_diagonal(method) for method in given]
     if not isinstance(transfer, str):

@@ -47,7 +47,12 @@ def family_of(given: AnyFamily) -> Family:
     """
     if isinstance(given, (str, os.PathLike)):
         return load_family(given)
-    return given
+    if isinstance(given, Family):
+        return given
+    raise MethodError(
+        f"a family is expected, not {type(given).__name__}",
+        "load a file with load_family(path)",
+    )
 
 
 def find_parameters(

@@ -221,8 +221,7 @@ def convert(
 
     Args:
         method: whatever ``method_of`` takes.
-        to: the form: spelled-out, one-set-of-stages, partitioned or symplectic-pair; ``gark convert
-            --help`` has all.
+        to: the form: spelled-out, gark, ark, prk, pair or canonical.
         stages: how many each colour gets at least, by stages in front that do nothing.
 
     Raises:

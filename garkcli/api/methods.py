@@ -19,6 +19,7 @@ from garkcli.api.anymethod import (
 from garkcli.api.numbers import Number, Whole, colour_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
 from garkcli.order import certificate
 from garkcli.order import simplifying as conditions
@@ -247,10 +248,10 @@ def symplectic_pair(
     """
     tableau = tableau_of(method)
     count = tableau.size
-    return method_of(
-        forms.symplectic_pair(
-            tableau,
-            [colour_of(l, "velocities", count) for l in velocities],
-            [colour_of(l, "forces", count) for l in forces],
+    V = [colour_of(l, "velocities", count) for l in velocities]
+    F = [colour_of(l, "forces", count) for l in forces]
+    if not V and not F:
+        raise MethodError(
+            "a pair of no colour", "give colours of velocities and of forces"
         )
-    )
+    return method_of(forms.symplectic_pair(tableau, V, F))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from flint import arb, fmpq
+
 from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
 from garkcli.api.numbers import (
     Number,
@@ -22,6 +24,7 @@ from garkcli.api.problems import (
 )
 from garkcli.convergence import convergence
 from garkcli.convergence.result import Convergence
+from garkcli.errors import MethodError, counted
 from garkcli.longtime import longtime, symplecticity
 from garkcli.longtime.history import SERIES, LongRun, State
 from garkcli.longtime.symplecticity import Defect
@@ -72,7 +75,7 @@ def converge(
         tableau,
         None if problem is None else problem_for(problem, tableau),
         rational_or_none(t_end, "t_end"),
-        None if steps is None else rationals(steps, "steps"),
+        None if steps is None else _some(rationals(steps, "steps")),
         near,
         is_timed,
     )
@@ -175,8 +178,19 @@ def bind(method: AnyMethod, problem: AnyProblem) -> Binding:
     return stepping.bind(tableau, to_step(problem, tableau))
 
 
+def _some(steps: list[fmpq]) -> list[fmpq]:
+    """Step sizes, at least one.
+
+    Raises:
+        MethodError: there is none.
+    """
+    if not steps:
+        raise MethodError("steps: there is none", "give one or more")
+    return steps
+
+
 def integrate(
-    integrator: Integrator,
+    integrator: Integrator | Binding,
     h: Number,
     count: Whole,
     initial: Sequence[Any] | None = None,
@@ -184,7 +198,7 @@ def integrate(
     """The state after ``count`` steps.
 
     Args:
-        integrator: ``bind(method, problem).at(digits)``.
+        integrator: ``bind(method, problem)``, or that ``.at(digits)``.
         h: the step size.
         count: how many steps.
         initial: where to start, as in ``trajectory``.
@@ -193,17 +207,20 @@ def integrate(
         As ``trajectory``.
 
     Raises:
+        MethodError: there are more or fewer numbers in ``initial`` than unknowns.
         StepFailed: the stage equations of a step were not solved.
 
     >>> [round(x, 6) for x in integrate(bind("rk4", "pendulum").at(), "1/10", 10)]
     [1.056272, -0.391965]
     """
+    made = _made(integrator)
+    start = _start(made, initial)
     many = whole(count, "count")
-    return steps_of.integrate(integrator, rational(h, "h"), many, initial)
+    return steps_of.integrate(made, rational(h, "h"), many, start)
 
 
 def trajectory(
-    integrator: Integrator,
+    integrator: Integrator | Binding,
     h: Number,
     count: Whole,
     initial: Sequence[Any] | None = None,
@@ -212,27 +229,56 @@ def trajectory(
     """The state at the start and after each ``every`` of ``count`` steps.
 
     Args:
-        integrator: ``bind(method, problem).at(digits)``.
+        integrator: ``bind(method, problem)``, or that ``.at(digits)``.
         h: the step size.
         count: how many steps.
-        initial: where to start, shape (2d,) for (q, p) of a Hamiltonian problem, (d,) for y of any
-            other; the start of the problem by default.
+        initial: where to start, numbers of any kind, shape (2d,) for (q, p) of a Hamiltonian
+            problem, (d,) for y of any other; the start of the problem by default.
         every: how many steps from one state to the next; the last one is after ``count``.
 
     Returns:
         States of the shape of ``initial``: floats up to 15 digits, else midpoints of balls.
 
     Raises:
+        MethodError: there are more or fewer numbers in ``initial`` than unknowns.
         StepFailed: the stage equations of a step were not solved.
 
     >>> made = bind("rk4", "pendulum").at()
     >>> [[round(x, 3) for x in y] for y in trajectory(made, 0.5, 4, every=2)]
     [[1.0, 0.5], [1.056, -0.392], [0.292, -1.041]]
     """
+    made = _made(integrator)
     return steps_of.trajectory(
-        integrator,
+        made,
         rational(h, "h"),
         whole(count, "count"),
-        initial,
+        _start(made, initial),
         whole(every, "every", 1),
     )
+
+
+def _made(given: Integrator | Binding) -> Integrator:
+    """What steps; floats where no digits were asked for."""
+    return given.at() if isinstance(given, Binding) else given
+
+
+def _start(
+    integrator: Integrator, initial: Sequence[Any] | None
+) -> list[Any] | None:
+    """A start with as many numbers as there are unknowns; floats as they are.
+
+    Raises:
+        MethodError: there are others, or one is no number.
+    """
+    if initial is None:
+        return None
+    wanted = integrator.problem.layout.unknowns
+    if len(initial) != wanted:
+        raise MethodError(
+            f"initial: {counted(len(initial), 'number')} for {counted(wanted, 'unknown')}",
+            "positions first, then momenta, as problem.initial has them",
+        )
+    return [
+        x if isinstance(x, (float, arb)) else rational(x, f"initial[{i}]")
+        for i, x in enumerate(initial)
+    ]

@@ -103,14 +103,14 @@ def count_trees(
 
 def conditions(
     method: AnyMethod,
-    trees: Iterable[AnyTree],
+    trees: AnyTree | Iterable[AnyTree],
     tolerance: Number | None = None,
 ) -> Iterator[Condition]:
     """The order conditions of some trees, eq. (bA).
 
     Args:
         method: whatever ``method_of`` takes.
-        trees: trees, or their texts.
+        trees: trees, or their texts; or one of them.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
@@ -122,6 +122,8 @@ def conditions(
     [('[[]_1,[]_1]_1', 1/2, 1/6), ('[[[]_1]_1]_1', 0, -1/6)]
     """
     method, near = with_tolerance(method, tolerance)
+    if isinstance(trees, (str, Tree)):
+        trees = [trees]
     known = (_fitting(tree, method.tableau) for tree in trees)
     return by_tree.conditions(method.tableau, known, near or ZERO)
 

@@ -25,6 +25,10 @@ Shares: TypeAlias = tuple[tuple[fmpq, fmpq], ...]
 """(k_l, v_l) for each term of a split."""
 
 
+def _is_pair(given: object) -> bool:
+    return isinstance(given, Sequence) and len(given) == 2
+
+
 @dataclass(frozen=True)
 class Oscillator:
     """q̇ = p, ṗ = −ω²q, divided among the terms of a split.
@@ -58,6 +62,11 @@ class Oscillator:
 
     def __post_init__(self) -> None:
         omega = rational_of(self.omega, "omega")
+        if not all(_is_pair(share) for share in self.shares):
+            raise UsageProblem(
+                f"the shares {self.shares!r} are no pairs",
+                "give (kinetic, potential) for each term, such as [(1, 0), (0, 1)]",
+            )
         shares = tuple(
             (
                 rational_of(k, f"shares of term {term}, kinetic"),

@@ -158,8 +158,40 @@ def test_what_names_nothing_is_refused() -> None:
         garkcli.cite("rk4", format="txt")
     with pytest.raises(MethodError, match="steps: '1/4' is no list"):
         garkcli.converge("rk4", steps="1/4")
+    with pytest.raises(MethodError, match="steps: there is none"):
+        garkcli.converge("rk4", "pendulum", steps=[])
+    with pytest.raises(GarkError, match=r"shares .* are no pairs"):
+        garkcli.Oscillator(1, [1, 2])  # type: ignore[list-item]
+    with pytest.raises(GarkError, match="did you mean 'order'"):
+        garkcli.claims_of("rk4", ["ordr"])
+    with pytest.raises(MethodError, match="takes a list of methods"):
+        garkcli.gark("gauss-2")
+    with pytest.raises(MethodError, match="a pair of no colour"):
+        garkcli.symplectic_pair("rk4", [], [])
+    with pytest.raises(MethodError, match="a family is expected, not int"):
+        garkcli.find_parameters(3)  # type: ignore[arg-type]
     with pytest.raises(MethodError, match="settings: 3 is no mapping"):
         load("rk4", settings=3)  # type: ignore[arg-type]
+
+
+def test_a_start_has_as_many_numbers_as_unknowns() -> None:
+    """Of any kind; what steps may be given without its digits."""
+    bound = garkcli.bind("rk4", "pendulum")
+    found = garkcli.integrate(bound, 0.1, 3, initial=["1", "1/2"])
+    assert found == garkcli.integrate(bound.at(), "1/10", 3)
+    assert found == garkcli.integrate(bound, 0.1, 3, np.array([1.0, 0.5]))
+    for start in ([1], [1, 2, 3]):
+        with pytest.raises(MethodError, match="for 2 unknowns"):
+            garkcli.integrate(bound, 0.1, 3, initial=start)
+        with pytest.raises(MethodError, match="for 2 unknowns"):
+            list(garkcli.trajectory(bound, 0.1, 3, initial=start))
+
+
+def test_one_of_several_goes_for_itself() -> None:
+    """A tree and a key need no list around them."""
+    (one,) = garkcli.conditions("rk4", "[[]]")
+    assert one.holds
+    assert garkcli.claims_of("rk4", "order") == {"order": "4"}
 
 
 @given(st.integers(2, 10**6))
