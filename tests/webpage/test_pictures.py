@@ -183,6 +183,23 @@ def _plane(svg: ET.Element) -> tuple[float, float, float]:
     return unit, below[0], beside[0] - 4
 
 
+@pytest.mark.parametrize("name", ["feagin-12", "feagin-14"])
+def test_a_small_region_is_seen_from_near(name: str) -> None:
+    """Feagin's methods have zeros of R up to a thousand times as far as their regions, which fill
+    the picture all the same; that nothing else is drawn of so many rounded stages is said.
+    """
+    found = by_name(pictures(load(name)))
+    region = found["region"]
+    assert "Islands" in region.note
+    nested = parsed(region).find("svg")
+    assert nested is not None
+    data = str(nested[0].get("d"))
+    heights = [float(y) for y in re.findall(r" (-?[\d.]+)", data)]
+    assert max(heights) - min(heights) > float(str(nested.get("height"))) / 3
+    assert "oscillator" not in found
+    assert "too many stages" in found["energy"].note
+
+
 def test_dots_of_the_convergence_picture_have_the_slope(
     of_rk4: dict[str, Picture],
 ) -> None:

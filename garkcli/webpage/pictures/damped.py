@@ -119,4 +119,5 @@ def _fill(frame: Frame, low: float, high: float, span: Point) -> None:
         (high, top),
         style=f"fill:{paint}",
         fill_opacity="0.35",
+        shape_rendering="crispEdges",  # no seams between squares
     )

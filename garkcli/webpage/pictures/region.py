@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from math import hypot
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,6 +30,11 @@ _MOST_CURVES = 4
 _FLAT = 3.0
 """What logarithms are cut off at, near zeros and poles."""
 _THINNED = 0.04  # cells
+_MOST_ZOOMS = 6
+_BLINDLY = 20
+_MUCH = 2.5
+"""How many times as large a window may be as what is around 0."""
+_AROUND = 1.3
 _TITLE = "Stability region"
 
 
@@ -49,7 +56,8 @@ def draw(subject: Subject) -> Picture:
         R = stability_function(subject.method.tableau, shares)
         functions.append(R)
         names.append(_label(name, len(found)))
-    window = window_of(functions, is_symmetric=False)
+    whole = window_of(functions, is_symmetric=False)
+    window = _nearer(whole, functions)
     frame = frame_of(window)
     for k, R in enumerate(functions):
         draw_region(frame, window, R, k)
@@ -59,6 +67,8 @@ def draw(subject: Subject) -> Picture:
     labels = "Re z", "Im z"
     svg = finished(frame, window, _TITLE, description, labels)
     note = "Filled: |R(z)| ≤ 1."
+    if window != whole:
+        note += " Islands around zeros of R that are far away are not in the picture."
     more = len(found) - len(names)
     if more > 0:
         note += f" The regions of the last {more} colours alone are left out."
@@ -69,6 +79,40 @@ def _label(name: str, count: int) -> str:
     if count == 1:
         return "|R(z)| ≤ 1"
     return "all colours alike" if name == "all" else f"colour {name} alone"
+
+
+def _nearer(window: Window, functions: Sequence[StabilityFunction]) -> Window:
+    """A part of the window where the regions around 0 fill too little of it, for zeros of R that
+    are far away.
+    """
+    for _ in range(_MOST_ZOOMS):
+        reach = max(_reach(window, R) for R in functions)
+        # nothing is seen of what is smaller than a cell
+        top = _AROUND * reach or window.top / _BLINDLY
+        if top > window.top / _MUCH:
+            return window
+        # both sides keep their share
+        shrunk = top / window.top
+        left = window.left * shrunk
+        right = window.right * shrunk
+        window = Window(left, right, top)
+    return window
+
+
+def _reach(window: Window, R: StabilityFunction) -> float:
+    """How far from 0 the largest part of a region goes."""
+    x = np.linspace(window.left, window.right, _NODES)
+    y = np.linspace(-window.top, window.top, _NODES)
+    loops = outlines(_level(R, x, y), _THINNED)
+    largest = max(loops, key=_extent, default=[])
+    points = [_in_plane(point, x, y) for point in largest]
+    return max((hypot(a, b) for a, b in points), default=0.0)
+
+
+def _extent(loop: Sequence[Point]) -> float:
+    """From its left to its right end."""
+    columns = [column for column, _ in loop]
+    return max(columns) - min(columns)
 
 
 def frame_of(window: Window) -> Frame:

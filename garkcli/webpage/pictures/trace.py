@@ -22,6 +22,9 @@ _HIGHEST = 2.0
 _WITHOUT_END = 8.0
 """How far z goes where all of it is stable."""
 _TITLE = "Oscillator"
+_ROUNDED = "With rounded coefficients nothing is decided about the oscillator."
+_NO_SPLIT = "The method has no split for the oscillator."
+_NO_AREAS = "The steps on the oscillator do not keep areas: the trace alone does not decide."
 
 
 def draw(subject: Subject) -> Picture:
@@ -32,14 +35,12 @@ def draw(subject: Subject) -> Picture:
             trace alone does not decide; or its coefficients are rounded.
     """
     if subject.method.tolerance is not None:
-        raise NotDrawn(
-            "With rounded coefficients nothing is decided about the oscillator."
-        )
+        raise NotDrawn(_unless_linear(subject, _ROUNDED))
     found = usual_oscillator(subject.method.tableau)
     if found is None:
-        raise NotDrawn("The method has no split for the oscillator.")
+        raise NotDrawn(_unless_linear(subject, _NO_SPLIT))
     if not found.determinant.is_one:
-        raise NotDrawn(_why_not(subject))
+        raise NotDrawn(_unless_linear(subject, _NO_AREAS))
     ends = _ends(found)
     highest = [high for _, high in ends if high]
     end = 1.25 * max(highest, default=_WITHOUT_END)
@@ -58,11 +59,10 @@ def draw(subject: Subject) -> Picture:
     return Picture("oscillator", _TITLE, description, svg, note)
 
 
-def _why_not(subject: Subject) -> str:
-    """Where steps do not keep areas; empty where the region tells what there is to tell."""
-    if directions(subject.method.tableau):
-        return ""
-    return "The steps on the oscillator do not keep areas: the trace alone does not decide."
+def _unless_linear(subject: Subject, why: str) -> str:
+    """Why it is not drawn; empty where the region tells what there is to tell."""
+    is_linear = bool(directions(subject.method.tableau))
+    return "" if is_linear else why
 
 
 def _ends(found: OscillatorStability) -> list[tuple[float, float | None]]:
