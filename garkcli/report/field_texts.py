@@ -65,8 +65,10 @@ def _elsewhere() -> Mapping[str, str]:
     return found
 
 
-def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """The path of each field of a schema."""
+def fields_of(
+    node: Any, path: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """The path of each field of a schema, with the schema of its values."""
     if isinstance(node, list):
         for part in node:
             yield from fields_of(part, path)
@@ -75,7 +77,7 @@ def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
     for word, part in node.items():
         if word == "properties":
             for name, value in part.items():
-                yield (*path, name)
+                yield (*path, name), value
                 yield from fields_of(value, (*path, name))
         else:
             yield from fields_of(part, path)

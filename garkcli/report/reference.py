@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from garkcli.glossary.faults import TOPICS, FaultKind, faults_of
 from garkcli.glossary.findings import findings_of
@@ -68,14 +69,26 @@ def fields_table() -> str:
     """Every field of every report as a table in Markdown: its name, its reports, what it holds."""
     reports: dict[tuple[str, str], dict[str, None]] = {}
     for report in REPORTS:
-        for path in dict.fromkeys(fields_of(report_schema(report), (report,))):
-            row = (path[-1], text_of(path))
+        for path, schema in fields_of(report_schema(report), (report,)):
+            row = (path[-1], text_of(path) + _one_of(schema))
             reports.setdefault(row, {})[report] = None
     lines = ["| field | in the reports | what it holds |", "|---|---|---|"]
     for (name, text), named in sorted(reports.items()):
         row_of = (f"`{name}`", ", ".join(named), _cell(text))
         lines.append(f"| {' | '.join(row_of)} |")
     return "\n".join(lines) + "\n"
+
+
+def _one_of(schema: Any) -> str:
+    """The words that the values of a field are; nothing where they are others."""
+    words = schema.get("enum", []) if isinstance(schema, dict) else []
+    named = [x for x in words if isinstance(x, str) and x]
+    if not 1 < len(named) <= _MOST_WORDS:
+        return ""
+    return f" One of: {', '.join(named)}."
+
+
+_MOST_WORDS = 12
 
 
 def _cell(text: str) -> str:

@@ -94,6 +94,7 @@ def _paths() -> list[Path]:
     return sorted(PACKAGE.rglob("*.py"))
 
 
+@cache
 def sites() -> list[Site]:
     """Every message with the place it is made at, those of helpers at each of their callers.
 

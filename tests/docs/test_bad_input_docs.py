@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from garkcli.errors import MethodFileError
-from garkcli.glossary.faults import code_of
+from garkcli.glossary.faults import by_code, code_of
 from garkcli.methodfile.load import load
 from garkcli.report.reference import codes_page, findings_table
 
@@ -117,6 +117,7 @@ def test_every_row_has_five_cells() -> None:
         cells = line.replace("\\|", "").split("|")[1:-1]
         assert len(cells) == 5
         assert cells[0].strip()
+        assert cells[1].strip() in by_code()
         assert cells[3].strip()
         assert all(len(x) < 2 * LONGEST for x in cells)
 

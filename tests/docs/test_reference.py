@@ -60,6 +60,10 @@ def test_every_finding_has_an_entry() -> None:
     """The codes that are explained are those of the commands."""
     assert list(findings_of("check")) == list(KINDS)
     assert list(findings_of("audit")) == list(CODES)
+    page = (ROOT / "docs" / "audit.md").read_text(encoding="utf-8")
+    _, _, table = page.partition("## What is found")
+    for code in CODES:
+        assert f"`{code}`" in table
     for command in ("check", "audit"):
         for found in findings_of(command).values():
             assert found.text.endswith(".")

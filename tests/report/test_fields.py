@@ -20,7 +20,7 @@ def paths() -> set[tuple[str, ...]]:
     return {
         path
         for report in REPORTS
-        for path in fields_of(report_schema(report), (report,))
+        for path, _ in fields_of(report_schema(report), (report,))
     }
 
 
@@ -60,6 +60,22 @@ def test_schemas_tell_their_fields() -> None:
     file = schema["properties"]["files"]["items"]
     shown = [x for x in _described(file) if x[0] == "residual"]
     assert any("An exact number" in x["description"] for _, x in shown)
+
+
+VERDICTS = {"verdict", "relation", "trend", "proof", "among"}
+"""Fields whose values say in a word what was found."""
+
+
+def test_every_verdict_is_a_word() -> None:
+    """What a report says was found is a word of gark explain."""
+    found = set()
+    for report in REPORTS:
+        for path, schema in fields_of(report_schema(report), (report,)):
+            if path[-1] in VERDICTS:
+                found |= {x for x in schema.get("enum", []) if x}
+    assert len(found) > 15
+    for word in found:
+        assert meanings(word), word
 
 
 def test_every_field_is_a_word() -> None:

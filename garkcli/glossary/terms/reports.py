@@ -260,6 +260,7 @@ TERMS = (
             "within-rounding",
             "first",
             "second",
+            "same",
         ),
         ("reducible method",),
     ),
@@ -272,12 +273,21 @@ TERMS = (
         ("error constant",),
     ),
     Term(
+        "answer of gark design",
+        "For which values a method has an order: every value, solutions that are listed, a family"
+        " that depends on free numbers, none, or undecided within the time.",
+        "",
+        "this project, docs/design.md",
+        ("solutions", "none"),
+        ("family of dimension d", "not decided"),
+    ),
+    Term(
         "critical point",
         "Values of parameters at which an objective has no slope along the methods of an order."
         " The least of all methods is one, or lies at the end of a range.",
         "",
         "this project, docs/design.md",
-        ("critical-points", "minimiser"),
+        ("critical-points", "minimiser", "nearly", "all", "found"),
         ("family of dimension d", "exact"),
     ),
     Term(
