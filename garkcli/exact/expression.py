@@ -44,6 +44,10 @@ _TOKEN = re.compile(
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
 """The roots that have a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
+    **dict.fromkeys("⁄∕÷", "use the sign /"),
+    "⅓": "write 1/3",
+    "¼": "write 1/4",
+    "³": "write x**3",
     "√": "write sqrt(x)",
     "½": "write 1/2",
     "²": "write x**2",
@@ -152,6 +156,8 @@ class Parser:
         if self.kind != "end":
             is_factor = self.kind in {"name", "number"} or self.value == "("
             cure = "write products with *" if is_factor else ""
+            if self.value == ",":
+                cure = "write decimals with a point: 0.5"
             self._fail(f"{self.value!r} is not expected here", cure)
         return result
 

@@ -83,6 +83,7 @@ _YAML_CURES = (
     ("cannot start any token", "quote a text that begins with this sign"),
     ("another document", "give every method a file of its own"),
     ("unexpected end of stream", "a quotation mark is open: close it"),
+    ("expected alphabetic or numeric", "comments begin with #"),
     ("duplicate anchor", "give every anchor a name of its own"),
     ("undefined tag", "leave the tag out, or quote the text"),
 )

@@ -329,6 +329,8 @@ class Numbers:
         if isinstance(node, SequenceNode):
             place = node.value[first - 1]
         cure = "give every row the same number, or end each at the diagonal"
+        if lengths[first - 1] > columns:
+            cure += "; decimals have a point: 0.5"
         self.source.fault(place, message, cure)
 
     def _completed(self, rows: Rows, node: Node, where: str) -> Rows:

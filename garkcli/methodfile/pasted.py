@@ -6,7 +6,8 @@
         | 0   1
 
 Rows are lines; zeros at their ends may be left out. A bar, or & as in LaTeX, parts the node from
-the row. Without one a column more than there are stages is that of the nodes.
+the row. Without one a column more than there are stages is that of the nodes. Cells of a table,
+parted by &, by tabs as pages and spreadsheets give them, or by commas, may be empty: zeros.
 """
 
 from __future__ import annotations
@@ -16,12 +17,16 @@ from dataclasses import dataclass
 from itertools import takewhile
 
 from garkcli.errors import MethodError, counted
+from garkcli.methodfile.typeset import plain
 
 MOST_LINES = 1000
-_RULE = re.compile(r"[\s|+=─│┼-]*|\\hline")
+_RULE = re.compile(r"[\s|+=─│┼,&-]*")
 _BAR = re.compile(r"\|\|?|│|&")
 _BETWEEN = re.compile(r"[\s,;&]+")
-_ENDS = ("\\\\", ";")
+_EMPTY_CELL = re.compile(r"^,|,\s*,|,\s*$", re.MULTILINE)
+_OF_TABLES = ("\t", ",")
+_EXAMPLE = "for instance: 0 | 0 0, below it 1/2 | 1/2 0, below it | 0 1"
+_IN_BRACKETS = "a list in brackets belongs into a file: A: [[0, 0], [1/2, 0]]"
 
 
 @dataclass(frozen=True)
@@ -61,14 +66,18 @@ def read_pasted(text: str) -> Pasted:
     >>> read_pasted("0 |\n1/2 | 1/2\n---\n | 0 1").A
     (('0', '0'), ('1/2', '0'))
     """
-    lines = [_line(x) for x in text.splitlines() if not _is_rule(x)]
+    text = plain(text)
+    sign = _between_cells(text)
+    lines = [_line(x, sign) for x in text.splitlines() if not _is_rule(x)]
     if len(lines) > MOST_LINES:
         raise MethodError("the tableau has too many lines", "paste one")
     if len(lines) < 2:
         raise MethodError(
             "no tableau: a line a stage and a line of weights are expected",
-            "for instance: 0 | 0 0, below it 1/2 | 1/2 0, below it | 0 1",
+            _IN_BRACKETS if "[" in text else _EXAMPLE,
         )
+    if sign in _OF_TABLES and lines[-1].node:
+        lines = _without_nodes(lines)
     has_bars = any(line.node is not None for line in lines)
     if has_bars:
         return _with_nodes(lines)
@@ -79,11 +88,39 @@ def _is_rule(text: str) -> bool:
     return _RULE.fullmatch(text.strip()) is not None
 
 
-def _line(text: str) -> _Line:
-    """The numbers of a line."""
-    stripped = text.strip()
-    for end in _ENDS:
-        stripped = stripped.removesuffix(end).strip()
+def _between_cells(text: str) -> str:
+    """The sign that parts the cells of a table; empty where numbers stand side by side."""
+    rows = [x for x in text.splitlines() if not _is_rule(x)]
+    if max((x.count("&") for x in rows), default=0) > 1:
+        return "&"
+    has_bars = any(_BAR.search(x) for x in rows)
+    if has_bars or not rows:
+        return ""
+    if any("\t" in x.rstrip() for x in rows):
+        return "\t"
+    return "," if _EMPTY_CELL.search("\n".join(rows)) else ""
+
+
+def _without_nodes(lines: list[_Line]) -> list[_Line]:
+    """Rows of a table whose first column is no column of nodes: weights have an entry there."""
+    rows = [(line.node or "0", *line.row) for line in lines]
+    longest = max(map(len, rows))
+    return [_Line(None, row + ("0",) * (longest - len(row))) for row in rows]
+
+
+def _line(text: str, sign: str) -> _Line:
+    """The numbers of a line.
+
+    Args:
+        text: the line.
+        sign: what parts cells, of which the first is that of the node; empty for blanks.
+    """
+    if sign:
+        node, *cells = (x.strip() for x in text.split(sign))
+        while cells and not cells[-1]:
+            cells.pop()
+        return _Line(node, tuple(x or "0" for x in cells))
+    stripped = text.strip().removesuffix(";").strip()
     parts = _BAR.split(stripped, maxsplit=1)
     row = tuple(x for x in _BETWEEN.split(parts[-1].strip(" |")) if x)
     if len(parts) == 1:

@@ -5,11 +5,17 @@ from __future__ import annotations
 import os
 import stat
 import sys
+from itertools import islice
 
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import Fault, MethodFileError, nearest, printable
 from garkcli.methodfile.file_kind import FileKind
 from garkcli.methodfile.folders import STDIN
 from garkcli.methodfile.source import MAX_BYTES
+
+MOST_COMPARED = 1_000
+"""Files of a folder that a missing name is compared with."""
+MOST_SHOWN = 4
+"""Files of a folder that are named in place of a missing one."""
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
@@ -29,7 +35,8 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     try:
         status = os.stat(path)
     except FileNotFoundError:
-        raise MethodFileError(path, [Fault("no such file")]) from None
+        fault = Fault("no such file", _cure_of_missing(path))
+        raise MethodFileError(path, [fault]) from None
     except ValueError:
         fault = Fault("no file has such a name", "leave out what is no text")
         raise MethodFileError(path, [fault]) from None
@@ -53,6 +60,32 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
         fault = Fault(f"cannot be read: {error.strerror}")
         raise MethodFileError(path, [fault]) from None
     return decoded(path, data), path
+
+
+def _cure_of_missing(path: str) -> str:
+    """The file that was meant, where one of its folder is called nearly so."""
+    folder, name = os.path.split(path)
+    try:
+        with os.scandir(folder or os.curdir) as entries:
+            some = (x.name for x in islice(entries, MOST_COMPARED))
+            names = [name for name in some if not name.startswith(".")]
+    except OSError:
+        return f"there is no folder {printable(folder)}" if folder else ""
+    # an ending that all have would make all names alike
+    stems = {_stem(x): x for x in sorted(names)}
+    near = stems.get(nearest(_stem(name), stems), "")
+    if near:
+        return f"did you mean {printable(os.path.join(folder, near))!r}?"
+    there = sorted(x for x in names if x.endswith(".yaml"))
+    if not there:
+        return "no file of this folder ends in .yaml"
+    shown = ", ".join(map(printable, there[:MOST_SHOWN]))
+    more = ", …" if len(there) > MOST_SHOWN else ""
+    return f"there are: {shown}{more}"
+
+
+def _stem(name: str) -> str:
+    return name.removesuffix(".yaml").removesuffix(".gark")
 
 
 def decoded(name: str, data: bytes) -> str:

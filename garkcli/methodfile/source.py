@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -17,6 +18,7 @@ from garkcli.errors import (
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
 from garkcli.methodfile.composing import composed, folded_place, position
 from garkcli.methodfile.file_kind import METHOD_FILE, FileKind
+from garkcli.methodfile.foreign import cure_of_foreign
 from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.words import meant_key, shortened
 
@@ -143,16 +145,27 @@ class Source:
             return None
         root = composed(self.text)
         if isinstance(root, Fault):
-            self._note(root)
+            self._note(self._cured(root))
             return None
         if root is None:
             self.fault(None, "the file is empty", self.kind.smallest)
             return None
         if not isinstance(root, MappingNode):
             message = f"a {self.kind.name} is a mapping of keys to values"
-            self.fault(root, message, self.kind.start)
+            self.fault(root, message, self._foreign(True) or self.kind.start)
             return None
         return root
+
+    def _foreign(self, is_yaml: bool) -> str:
+        """The cure for a file that is none of YAML, where a method file is expected."""
+        if self.kind is not METHOD_FILE:
+            return ""
+        return cure_of_foreign(self.text, self.name, is_yaml)
+
+    def _cured(self, fault: Fault) -> Fault:
+        """What YAML complains about, with the cure for what the file looks like."""
+        cure = self._foreign(False)
+        return replace(fault, help=cure) if cure else fault
 
     def mapping(
         self,

@@ -173,6 +173,11 @@ class SpelledOutReader:
             cure = "write the second row as embedded: […], beside b"
             if len(b.value) == 1:
                 cure = "write b as one row: b: [0, 1]"
+            elif all(
+                isinstance(x, SequenceNode) and len(x.value) == 1
+                for x in b.value
+            ):
+                cure = "b is a column here: write it as one row, [0, 1]"
             self.source.fault(b, message, cure)
             return None
         if depth == 3 and not is_one_row:

@@ -102,7 +102,9 @@ def printed_row(
     texts = [only_text(row) for row in rows]
     for row, text in zip(rows, texts, strict=True):
         if holds_several(text):
-            as_list = bracketed(";".join(texts)) or example
+            # a semicolon in one of them parted rows, and commas entries: not to be guessed
+            is_clear = ";" not in text or len(texts) == 1
+            as_list = (is_clear and bracketed(";".join(texts))) or example
             return row, text, as_list
     return None
 

@@ -72,6 +72,46 @@ def test_a_tableau_in_latex() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0\t\t\n1/2\t1/2\t\n1\t−1\t2\n\t1/6\t2/3\t1/6",
+        "0,,,\n1/2,1/2,,\n1,-1,2,\n,1/6,2/3,1/6\n",
+        "0 | \n½ | ½\n1 | −1 2\n--+--\n | 1/6 2/3 1⁄6",
+        r"""\begin{array}{c|ccc} 0 & & & \\ \frac12 & \frac{1}{2} & & \\
+        $1$ & -1 & 2 \\[1ex] \hline & \dfrac{1}{6} & \frac{2}{3} & 1/6 \end{array}""",
+    ],
+    ids=["page", "spreadsheet", "book", "latex"],
+)
+def test_a_tableau_from_elsewhere(text: str) -> None:
+    """Kutta's method off a page, a spreadsheet, a book and a paper."""
+    assert read_pasted(text) == Pasted(
+        (("0", "0", "0"), ("1/2", "0", "0"), ("-1", "2", "0")),
+        ("1/6", "2/3", "1/6"),
+        ("0", "1/2", "1"),
+    )
+
+
+def test_an_empty_cell_is_zero() -> None:
+    """One in the middle of a row does not move those behind it to its place; a table without nodes
+    has an entry before the first weight.
+    """
+    rows = r"0 & & & \\ 1/2 & 1/2 & & \\ 1/2 & & 1/2 & \\ & 0 & 0 & 1"
+    found = read_pasted(rows.replace(r"\\", r"\\" + "\n"))
+    assert found.A[2] == ("0", "1/2", "0")
+    assert read_pasted("0\t0\t0\n\t1\t0\n0\t\t1/2\n1/6\t2/3\t1/6") == Pasted(
+        (("0", "0", "0"), ("0", "1", "0"), ("0", "0", "1/2")),
+        ("1/6", "2/3", "1/6"),
+    )
+
+
+def test_a_sign_that_is_a_sum_is_left_alone() -> None:
+    """1½ is not 11/2."""
+    run = gark("new", "--tableau", "0 |; 1½ | 1; | 0 1")
+    assert run.code == 2
+    assert "write 1/2" in run.err
+
+
 def test_families(tmp_path: Path) -> None:
     """Two families are coupled by collocation where no rule is named."""
     run = gark("new", "--family", "gauss:2", "--family", "lobatto-iiia:3")
@@ -89,6 +129,8 @@ def test_families(tmp_path: Path) -> None:
         ([], "a new method needs --tableau or --family"),
         (["--tableau", "0;1/2 1/2;0 1"], "nodes may come first"),
         (["--tableau", "1"], "no tableau"),
+        (["--tableau", "[[0,0],[1/2,0]] [0,1]"], "in brackets belongs"),
+        (["--tableau", "0 |; 0,5 | 0,5; | 0 1"], "with a point: 0.5"),
         (["--tableau", "0 | 0;1 | 1"], "no line of weights"),
         (["--tableau", "0 | 0 1;| 1"], "row 1 has 2 entries"),
         (["--tableau", "0 | 0;| 1 2"], "2 weights for 1 stage"),

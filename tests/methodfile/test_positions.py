@@ -120,11 +120,25 @@ def test_the_caret_finds_its_place_in_a_long_line() -> None:
     assert any(rest.startswith("oops, 1/7") for rest in under_caret(text))
 
 
-def test_a_missing_file_has_no_line() -> None:
-    """What is wrong with a path is no fault of a line: the place is 0."""
+def missing(path: Path) -> str:
+    """The cure for a path without a file; the place of the fault is no line."""
     with pytest.raises(MethodFileError) as caught:
-        load("no-such-file.gark.yaml")
-    assert caught.value.faults == (Fault("no such file"),)
+        load(str(path))
+    (fault,) = caught.value.faults
+    assert (fault.message, fault.line, fault.column) == ("no such file", 0, 0)
+    return fault.help
+
+
+def test_a_missing_file_has_no_line_and_a_cure(tmp_path: Path) -> None:
+    """The file of the folder that was meant, or what is there, or that nothing is."""
+    path = tmp_path / "midpiont.gark.yaml"
+    assert missing(path) == "no file of this folder ends in .yaml"
+    (tmp_path / ".gark.yaml").touch()
+    (tmp_path / "rk4.gark.yaml").touch()
+    assert missing(path) == "there are: rk4.gark.yaml"
+    (tmp_path / "midpoint.gark.yaml").touch()
+    assert "midpoint.gark.yaml'?" in missing(path)
+    assert missing(tmp_path / "x" / "y.yaml").startswith("there is no folder")
 
 
 def test_a_fault_is_told_once_where_one_node_is_used_twice() -> None:
