@@ -44,9 +44,12 @@ _TOKEN = re.compile(
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
 """The roots that have a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
-    **dict.fromkeys("⁄∕÷", "use the sign /"),
-    "⅓": "write 1/3",
-    "¼": "write 1/4",
+    **dict.fromkeys(
+        "\N{FRACTION SLASH}\N{DIVISION SLASH}\N{DIVISION SIGN}",
+        "use the sign /",
+    ),
+    "\N{VULGAR FRACTION ONE THIRD}": "write 1/3",
+    "\N{VULGAR FRACTION ONE QUARTER}": "write 1/4",
     "³": "write x**3",
     "√": "write sqrt(x)",
     "½": "write 1/2",
