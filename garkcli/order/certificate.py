@@ -25,6 +25,7 @@ from garkcli.exact.matrix import Vector, dot
 from garkcli.exact.span import AffineSpan
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
+from garkcli.upward import found
 
 DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
@@ -35,7 +36,7 @@ class Witness:
     """A tree whose order condition fails.
 
     Attributes:
-        tree: the tree; its colours count from 0.
+        tree: the tree u.
         value: b_lᵀ 𝒜^[u], exact.
         required: 1/γ(u).
     """
@@ -57,6 +58,10 @@ class Witness:
         if len(tree) > 30:
             tree = f"of order {self.tree.order}"
         return f"<Witness {tree}: {value} instead of {self.required}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "witness_html")(self)
+        return html
 
 
 @dataclass(frozen=True, repr=False)

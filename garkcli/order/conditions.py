@@ -13,6 +13,7 @@ from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
+from garkcli.upward import found
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,10 @@ class Condition:
         if self.is_exact:
             return f"<Condition {what}>"
         return f"<Condition {what} instead of {self.required}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "condition_html")(self)
+        return html
 
 
 def conditions(

@@ -13,11 +13,14 @@ from garkcli.check.explained import witness_text
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.plain import printable
 from garkcli.page.tableau_latex import displays, parts_of
+from garkcli.trees.svg import draw_svg_sheet
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis, AnyOrder
     from garkcli.check.outcome import Claim, Outcome
     from garkcli.errors import Fault
+    from garkcli.order.certificate import Witness
+    from garkcli.order.conditions import Condition
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.pointwise import Cell, Entries
 
@@ -118,6 +121,24 @@ def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
 
 def _cell(text: str, style: str) -> str:
     return f'<td style="{style}">{_text(text)}</td>'
+
+
+def witness_html(witness: Witness) -> str:
+    """The tree at which an order ends, and its condition."""
+    colours = len(witness.tree.colours) > 1 or bool(witness.tree.root)
+    text = witness_text(witness, colours)
+    picture = draw_svg_sheet([witness.tree])
+    return f"{picture}<p>{_text(text)}</p>"
+
+
+def condition_html(condition: Condition) -> str:
+    """A tree, and its condition in one line."""
+    tree = condition.tree
+    weight = f"{condition.value} = {condition.required}"
+    if not condition.is_exact:
+        weight = f"{condition.value} instead of {condition.required}"
+    picture = draw_svg_sheet([tree])
+    return f"{picture}<p>{_text(str(tree))}: {_text(weight)}</p>"
 
 
 def analysis_html(found: Analysis) -> str:

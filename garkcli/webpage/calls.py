@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from garkcli.api.anymethod import AnyMethod
+from garkcli.api.numbers import Whole, whole
 from garkcli.errors import MethodError
 from garkcli.webpage.page import render
 from garkcli.webpage.reported import reported
 
 
 def report_page(
-    *methods: AnyMethod, order: int | None = None, pictures: bool = True
+    *methods: AnyMethod, order: Whole | None = None, pictures: bool = True
 ) -> str:
     """All that is found of methods as one HTML page, which needs nothing else: ``gark report``.
 
@@ -27,5 +28,6 @@ def report_page(
     """
     if not methods:
         raise MethodError("a page of no method", "give at least one")
-    found = [reported(x, order, has_pictures=pictures) for x in methods]
+    listed = None if order is None else whole(order, "order", 1)
+    found = [reported(x, listed, has_pictures=pictures) for x in methods]
     return render(found)

@@ -116,6 +116,21 @@ def test_a_design_says_what_was_found() -> None:
     assert "t = 2/3" in shown
 
 
+def test_a_witness_is_its_tree_and_its_condition() -> None:
+    """Drawn, with the weight and what it should be; so is a condition."""
+    witness = garkcli.find_order("rk4").witness
+    assert witness is not None
+    html = witness._repr_html_()
+    ET.fromstring(f"<div>{html}</div>")
+    assert "<svg" in html
+    assert "[[[[[]]]]]: 0 instead of 1/120, off by -1/120" in html
+    holding, failing = (
+        next(garkcli.conditions(x, "[[[]]]")) for x in ("rk4", "heun")
+    )
+    assert "[[[]_1]_1]_1: 1/6 = 1/6" in holding._repr_html_()
+    assert "0 instead of 1/6" in failing._repr_html_()
+
+
 def test_formulas_are_latex() -> None:
     """Of a stability function and of a modified Hamiltonian, in the signs that notebooks read."""
     stability = garkcli.find_stability("gauss-1")
