@@ -136,7 +136,10 @@ def linked(text: str, own: str = "") -> str:
 def listed(section: str, own: str) -> Iterator[str]:
     """A section as a list."""
     for name, text in items(section):
-        head = f"`{name}`: " if name else ""
+        # errors have sections of their own, arguments only names like others
+        is_error = isinstance(getattr(garkcli, name, None), type)
+        shown = linked(f"``{name}``", own) if is_error else f"`{name}`"
+        head = f"{shown}: " if name else ""
         yield f"* {head}{linked(text, own)}"
 
 
@@ -172,7 +175,7 @@ def body(doc: Docstring, own: str) -> Iterator[str]:
         else:
             yield f"{label}: {linked(' '.join(section.split()), own)}"
     if doc.examples:
-        yield "```python\n" + "\n\n".join(doc.examples) + "\n\n```"
+        yield "```python\n" + "\n\n".join(doc.examples) + "\n```"
 
 
 def prose(text: str) -> str:
