@@ -1,5 +1,6 @@
 """Settings that all tests share."""
 
+import atexit
 import gc
 import os
 import sys
@@ -32,3 +33,4 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000)  # as gark has it
+    atexit.register(gc.freeze)  # nor at the end

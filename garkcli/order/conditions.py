@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq
 
@@ -14,6 +15,9 @@ from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
 from garkcli.upward import found
+
+_Place: TypeAlias = tuple[int, Tree]
+"""Who sees a branch, by its stage space, and the branch."""
 
 
 @dataclass(frozen=True)
@@ -82,16 +86,15 @@ class Condition:
 def conditions(
     tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO
 ) -> Iterator[Condition]:
-    """The conditions of ``trees`` for ``tableau``; stage vectors of shared branches are computed
-    once.
+    """The conditions of ``trees`` for ``tableau``; what comes of shared branches is computed once.
 
     Raises:
         MethodError: a tree that the coupling graph does not admit.
     """
-    memo: dict[Tree, Vector] = {}
+    images: dict[_Place, Vector] = {}
     for tree in trees:
         b = tableau.colours[tree.root].b
-        value = dot(b, _stage_vector(tableau, tree, memo))
+        value = dot(b, _stage_vector(tableau, tree, images))
         yield Condition(tree, value, tolerance)
 
 
@@ -118,29 +121,39 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
 
 
 def _stage_vector(
-    tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]
+    tableau: Tableau, tree: Tree, images: dict[_Place, Vector]
 ) -> Vector:
-    """𝒜^[u], eqs. (Ataul) and (Au); branches are kept in ``memo``, the tree itself is not."""
-    space = tableau.space(tree.root)
+    """𝒜^[u], eqs. (Ataul) and (Au); what the blocks make of its branches is kept in ``images``."""
     colour = tableau.colours[tree.root]
     if colour.is_linear and len(tree.branches) > 1:
         raise MethodError(
             f"colour {colour.name} is linear: its vertices have one branch at most"
         )
+    space = tableau.space(tree.root)
     vector = space.one
     for branch in tree.branches:
-        block = tableau.block(tree.root, branch.root)
-        if block is None:
-            seen = tableau.colours[branch.root]
-            raise MethodError(
-                f"colour {colour.name} does not see colour {seen.name}:"
-                " the tree is not admissible"
-            )
-        if branch not in memo:
-            memo[branch] = _stage_vector(tableau, branch, memo)
-        image = apply(block, memo[branch])
-        vector = space.product(vector, image)
+        place = colour.space, branch
+        if place not in images:
+            images[place] = _image(tableau, colour, branch, images)
+        vector = space.product(vector, images[place])
     return vector
+
+
+def _image(
+    tableau: Tableau,
+    colour: Colour,
+    branch: Tree,
+    images: dict[_Place, Vector],
+) -> Vector:
+    """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
+    block = tableau.blocks.get((colour.space, branch.root))
+    if block is None:
+        seen = tableau.colours[branch.root]
+        raise MethodError(
+            f"colour {colour.name} does not see colour {seen.name}:"
+            " the tree is not admissible"
+        )
+    return apply(block, _stage_vector(tableau, branch, images))
 
 
 def coupling_graph(
