@@ -11,7 +11,11 @@ from garkcli.bridges.importing import orders_of, read
 from garkcli.bridges.judging import Judged, allowed, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.found import FoundTable
-from garkcli.bridges.readers.registry import find_tables, readers_for
+from garkcli.bridges.readers.registry import (
+    find_tables,
+    readers_for,
+    unlike_tables,
+)
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.explained import repair_text, witness_text
@@ -84,6 +88,11 @@ class Audited:
     findings: tuple[AuditFinding, ...] = ()
 
     @property
+    def is_read(self) -> bool:
+        """Whether there is a method to judge."""
+        return self.method is not None
+
+    @property
     def has_errors(self) -> bool:
         """Whether a finding is an error."""
         return any(x.level == "error" for x in self.findings)
@@ -106,6 +115,16 @@ def audited(paths: Iterable[str]) -> Iterator[Audited]:
             found = audit(table)
             if found is not None:
                 yield found
+
+
+def unlike(paths: Iterable[str]) -> Iterator[str]:
+    """What some sources have instead of tables: arrays whose names are those of a method, and why
+    they are none, each with its place.
+    """
+    for path in paths:
+        text, source = source_text(path)
+        for table in unlike_tables(text, source, readers_for(path)):
+            yield f"{table.source}:{table.line}: {table.trouble}"
 
 
 def audit(table: FoundTable) -> Audited | None:

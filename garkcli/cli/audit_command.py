@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -28,7 +29,8 @@ def command(paths: tuple[str, ...], output: Output) -> int:
     not, whether its weights have the sum 1. Nothing in a source is executed. The format auto is
     github in GitHub Actions and text elsewhere.
 
-    Exit code: 0 nothing is wrong, 1 a finding is an error, 2 there is no table.
+    Exit code: 0 nothing is wrong, 1 a finding is an error, 2 there is no table, or none that can be
+    read.
     """
     from garkcli.bridges.audit import audited
     from garkcli.bridges.sources import source_files
@@ -42,16 +44,27 @@ def command(paths: tuple[str, ...], output: Output) -> int:
     for path in tracked(iter(files), len(files), "reading", shows_bar):
         found += audited([path])
     if not found:
-        looked_at = counted(len(files), "file")
-        message = f"no table is found in {', '.join(paths[:3])} ({looked_at})"
-        cure = "docs/import.md says what is read"
-        raise UsageProblem(message, cure)
+        raise _no_table(paths, files)
     chosen = _format(output)
     report = render_text(found, output.verbosity)
     if chosen in RENDERERS:
         report = RENDERERS[chosen](found)
     output.write(report, chosen)
-    return int(any(x.has_errors for x in found))
+    if any(x.has_errors for x in found):
+        return 1
+    return 0 if any(x.is_read for x in found) else 2
+
+
+def _no_table(paths: Sequence[str], files: Sequence[str]) -> UsageProblem:
+    """What is told where there is nothing to judge: of arrays with the names of a method."""
+    from garkcli.bridges.audit import unlike
+
+    looked_at = counted(len(files), "file")
+    message = f"no table is found in {', '.join(paths[:3])} ({looked_at})"
+    first = next(unlike(files), "")
+    if first:
+        message += f"; {first}"
+    return UsageProblem(message, "docs/import.md says what is read")
 
 
 def _format(output: Output) -> str:

@@ -26,7 +26,13 @@ from garkcli.cli.streams import (
     say_faults,
     say_problem,
 )
-from garkcli.errors import GarkError, MethodFileError, did_you_mean
+from garkcli.errors import (
+    GarkError,
+    MethodFileError,
+    UsageProblem,
+    counted,
+    did_you_mean,
+)
 from garkcli.page.plain import printable
 from garkcli.version import __version__
 
@@ -221,13 +227,26 @@ def _run(arguments: list[str]) -> int:
     which is the code of a claim that fails.
     """
     if arguments[:1] == [HELP]:
-        arguments = [*arguments[1:], "--help"]
+        arguments = _help_for(arguments[1:])
     try:
         with gark.make_context("gark", list(arguments)) as context:
             result = gark.invoke(context)
     except click.exceptions.Exit as end:
         return end.exit_code
     return result if isinstance(result, int) else 0
+
+
+def _help_for(arguments: list[str]) -> list[str]:
+    """What ``gark help COMMAND`` is short for.
+
+    Raises:
+        UsageProblem: more than one command is named.
+    """
+    names = [x for x in arguments if not x.startswith("-")]
+    if len(names) > 1:
+        message = f"gark help is for one command, not for {counted(len(names), 'word')}"
+        raise UsageProblem(message, f"gark help {names[0]}")
+    return [*arguments, "--help"]
 
 
 def _usage_text(error: click.ClickException) -> str:

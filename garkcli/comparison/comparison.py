@@ -69,6 +69,11 @@ class PropertyPair:
     one: Verdict
     other: Verdict
 
+    @property
+    def is_known(self) -> bool:
+        """Whether both are decided, so that the methods differ in it."""
+        return not (self.one.is_undecided or self.other.is_undecided)
+
 
 @dataclass(frozen=True, repr=False)
 class Comparison:
@@ -85,7 +90,7 @@ class Comparison:
         orders: their orders, of the method, its embedded weights, its conjugate and its pair.
         met: the conditions that one meets and the other does not; None where the methods are the
             same, or have different numbers of colours.
-        properties: those that differ.
+        properties: those that differ, or that are decided of one method alone.
     """
 
     one: GarkMethod

@@ -62,9 +62,15 @@ def _errors(tables: Sequence[Audited]) -> int:
     return sum(x.has_errors for x in tables)
 
 
+def _unread(tables: Sequence[Audited]) -> int:
+    """How many tables are neither judged nor wrong in themselves."""
+    return sum(not (x.is_read or x.has_errors) for x in tables)
+
+
 _SUMMARY: Record[Sequence[Audited]] = Record(
     Field("tables", COUNT, len),
     Field("wrong", COUNT, _errors),
+    Field("unread", COUNT, _unread),
 )
 _REPORT: Record[Sequence[Audited]] = Record(
     schema_named(SCHEMA),
@@ -120,8 +126,13 @@ def _title(found: Audited) -> str:
 
 def _summary(tables: Sequence[Audited]) -> str:
     wrong = _errors(tables)
-    told = f"{wrong} wrong" if wrong else "none wrong"
-    return f"{counted(len(tables), 'table')}, {told}"
+    unread = _unread(tables)
+    parts = [counted(len(tables), "table")]
+    if wrong or unread < len(tables):
+        parts.append(f"{wrong} wrong" if wrong else "none wrong")
+    if unread:
+        parts.append(f"{unread} could not be read")
+    return ", ".join(parts)
 
 
 def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:

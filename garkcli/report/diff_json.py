@@ -146,11 +146,18 @@ _PROPERTY: Record[PropertyPair] = Record(
     Field("first", TEXT, lambda x: verdict_name(x.one)),
     Field("second", TEXT, lambda x: verdict_name(x.other)),
 )
+
+
+def _tolerance(method: GarkMethod) -> str | None:
+    return None if method.tolerance is None else to_text(method.tolerance)
+
+
 _METHOD: Record[_Method] = Record(
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.method.name),
     Field("form", {"enum": list(FORMS)}, lambda x: x.form),
     Field("stages", array(POSITION), lambda x: list(x.method.stages)),
+    Field("tolerance", nullable(EXACT), lambda x: _tolerance(x.method)),
 )
 _RELATION: Schema = {
     "enum": ["identical", "same", "within-rounding", "different", "undecided"],

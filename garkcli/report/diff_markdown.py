@@ -12,6 +12,7 @@ from garkcli.report.diff_words import (
     gap_name,
     place_name,
     relation_lines,
+    tolerance_lines,
     verdict_name,
 )
 from garkcli.trees.notation import format_tree
@@ -22,7 +23,8 @@ def render(found: Comparison, files: tuple[str, str]) -> str:
     first, second = map(_code, files)
     head, *others = relation_lines(found)
     lines = [f"{first} against {second}: **{_cell(head)}**", ""]
-    lines += [f"- {_cell(line)}" for line in others]
+    told = [*others, *tolerance_lines(found)]
+    lines += [f"- {_cell(line)}" for line in told]
     lines += [*_orders(found), *_gaps(found)]
     lines += [*_conditions(found), *_properties(found)]
     return "\n".join(lines).rstrip() + "\n"

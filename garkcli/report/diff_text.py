@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from garkcli.check.analysis import AnyOrder
-from garkcli.comparison.comparison import WITH_TIME, Comparison
+from garkcli.comparison.comparison import WITH_TIME, Comparison, PropertyPair
 from garkcli.comparison.differences import BlockGap
 from garkcli.order.conditions import Condition
 from garkcli.page.paint import (
@@ -20,6 +22,7 @@ from garkcli.report.diff_words import (
     gap_name,
     place_name,
     relation_lines,
+    tolerance_lines,
     verdict_name,
 )
 from garkcli.trees.notation import format_tree
@@ -42,6 +45,7 @@ def render(found: Comparison, files: tuple[str, str], paint: Paint) -> str:
     first, *others = relation_lines(found)
     style = "good" if found.relation in _GOOD else "bad"
     lines += ["", paint(style, first), *indented(others)]
+    lines += indented(tolerance_lines(found))
     for part in (
         _gaps(found),
         _orders(found),
@@ -155,10 +159,24 @@ def _condition(failing: Condition, colours: bool) -> list[str]:
 
 
 def _properties(found: Comparison) -> list[str]:
-    if not found.properties:
+    known = [x for x in found.properties if x.is_known]
+    half_known = [x for x in found.properties if not x.is_known]
+    lines: list[str] = []
+    for title, pairs in (
+        ("properties that differ", known),
+        ("properties decided of one alone", half_known),
+    ):
+        if lines and pairs:
+            lines.append("")
+        lines += _table_of(title, pairs)
+    return lines
+
+
+def _table_of(title: str, pairs: Sequence[PropertyPair]) -> list[str]:
+    if not pairs:
         return []
-    rows = [["properties that differ", "first", "second"]]
-    for pair in found.properties:
+    rows = [[title, "first", "second"]]
+    for pair in pairs:
         one, other = _short(pair.one), _short(pair.other)
         rows.append([f"  {pair.key}", one, other])
     lines = aligned(rows, right=False)

@@ -45,6 +45,15 @@ def relation_lines(found: Comparison) -> list[str]:
     return [head, *how]
 
 
+def tolerance_lines(found: Comparison) -> list[str]:
+    """The tolerances of the files where they are not the same."""
+    one, other = found.one.tolerance, found.other.tolerance
+    if one == other:
+        return []
+    first, second = ("none" if x is None else decimal(x) for x in (one, other))
+    return [f"their tolerances are not the same: {first} against {second}"]
+
+
 def _how(found: Comparison, same: Sameness) -> list[str]:
     """What turns one into the other, a line each."""
     lines = []

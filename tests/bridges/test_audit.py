@@ -314,6 +314,46 @@ def test_products_are_no_better_than_their_factors(tmp_path: Path) -> None:
     assert gark("audit", str(tmp_path)).code == 1
 
 
+UNLIKE = {
+    "m.py": "A = [[0.0], [0.5, 0.0], [1, 2, 3]]\nb = [0.1, 0.9]\nc = [0, 0.5]\n",
+    "m.m": "A = [0 0; 0.5 0 0];\nb = [0 1];\n",
+    "m.jl": "A = [0 0 0; 0.5 0 0; 0 0 0]\nb = [0, 1]\n",
+    "m.json": '{"A": [[0, 0], [0.5, 0, 1]], "b": [0, 1], "c": [0, 0.5]}',
+}
+
+
+@pytest.mark.parametrize("name", UNLIKE)
+def test_arrays_that_do_not_fit_are_told(name: str, tmp_path: Path) -> None:
+    """Arrays of a method's names and of no shape of one are no table; where nothing else is there it
+    is said what was seen.
+    """
+    (tmp_path / name).write_text(UNLIKE[name], encoding="utf-8")
+    run = gark("audit", name, cwd=tmp_path)
+    assert (run.code, run.out) == (2, "")
+    assert f"no table is found in {name} (1 file); {name}:1: " in run.err
+    assert "arrays called A and b do not fit together: " in run.err
+    assert " for 2 stages" in run.err
+    shutil.copy(SOURCES / "kutta.m", tmp_path / "k.m")
+    assert gark("audit", ".", cwd=tmp_path).code == 0
+
+
+def test_a_table_that_cannot_be_read_is_counted(tmp_path: Path) -> None:
+    """It is none that is right: the summary says so, and without any other the exit code is 2."""
+    text = (SOURCES / "ralston.c").read_text(encoding="utf-8")
+    call = "\nt = ARKodeButcherTable_Create(n, 3, 2, c, A, b, d);\n"
+    (tmp_path / "m.c").write_text(call, encoding="utf-8")
+    run = gark("audit", "m.c", cwd=tmp_path)
+    assert run.code == 2
+    assert run.out.endswith("1 table, 1 could not be read\n")
+    (tmp_path / "n.c").write_text(text, encoding="utf-8")
+    run = gark("audit", ".", cwd=tmp_path)
+    assert run.code == 0
+    assert run.out.endswith(", none wrong, 1 could not be read\n")
+    summary = audit(tmp_path)["summary"]
+    assert isinstance(summary, dict)
+    assert (summary["wrong"], summary["unread"]) == (0, 1)
+
+
 def test_an_order_that_is_higher_is_a_warning(tmp_path: Path) -> None:
     """It is told, and fails nothing: a code may well declare less than a method has."""
     text = (SOURCES / "kutta.m").read_text(encoding="utf-8")

@@ -167,6 +167,9 @@ def test_help_of_commands() -> None:
     assert gark("help", "claims").out == gark("claims", "--help").out
     assert gark("help").out == gark("--help").out
     assert gark("-V").out == gark("--version").out
+    run = gark("help", "check", "claims")
+    assert (run.code, run.out) == (2, "")
+    assert "gark help is for one command, not for 2 words" in run.err
     run = gark("help", "chek")
     assert run.code == 2
     assert "did you mean 'check'" in run.err

@@ -333,6 +333,25 @@ def test_reports() -> None:
         assert diff_markdown.render(found, files).count("**") == 2
 
 
+def test_a_tolerance_is_a_difference_of_the_files_alone() -> None:
+    """With another tolerance and the same entries the tolerances are shown, and what the rounding
+    leaves open is no difference of the methods.
+    """
+    found = compare(RK4, loads(f"{RK4.text}\ntolerance: 1e-3\n"))
+    files = ("first.gark.yaml", "second.gark.yaml")
+    text = diff_text.render(found, files, Paint())
+    assert "their tolerances are not the same: none against 1e-3\n" in text
+    assert "properties that differ" not in text
+    assert "properties decided of one alone" in text
+    assert "not decided" in text
+    assert "none against 1e-3" in diff_markdown.render(found, files)
+    data = json.loads(diff_json.render(found, files))
+    assert (data["first"]["tolerance"], data["second"]["tolerance"]) == (
+        None,
+        "1/1000",
+    )
+
+
 def test_exit_codes() -> None:
     """0 where the methods are the same, with --strict where every entry is."""
     for text, code, strict in (

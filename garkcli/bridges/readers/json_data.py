@@ -127,8 +127,8 @@ def _table(
         for role, value in values.items():
             scope.add(_SPELT[role], value, line)
         table = next(scope.tables(source, NAME), None)
-    if table is None:
-        return None
+    if table is None or table.trouble:
+        return table
     return replace(table, is_sure=True, **_told(mapping))
 
 

@@ -6,7 +6,13 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from garkcli.bridges.readers.found import FoundTable, Row, Rows, Unreadable
+from garkcli.bridges.readers.found import (
+    FoundTable,
+    Row,
+    Rows,
+    Unreadable,
+    unlike_a_table,
+)
 from garkcli.bridges.readers.scalars import (
     Value,
     is_matrix,
@@ -117,13 +123,19 @@ class Scope:
         group.values[role] = value
 
     def tables(self, source: str, format: str) -> Iterator[FoundTable]:
-        """The groups that are methods by their names and shapes."""
+        """The groups that are methods by their names and shapes; then those by their names alone,
+        with what is wrong with their shapes.
+        """
+        unlike = []
         everything = [*self.closed, *self.groups.items()]
         for stem, group in everything:
             name = stem or self.title
             table = _table(group, source, format, name)
-            if table is not None:
+            if table is not None and table.trouble:
+                unlike.append(table)
+            elif table is not None:
                 yield table
+        yield from unlike
 
 
 def _by_shape(role: str, value: Value) -> str:
@@ -156,22 +168,24 @@ def _table(
     if not group.is_complete:
         return None
     values = group.values
+    told = values.get("title")
+    title = told if isinstance(told, str) else name
     try:
         b = weights(values["b"])
         A = square(values["A"], len(b))
         c = _optional(values, "c", len(b))
         if c is not None and len(c) != len(b):
-            return None
+            raise Unreadable(f"{len(c)} nodes for {len(b)} stages")
         embedded = _embedded(values, b)
         dense = _dense(values, len(b))
-    except Unreadable:
-        return None
-    title = values.get("title")
+    except Unreadable as error:
+        trouble = f"arrays called A and b do not fit together: {error.message}"
+        return unlike_a_table(source, group.line, format, title, trouble)
     return FoundTable(
         source,
         group.line,
         format,
-        title if isinstance(title, str) else name,
+        title,
         ((A,),),
         (b,),
         (c,),

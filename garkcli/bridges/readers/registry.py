@@ -68,12 +68,36 @@ def find_tables(
     """
     if len(text) > MAX_CHARACTERS:
         return []
+    found = _found(text, source, chosen)
+    return [x for x in found if not _is_unlike(x)][:MAX_TABLES]
+
+
+def unlike_tables(
+    text: str, source: str, chosen: Sequence[Reader]
+) -> list[FoundTable]:
+    """Arrays of a source that have the names of a method and shapes that do not go together; the
+    arguments are those of ``find_tables``.
+    """
+    if len(text) > MAX_CHARACTERS:
+        return []
+    found = _found(text, source, chosen)
+    return [x for x in found if _is_unlike(x)][:MAX_TABLES]
+
+
+def _is_unlike(table: FoundTable) -> bool:
+    """Whether names alone speak for a table, and its shapes against it."""
+    return bool(table.trouble) and not table.is_sure
+
+
+def _found(
+    text: str, source: str, chosen: Sequence[Reader]
+) -> list[FoundTable]:
     if len(chosen) == len(all_readers()):
         return _by_the_best(text, source, chosen)
     found: list[FoundTable] = []
     for reader in chosen:
         found += reader.find(text, source)
-    return sorted(found, key=lambda x: x.line)[:MAX_TABLES]
+    return sorted(found, key=lambda x: x.line)
 
 
 def _by_the_best(
@@ -81,11 +105,13 @@ def _by_the_best(
 ) -> list[FoundTable]:
     """The tables of the reader that finds most in a text of an unknown format."""
     best: list[FoundTable] = []
+    unlike: list[FoundTable] = []
     for reader in chosen:
         found = reader.find(text, source)
+        unlike += filter(_is_unlike, found)
         if _worth(found) > _worth(best):
             best = found
-    return best[:MAX_TABLES]
+    return best or unlike
 
 
 def _worth(tables: Sequence[FoundTable]) -> tuple[int, int]:
