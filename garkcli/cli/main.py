@@ -26,14 +26,13 @@ from garkcli.cli.streams import (
     say_faults,
     say_problem,
 )
+from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import (
     GarkError,
     MethodFileError,
     UsageProblem,
     counted,
-    did_you_mean,
 )
-from garkcli.page.plain import printable
 from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
@@ -94,8 +93,7 @@ class _LazyGroup(click.Group):
         # a shell that asks what may follow is told no mistakes
         is_run = not ctx.resilient_parsing
         if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
-            what = f"no such command {printable(args[0])!r}"
-            ctx.fail(f"{what}; {did_you_mean(args[0], COMMANDS)}")
+            ctx.fail(no_such_command(args[0], COMMANDS))
         return super().resolve_command(ctx, args)
 
     def shell_complete(
@@ -208,7 +206,7 @@ def _exit_code(arguments: list[str]) -> int:
         )
         return 2
     except click.ClickException as error:
-        say(_usage_text(error))
+        say(usage_text(error))
         return 2
     except GarkError as error:
         _complain(error)
@@ -247,29 +245,6 @@ def _help_for(arguments: list[str]) -> list[str]:
         message = f"gark help is for one command, not for {counted(len(names), 'word')}"
         raise UsageProblem(message, f"gark help {names[0]}")
     return [*arguments, "--help"]
-
-
-def _usage_text(error: click.ClickException) -> str:
-    """A mistake in the arguments, in words that are the same whatever release of click finds it."""
-    message = error.format_message()
-    context = getattr(error, "ctx", None)
-    if isinstance(error, click.NoSuchOption):
-        known = (
-            []
-            if context is None
-            else [x for p in context.command.params for x in p.opts]
-        )
-        message = f"no such option {printable(error.option_name)}"
-        if error.option_name.startswith("--"):
-            message += f"; {did_you_mean(error.option_name, known)}"
-    lines = []
-    if context is not None:
-        lines = [
-            context.get_usage(),
-            f"Try '{context.command_path} --help' for help.",
-            "",
-        ]
-    return "\n".join([*lines, f"Error: {message}"])
 
 
 def _own_up(error: Exception, with_traceback: bool) -> None:

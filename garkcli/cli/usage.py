@@ -1,0 +1,119 @@
+"""Mistakes in the arguments, in words that are the same whatever release of click finds them."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+
+import click
+
+from garkcli.errors import MethodFileError, did_you_mean, nearest
+from garkcli.page.plain import printable
+
+MEANT = {
+    "order": "check",
+    "orders": "check",
+    "verify": "check",
+    "validate": "check",
+    "test": "check",
+    "draw": "trees",
+    "butcher": "tableau",
+    "plot": "converge",
+    "simulate": "converge",
+    "solve": "converge",
+}
+"""Words that people type for a command, and the command."""
+CURES = {
+    "FILE...": "name a file, a folder, or a method of the catalogue, as rk4",
+    "FILE": "name a file, or a method of the catalogue, as rk4",
+    "--to": "gark list exports shows what can be written",
+}
+"""What to give where an argument or an option is missing."""
+_NUMBERS = re.compile(r"is not a valid (integer|float)( range)?")
+_CHOICE = re.compile(r"'([^']*)' is not one of (.*)\.")
+_EXTRA = re.compile(r"[Gg]ot unexpected extra arguments? \((\d+)\)")
+
+
+def no_such_command(word: str, commands: Iterable[str]) -> str:
+    """What is said of a word that is no command: a method is for ``gark check``."""
+    message = f"no such command {printable(word)!r}"
+    if word.lower() in MEANT:
+        return f"{message}; did you mean {MEANT[word.lower()]!r}?"
+    cure = did_you_mean(word, commands)
+    if not cure.startswith("did you mean") and _is_a_method(word):
+        cure = f"for a method: gark check {printable(word)}"
+    return f"{message}; {cure}"
+
+
+def _is_a_method(word: str) -> bool:
+    """Whether a word is a file, is called like one, or is a name of the catalogue."""
+    if word.endswith((".yaml", ".yml")) or os.path.exists(word):
+        return True
+    from garkcli.methodfile.naming import look_up
+
+    try:
+        return look_up(word) is not None
+    except MethodFileError:  # it means several
+        return True
+
+
+def usage_text(error: click.ClickException) -> str:
+    """A mistake in the arguments, with how to use the command and a cure."""
+    context: click.Context | None = getattr(error, "ctx", None)
+    message = _message(error, context)
+    lines = []
+    if context is not None:
+        lines = [
+            context.get_usage(),
+            f"Try '{context.command_path} --help' for help.",
+            "",
+        ]
+    return "\n".join([*lines, f"Error: {message}"])
+
+
+def _message(
+    error: click.ClickException, context: click.Context | None
+) -> str:
+    message = error.format_message()
+    options = (
+        []
+        if context is None
+        else [x for p in context.command.params for x in p.opts]
+    )
+    if isinstance(error, click.NoSuchOption):
+        return _no_such_option(error.option_name, options)
+    if isinstance(error, click.MissingParameter):
+        cures = [cure for word, cure in CURES.items() if word in message]
+        return f"{message.rstrip('.')}; {cures[0]}" if cures else message
+    if (extra := _EXTRA.fullmatch(message.rstrip("."))) and (
+        "--order" in options
+    ):
+        return f"{message.rstrip('.')}; an order is --order {extra[1]}"
+    if choice := _CHOICE.search(message):
+        words = re.findall(r"'([^']*)'", choice[2])
+        cure = _cure_of_choice(choice[1], words)
+        return f"{message.rstrip('.')}; {cure}" if cure else message
+    return _NUMBERS.sub(_number, message)
+
+
+def _no_such_option(name: str, options: list[str]) -> str:
+    message = f"no such option {printable(name)}"
+    if name.startswith("--"):
+        return f"{message}; {did_you_mean(name, options)}"
+    return f"{message}; options of several letters begin with --"
+
+
+def _cure_of_choice(word: str, words: list[str]) -> str:
+    """For a word that is none of a list; methods are listed by their names."""
+    near = nearest(word, words)
+    if near:
+        return f"did you mean {near!r}?"
+    if "methods" in words and _is_a_method(word):
+        return f"for a method: gark list methods {printable(word)}"
+    return ""
+
+
+def _number(found: re.Match[str]) -> str:
+    kind = "whole number" if found[1] == "integer" else "number"
+    return f"is no {kind}"
