@@ -81,7 +81,6 @@ VALUES = (
 SECTION = re.compile(
     r"^(Args|Attributes|Returns|Raises|Errors|Source): ?", re.MULTILINE
 )
-LABELS = {"Args": "", "Attributes": "", "Errors": "Raises"}
 
 
 @dataclass
