@@ -231,8 +231,16 @@ def _one(
     except StepFailed as error:
         say_problem(error)
         return 1
-    format, paint = output.format, output.paint
-    output.write(report.render(result, method.name, format, paint, shown.work))
+    says_all = output.verbosity >= 0
+    text = report.render(
+        result,
+        method.name,
+        output.format,
+        output.paint,
+        shown.work,
+        says_all,
+    )
+    output.write(text)
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
         figure = _figure(result, method.name, shown)
@@ -259,10 +267,16 @@ def _several(
     from garkcli.report import comparison as report
 
     entries = compared(paths, wanted, output)
-    format, paint = output.format, output.paint
-    output.write(
-        report.render(entries, format, paint, shown.work, shown.against)
+    says_all = output.verbosity >= 0
+    text = report.render(
+        entries,
+        output.format,
+        output.paint,
+        shown.work,
+        shown.against,
+        says_all,
     )
+    output.write(text)
     if shown.plot is not None:
         _draw(entries, shown.plot, shown.against, output)
     return max(entry.exit_code for entry in entries)

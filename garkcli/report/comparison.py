@@ -37,6 +37,7 @@ def render(
     paint: Paint,
     with_work: bool = False,
     against: str = "h",
+    says_all: bool = True,
 ) -> str:
     """The comparison as text, JSON or CSV.
 
@@ -46,6 +47,7 @@ def render(
         paint: of the text.
         with_work: whether to show what the steps have cost.
         against: the horizontal axis of the plot: h, evaluations or seconds.
+        says_all: whether the text ends with a plot.
     """
     if format == "json":
         from garkcli.report.convergence_json import json_of_several
@@ -53,7 +55,11 @@ def render(
         return json_of_several(entries, with_work)
     if format == "csv":
         return csv_of_several(entries, with_work)
-    lines = _text(entries, paint, with_work, against)
+    named = list(zip(letters(len(entries)), entries, strict=True))
+    tested = [(x, entry.result) for x, entry in named if entry.result]
+    lines = _text(named, tested, paint, with_work)
+    if says_all:
+        lines += _plot(tested, against)
     return "\n".join(lines) + "\n"
 
 
@@ -86,15 +92,12 @@ def _about(result: Convergence) -> str:
 
 
 def _text(
-    entries: Sequence[Entry], paint: Paint, with_work: bool, against: str
+    named: Sequence[tuple[str, Entry]],
+    tested: Tested,
+    paint: Paint,
+    with_work: bool,
 ) -> list[str]:
-    count = len(entries)
-    named = list(zip(letters(count), entries, strict=True))
-    tested = []
-    for letter, entry in named:
-        if entry.result is not None:
-            tested.append((letter, entry.result))
-    lines = [paint("strong", f"{count} methods")]
+    lines = [paint("strong", f"{len(named)} methods")]
     if tested:
         results = [result for _, result in tested]
         lines += indented(wrapped(title(results)))
@@ -109,7 +112,7 @@ def _text(
     if with_work and tested:
         lines.append("")
         lines += costs_of(tested)
-    return lines + _plot(tested, against)
+    return lines
 
 
 def _plot(tested: Tested, against: str) -> list[str]:

@@ -38,21 +38,33 @@ def render(
     format: str,
     paint: Paint,
     with_work: bool = False,
+    says_all: bool = True,
 ) -> str:
-    """The convergence test as text, JSON or CSV; ``with_work`` what its steps have cost."""
+    """The convergence test as text, JSON or CSV.
+
+    Args:
+        result: the test.
+        name: that of the method.
+        format: text, json or csv.
+        paint: of the text.
+        with_work: whether to show what the steps have cost.
+        says_all: whether the text ends with a plot.
+    """
     if format == "json":
         from garkcli.report.convergence_json import json_of
 
         return json_of(result, name, with_work)
     if format == "csv":
         return csv_of(result, with_work)
-    lines = _text(result, name, paint, with_work)
+    lines = _text(result, name, paint)
+    if with_work:
+        lines += _work(result)
+    if says_all:
+        lines += _work_plot(result) if with_work else _plot(result)
     return "\n".join(lines) + "\n"
 
 
-def _text(
-    result: Convergence, name: str, paint: Paint, with_work: bool
-) -> list[str]:
+def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
     about = f"{describe(result.problem)}; to t = {result.t_end}"
     lines = [paint("strong", line) for line in wrap(name, WIDTH)]
     lines += indented(wrapped(about))
@@ -63,16 +75,18 @@ def _text(
     lines += _orders(result, paint)
     for text in (*remarks(result), result.visible.trees):
         lines += indented(wrapped(text))
-    if with_work:
-        return lines + _work(result)
-    positive = [row for row in result.rows if row.error > 0]
-    if len(positive) > 1:
-        sizes = [row.h for row in positive]
-        errors = [row.error for row in positive]
-        plot = terminal_plot(sizes, errors)
-        lines.append("")
-        lines += indented(plot.splitlines())
     return lines
+
+
+def _plot(result: Convergence) -> list[str]:
+    """The errors over step sizes, after an empty line; none where there are no two."""
+    positive = [row for row in result.rows if row.error > 0]
+    if len(positive) < 2:
+        return []
+    sizes = [row.h for row in positive]
+    errors = [row.error for row in positive]
+    plot = terminal_plot(sizes, errors)
+    return ["", *indented(plot.splitlines())]
 
 
 def _tables(result: Convergence) -> list[list[str]]:
@@ -266,24 +280,28 @@ def work_cells(cost: Cost | None) -> list[str]:
 
 
 def _work(result: Convergence) -> list[str]:
-    """What the steps have cost, and a plot of it."""
+    """What the steps have cost."""
     cells = [["h", "error", *WORK]]
-    points = []
     is_timed = True
     for row in result.rows:
         error = rounded(row.error)
         cells.append([str(row.h), error, *work_cells(row.cost)])
-        if row.cost is not None:
-            evaluations = float(row.cost.evaluations)
-            points.append((evaluations, row.error))
         is_timed &= row.cost is not None and row.cost.seconds is not None
     lines = ["work", *aligned(cells)]
     if not is_timed:
         lines.append(NO_TIME)
+    return ["", *indented(lines)]
+
+
+def _work_plot(result: Convergence) -> list[str]:
+    """The errors over what they have cost, after an empty line."""
+    points = [
+        (float(row.cost.evaluations), row.error)
+        for row in result.rows
+        if row.cost is not None
+    ]
     plot = terminal_curves({"•": points}, "evaluations")
-    table = indented(lines)
-    drawn = indented(plot.splitlines())
-    return ["", *table, "", *drawn]
+    return ["", *indented(plot.splitlines())]
 
 
 def wrapped(text: str, width: int = 76) -> list[str]:

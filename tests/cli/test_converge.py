@@ -293,3 +293,17 @@ ark:
     assert "conditions of order 3 are missed by little" in alone.out
     both = gark("converge", str(rounded), str(toleranced))
     assert (both.code, both.err.count(hint)) == (0, 1)
+
+
+def test_quiet_reports_have_no_plot() -> None:
+    """Of one method and of several, with ``--work`` too; everything else is the same."""
+    steps = ("--steps", "1/4,1/8", "--problem", "pendulum")
+    for arguments in ((VERLET,), (VERLET, RECTANGULAR)):
+        full = gark("converge", *arguments, *steps).out
+        quiet = gark("converge", *arguments, *steps, "-q").out
+        assert full.startswith(quiet)
+        assert "┤" in full
+        assert "┤" not in quiet
+    worked = gark("converge", VERLET, *steps, "--work", "-q").out
+    assert "evaluations" in worked
+    assert "┤" not in worked
