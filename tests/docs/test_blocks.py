@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 import shlex
 import tomllib
@@ -152,8 +153,17 @@ def check_python(block: Block) -> None:
     )
 
 
+def check_json(block: Block) -> None:
+    """Settings of an editor, which name the schema that the page writes."""
+    settings = json.loads(block.text)
+    schemas = settings["yaml.schemas"]
+    page = block.page.read_text(encoding="utf-8")
+    assert all(f"-o {name}\n" in page for name in schemas), block.where
+
+
 CHECKS: dict[str, Callable[[Block], None]] = {
     "console": check_session,
+    "json": check_json,
     "python": check_python,
     "toml": check_toml,
     "yaml": check_yaml,
