@@ -18,6 +18,7 @@ from garkcli.webpage.pictures import STYLE
 from garkcli.webpage.registry import SECTIONS
 from garkcli.webpage.reported import MOST_CONDITIONS, Reported
 from garkcli.webpage.section import Content, Section
+from garkcli.webpage.sections.pictures import of_several
 from garkcli.webpage.tree_picture import dots
 
 MOST_ROWS = 2000
@@ -45,6 +46,7 @@ def render(methods: Sequence[Reported]) -> str:
         methods=shown,
         has_several=has_several,
         compared=compared,
+        pictures=of_several(methods),
         columns=COLUMNS,
         dots=dots(sizes),
         style=Markup(_static("page.css") + STYLE),

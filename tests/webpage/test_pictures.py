@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from dataclasses import replace
 from itertools import pairwise
@@ -15,7 +16,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from garkcli import from_arrays, load, loads
-from garkcli.webpage.pictures import STYLE, Picture, pictures
+from garkcli.webpage.pictures import (
+    STYLE,
+    Picture,
+    compared_pictures,
+    pictures,
+)
 from garkcli.webpage.pictures.contours import Point, outlines
 from garkcli.webpage.pictures.drawing import shortened
 from garkcli.webpage.pictures.scales import linear_marks
@@ -295,3 +301,21 @@ def test_circles_are_told_from_noise() -> None:
     nested = parsed(region).find("svg")
     assert nested is not None
     assert str(nested[0].get("d")).count("M") == 1
+
+
+def test_several_methods_are_in_one_picture() -> None:
+    """Regions and errors of the first four, told apart by dashes and named; large methods and
+    those without a region are left out, and one method alone has no picture with others.
+    """
+    names = ["forward-euler", "heun-3", "feagin-12", "stoermer-verlet"]
+    methods = [load(name) for name in names]
+    regions, errors = compared_pictures([*methods, methods[0]])
+    assert "Of the first 4 methods." in errors.note
+    assert ">Heun's method of order 3<" in html.unescape(regions.svg)
+    assert ">Feagin 12<" in regions.svg
+    assert "Verlet" not in regions.svg
+    assert "Feagin" not in errors.svg
+    assert "Verlet" in errors.svg
+    dashed = errors.svg.count("stroke-dasharray")
+    assert dashed == 2 * 2  # curves and legend, of all but the first
+    assert compared_pictures(methods[:1]) == []

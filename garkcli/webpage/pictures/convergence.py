@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import floor
 from typing import Any
 
@@ -50,23 +50,23 @@ def svg_of(result: Convergence) -> str:
     Raises:
         NotDrawn: there are fewer than two errors.
     """
-    errors = _curve(curve(result, "h"), "error")
+    errors = curve_of(curve(result, "h"), "error")
     if errors is None or len(errors.xs) < 2:
         raise NotDrawn("The method makes no error on the problem of the test.")
     order = result.visible_order
-    energies = _curve(_energy_errors(result), "energy error")
+    energies = curve_of(_energy_errors(result), "energy error")
     curves = [x for x in (errors, energies) if x is not None]
     reference = place_line([errors], order, curves, is_whole=True)
     slope = Curve(reference.xs, reference.ys, f"slope {order}", {})
-    frame = _frame([*curves, slope])
-    _draw(frame, 0, errors, has_points=True)
-    _draw(frame, 1, slope, has_points=False)
+    frame = frame_of([*curves, slope])
+    draw_curve(frame, 0, errors, has_points=True)
+    draw_curve(frame, 1, slope, has_points=False)
     if energies is not None:
-        _draw(frame, 2, energies, has_points=True)
+        draw_curve(frame, 2, energies, has_points=True)
     description = _description(result)
     sizes = [row.h for row in result.rows if row.error > 0]
     up = decade_marks(frame.y.low, frame.y.high, 7)
-    marks = _step_marks(sizes), up
+    marks = step_marks(sizes), up
     return frame.finished(_TITLE, description, marks, ("step size h", "error"))
 
 
@@ -79,7 +79,7 @@ def _energy_errors(result: Convergence) -> list[tuple[fmpq, arb]]:
     return found
 
 
-def _curve(points: Iterable[tuple[Any, Any]], label: str) -> Curve | None:
+def curve_of(points: Iterable[tuple[Any, Any]], label: str) -> Curve | None:
     """Points in decimal logarithms; None where there are none."""
     pairs = [(log10(x), log10(y)) for x, y in points]
     if not pairs:
@@ -88,7 +88,7 @@ def _curve(points: Iterable[tuple[Any, Any]], label: str) -> Curve | None:
     return Curve(xs, ys, label, {})
 
 
-def _frame(curves: list[Curve]) -> Frame:
+def frame_of(curves: Sequence[Curve]) -> Frame:
     """With a twentieth of its width, and of its height, around the curves."""
     xs: list[float] = []
     ys: list[float] = []
@@ -105,7 +105,8 @@ def _ends(numbers: list[float]) -> Point:
     return low - around, high + around
 
 
-def _draw(frame: Frame, k: int, drawn: Curve, has_points: bool) -> None:
+def draw_curve(frame: Frame, k: int, drawn: Curve, has_points: bool) -> None:
+    """Draw the k-th curve, with dots at its points or without, and name it in the legend."""
     points = list(zip(drawn.xs, drawn.ys, strict=True))
     frame.curve(k, points, 1.6)
     if has_points:
@@ -113,7 +114,7 @@ def _draw(frame: Frame, k: int, drawn: Curve, has_points: bool) -> None:
     frame.legend.append((k, drawn.label))
 
 
-def _step_marks(sizes: list[fmpq]) -> list[Mark]:
+def step_marks(sizes: Sequence[fmpq]) -> list[Mark]:
     """The step sizes themselves, as many as there is space for."""
     apart = -(-len(sizes) // _MOST_LABELS)
     return [Mark(log10(h), _size(h)) for h in sizes[::apart]]

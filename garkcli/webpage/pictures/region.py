@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,7 @@ _NODES = 180
 """Nodes a side of the grid; even, so that none is on the imaginary axis of a symmetric one, where
 |R| may be 1.
 """
-_MOST_CURVES = 4
+MOST_CURVES = 4
 _FLAT = 3.0
 """What logarithms are cut off at, near zeros and poles."""
 _THINNED = 0.04  # cells
@@ -52,10 +53,22 @@ def draw(subject: Subject) -> Picture:
         )
     names = []
     functions = []
-    for name, shares in found[:_MOST_CURVES]:
+    for name, shares in found[:MOST_CURVES]:
         R = stability_function(subject.method.tableau, shares)
         functions.append(R)
         names.append(_label(name, len(found)))
+    picture = drawn(names, functions)
+    more = len(found) - len(names)
+    if more == 0:
+        return picture
+    left_out = f" The regions of the last {more} colours alone are left out."
+    return replace(picture, note=picture.note + left_out)
+
+
+def drawn(
+    names: Sequence[str], functions: Sequence[StabilityFunction]
+) -> Picture:
+    """The regions of some stability functions, in one picture."""
     whole = window_of(functions, is_symmetric=False)
     window = _nearer(whole, functions)
     frame = frame_of(window)
@@ -69,9 +82,6 @@ def draw(subject: Subject) -> Picture:
     note = "Filled: |R(z)| ≤ 1."
     if window != whole:
         note += " Islands around zeros of R that are far away are not in the picture."
-    more = len(found) - len(names)
-    if more > 0:
-        note += f" The regions of the last {more} colours alone are left out."
     return Picture("region", _TITLE, description, svg, note)
 
 
@@ -188,7 +198,7 @@ def _in_plane(point: Point, x: Floats, y: Floats) -> Point:
     return float(x[0]) + column * across, float(y[0]) + row * up
 
 
-def _description(names: list[str], window: Window) -> str:
+def _description(names: Sequence[str], window: Window) -> str:
     where = (
         f"The complex plane from {window.left:.3g} to {window.right:.3g} and from "
         f"{-window.top:.3g} i to {window.top:.3g} i, filled where |R(z)| is at most 1"

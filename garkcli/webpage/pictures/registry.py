@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 from garkcli.errors import GarkError
@@ -15,6 +15,7 @@ from garkcli.webpage.pictures import (
     region,
     trace,
 )
+from garkcli.webpage.pictures.compared import compared
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.subject import Subject
 
@@ -38,13 +39,22 @@ def pictures(method: GarkMethod) -> list[Picture]:
         method: with numbers as coefficients. One from a file that gives ``methods`` is put to work
             on Hamiltonian problems as its symplectic pair, as ``gark converge`` does it.
     """
-    gives_methods = isinstance(method, MethodFile) and method.form == "methods"
-    subject = Subject(method, gives_methods)
+    subject = _subject(method)
     drawn = [
         _drawn(name, title, draw, subject)
         for name, (title, draw) in PICTURES.items()
     ]
     return [picture for picture in drawn if picture.svg or picture.note]
+
+
+def compared_pictures(methods: Sequence[GarkMethod]) -> list[Picture]:
+    """Pictures that several methods have together, of the first four."""
+    return compared([_subject(method) for method in methods])
+
+
+def _subject(method: GarkMethod) -> Subject:
+    gives_methods = isinstance(method, MethodFile) and method.form == "methods"
+    return Subject(method, gives_methods)
 
 
 def _drawn(name: str, title: str, draw: Draw, subject: Subject) -> Picture:

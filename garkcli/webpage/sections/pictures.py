@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from markupsafe import Markup
 
-from garkcli.webpage.pictures import Picture, pictures
+from garkcli.webpage.pictures import Picture, compared_pictures, pictures
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -14,6 +16,15 @@ def _content(method: Reported) -> Content | None:
         return None
     drawn = [_shown(picture) for picture in pictures(method.method)]
     return {"pictures": drawn} if drawn else None
+
+
+def of_several(methods: Sequence[Reported]) -> list[Content]:
+    """The pictures of methods side by side; none of a single one."""
+    drawn = [x.method for x in methods if x.has_pictures]
+    given = [method for method in drawn if method is not None]
+    if len(given) < 2:
+        return []
+    return [_shown(picture) for picture in compared_pictures(given)]
 
 
 def _shown(picture: Picture) -> Content:

@@ -1,0 +1,111 @@
+"""Several methods in one picture: their stability regions, their errors over step sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.convergence.convergence import converge
+from garkcli.convergence.default_problem import in_common, seeing_problem
+from garkcli.errors import GarkError
+from garkcli.plots.slopes import Curve
+from garkcli.report.costs import curve
+from garkcli.stability.linear import stability_function
+from garkcli.stability.summary import directions
+from garkcli.webpage.pictures import region
+from garkcli.webpage.pictures.convergence import (
+    curve_of,
+    draw_curve,
+    frame_of,
+    step_marks,
+)
+from garkcli.webpage.pictures.drawing import COLOURS
+from garkcli.webpage.pictures.picture import NotDrawn, Picture
+from garkcli.webpage.pictures.scales import decade_marks
+from garkcli.webpage.pictures.subject import Subject
+
+MOST = len(COLOURS)
+"""Methods in one picture; more could not be told apart."""
+_TITLE = "Convergence"
+Draw: TypeAlias = Callable[[Sequence[Subject]], Picture]
+
+
+def compared(subjects: Sequence[Subject]) -> list[Picture]:
+    """The pictures of several methods, the first of them where they are many; those that cannot be
+    drawn of two of them at least are left out.
+    """
+    chosen = subjects[:MOST]
+    found = []
+    draws: Sequence[Draw] = (_regions, _errors)
+    for draw in draws:
+        try:
+            picture = draw(chosen)
+        except (NotDrawn, GarkError):
+            # the parts of the methods tell why
+            continue
+        if len(subjects) > MOST:
+            first = f"{picture.note} Of the first {MOST} methods."
+            picture = replace(picture, note=first)
+        found.append(picture)
+    return found
+
+
+def _regions(subjects: Sequence[Subject]) -> Picture:
+    """The regions of all colours alike."""
+    names = []
+    functions = []
+    for subject in subjects:
+        tableau = subject.method.tableau
+        found = directions(tableau)
+        if not found:
+            continue
+        _, alike = found[0]
+        R = stability_function(tableau, alike)
+        names.append(subject.method.name)
+        functions.append(R)
+    if len(names) < 2:
+        raise NotDrawn("")
+    return region.drawn(names, functions)
+
+
+def _errors(subjects: Sequence[Subject]) -> Picture:
+    """The errors on the problem that sees the most trees of all of them."""
+    small = [x for x in subjects if not x.is_large]
+    if len(small) < 2:
+        raise NotDrawn("")
+    tableaus = [x.stepped for x in small]
+    name = seeing_problem(tableaus)
+    problems = in_common(name, tableaus, 1)
+    curves: list[Curve] = []
+    sizes: set[fmpq] = set()
+    for subject, problem in zip(small, problems, strict=True):
+        tolerance = subject.method.tolerance
+        result = converge(subject.stepped, problem, tolerance=tolerance)
+        points = curve(result, "h")
+        drawn = curve_of(points, subject.method.name)
+        if drawn is not None:
+            curves.append(drawn)
+            sizes.update(row.h for row in result.rows)
+    if len(curves) < 2:
+        raise NotDrawn("")
+    svg = _svg(curves, sorted(sizes))
+    note = f"Numerical: all on the problem {name}."
+    return Picture("convergence", _TITLE, _description(curves), svg, note)
+
+
+def _svg(curves: Sequence[Curve], sizes: Sequence[fmpq]) -> str:
+    frame = frame_of(curves)
+    for k, drawn in enumerate(curves):
+        draw_curve(frame, k, drawn, has_points=True)
+    up = decade_marks(frame.y.low, frame.y.high, 7)
+    marks = step_marks(sizes), up
+    labels = "step size h", "error"
+    return frame.finished(_TITLE, _description(curves), marks, labels)
+
+
+def _description(curves: Sequence[Curve]) -> str:
+    names = ", ".join(drawn.label for drawn in curves)
+    return f"Errors over the step size, both axes logarithmic, of {names}."
