@@ -30,6 +30,7 @@ TESTED = {
     ("docs/contributing/architecture.md", "text"): "test_architecture_docs.py",
     ("docs/ci.md", "python"): "test_ci_docs.py",
     ("docs/ci.md", "sh"): "test_ci_docs.py",
+    ("docs/ci.md", "json"): "test_ci_docs.py",
     ("docs/command-line.md", "text"): "test_command_line_docs.py",
     ("docs/json.md", "json"): "test_json_docs.py",
     ("docs/notebook.md", "{code-cell} python"): "test_notebook_docs.py",
@@ -59,6 +60,8 @@ def check_session(block: Block) -> None:
     """
     assert block.text.startswith("$ "), block.where
     assert set(words(block)) <= {*PROGRAMS, *NOT_RUN}, block.where
+    # a # at a prompt is no comment in zsh
+    assert not re.search(r"^\$ .*[ \t]#", block.text, re.M), block.where
     for line in re.findall(r"^\$ make ([a-z]+)", block.text, re.MULTILINE):
         makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
         assert re.search(rf"^{line}:", makefile, re.MULTILINE), block.where

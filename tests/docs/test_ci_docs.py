@@ -156,6 +156,13 @@ def test_a_test_of_ones_own_passes() -> None:
         passes([1 / 2, 1 / 2])
 
 
+def test_settings_of_an_editor_name_the_schema() -> None:
+    """The file of the schema in them is the one that a command of the page writes."""
+    (text,) = [text for language, text in BLOCKS if language == "json"]
+    written = {x.split(" -o ")[1] for x in commands() if "schema -o" in x}
+    assert set(json.loads(text)["yaml.schemas"]) == written
+
+
 def test_every_format_has_its_row() -> None:
     """The table of formats is the list of formats."""
     table = PAGE.partition("## Formats")[2].partition("##")[0]

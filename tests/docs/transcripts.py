@@ -26,6 +26,7 @@ PROGRAMS = ("gark", "python3", "sed", "cp", "cat", "grep", "head", "cc")
 
 NOT_RUN = {
     "make": "it installs, or runs what runs this",
+    "pip": "it installs from an index",
 }
 """Commands that stand in sessions and are left out, by their first word, with the reason."""
 
