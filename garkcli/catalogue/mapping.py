@@ -76,6 +76,9 @@ class Catalogue(ModuleType):
     def __len__(self) -> int:
         return len(_names())
 
+    def __repr__(self) -> str:
+        return f"<Catalogue of {len(self)} methods>"
+
     def __bool__(self) -> bool:
         return True  # a module is true; nothing is counted for that
 

@@ -42,6 +42,16 @@ class NumberField:
         self.degree: int = modulus.degree()
         self.radicals = tuple(radicals)
 
+    def is_same(self, other: NumberField) -> bool:
+        """Whether it is the same field, made once more: the radicals tell which root θ is."""
+        if other is self:
+            return True
+        return (
+            bool(self.radicals)
+            and self.modulus == other.modulus
+            and self.radicals == other.radicals
+        )
+
     def element(self, poly: fmpq_poly) -> Number:
         """The class of ``poly`` modulo the minimal polynomial; a plain rational where it is one."""
         poly %= self.modulus
@@ -137,7 +147,7 @@ class Algebraic:
 
     def _poly_of(self, other: object) -> fmpq_poly | None:
         if isinstance(other, Algebraic):
-            if other.field is not self.field:
+            if not self.field.is_same(other.field):
                 raise TypeError("numbers of two different fields")
             return other.poly
         if isinstance(other, (fmpq, fmpz, int)):
@@ -217,7 +227,7 @@ class Algebraic:
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Algebraic):
-            return self.field is other.field and self.poly == other.poly
+            return self.poly == other.poly and self.field.is_same(other.field)
         return False
 
     def __hash__(self) -> int:

@@ -36,6 +36,14 @@ def stability_html(found: Stability) -> str:
     return preformatted(text_of(report, _PLAIN))
 
 
+def stability_latex(found: Stability) -> str:
+    """What ``gark stability --format latex`` prints."""
+    from garkcli.report.stability import render
+    from garkcli.report.stability_data import StabilityReport
+
+    return render([StabilityReport("", "", found)], "latex", _PLAIN)
+
+
 def function_latex(R: StabilityFunction) -> str:
     """R(z) as a formula."""
     from garkcli.exact.polynomial_text import integral

@@ -117,6 +117,10 @@ class Stability:
             words += f", {_word('L-stable', together.l_stable)}"
         return f"<Stability {words}>"
 
+    def _repr_latex_(self) -> str:
+        latex: str = found("report.notebook_texts", "stability_latex")(self)
+        return latex
+
     def _repr_html_(self) -> str:
         html: str = found("report.notebook_texts", "stability_html")(self)
         return html

@@ -93,6 +93,7 @@ def test_values_are_short() -> None:
         garkcli.check_file("rk4"),
         Tree(0, [Tree(1)]),
     ]
+    values.append(garkcli.catalogue)
     for value in values:
         if not isinstance(value, (str, dict, list)):
             assert len(repr(value)) < 120, repr(value)
@@ -203,6 +204,16 @@ def test_entries_are_numbers_of_others(n: int) -> None:
         exact = sympy.Integer(1) + sympy.sqrt(n)
         assert float(x) == float(exact.evalf(60))
         assert sympy.sympify(x) == exact
+
+
+def test_entries_of_two_methods_are_compared() -> None:
+    """The same number is the same wherever it was read, and may be reckoned with."""
+    one, other = load("gauss-2"), load("gauss-2")
+    assert one.A == other.A
+    assert one.A[0][1] - other.A[0][1] == 0
+    assert len({one.A[0][1], other.A[0][1]}) == 1
+    assert one.A[0][1] != load("gauss-3").A[0][1]
+    assert one.A[0][1] != other.A[1][0]
 
 
 def test_arrays_of_entries() -> None:

@@ -172,10 +172,16 @@ def test_coordinates_and_radicals(numbers: tuple[Number, ...]) -> None:
 
 
 def test_two_fields_do_not_mix() -> None:
-    """Numbers of two domains cannot be added, and are not equal."""
-    one, other = (
-        Domain([parse("sqrt(3)")]).evaluate(parse("sqrt(3)")) for _ in range(2)
-    )
+    """Numbers of two fields cannot be added, and are not equal; a field that is made once more
+    from the same radicals is the same.
+    """
+
+    def number(text: str) -> Algebraic:
+        made = Domain([parse(text)]).evaluate(parse(text))
+        assert isinstance(made, Algebraic)
+        return made
+
+    one, other = number("sqrt(3)"), number("sqrt(2)")
     assert one != other
     with pytest.raises(TypeError, match="two different fields"):
         one + other
@@ -183,6 +189,11 @@ def test_two_fields_do_not_mix() -> None:
         one + 0.5  # type: ignore[operator]
     with pytest.raises(TypeError):
         one / "x"  # type: ignore[operator]
+    again = number("sqrt(3)")
+    assert again.field is not one.field
+    assert again == one
+    assert hash(again) == hash(one)
+    assert again * one == 3
 
 
 @given(elements(4))

@@ -136,6 +136,8 @@ def test_formulas_are_latex() -> None:
     stability = garkcli.find_stability("gauss-1")
     (linear,) = stability.linear
     assert linear.R._repr_latex_() == r"$R(z) = \frac{z+2}{-z+2}$"
+    latex = stability._repr_latex_()
+    assert latex == gark("stability", "gauss-1", "--format", "latex").out
     formula = garkcli.modified_formula(VERLET, "pendulum", 3)
     latex = formula._repr_latex_()
     assert latex.startswith(r"\begin{align*}")
