@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from garkcli.check.analysis import Analysis
 from garkcli.check.every_value import EveryValue
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
+from garkcli.exact.display import decimal
 from garkcli.report.check_orders import order_number
 from garkcli.report.check_text import kind_text
 from garkcli.report.every_text import every_kind_text
@@ -82,8 +84,15 @@ def _found(outcome: Outcome) -> str:
     assert analysis is not None
     number = order_number(analysis.order)
     text, _ = said(analysis.order)
-    own = "Symplectic." if analysis.symplectic else "Not symplectic."
-    return f"Order {number}. {text} {own}"
+    return f"Order {number}. {text} {_symplectic(analysis)}"
+
+
+def _symplectic(analysis: Analysis) -> str:
+    if not analysis.symplectic:
+        return "Not symplectic."
+    if analysis.tolerance is None:
+        return "Symplectic."
+    return f"Symplectic within {decimal(analysis.tolerance)}."
 
 
 def claims_text(outcome: Outcome) -> str:

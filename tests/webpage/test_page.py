@@ -183,6 +183,9 @@ def test_orders_are_those_of_the_check(method: str) -> None:
             assert tree in said or tree.replace("_1", "") in said
     exact = data["tolerance"] is None
     assert ("exact" in text_of(section(method, "orders"))) == exact
+    if data["symplectic"]:
+        near = "" if exact else f" within {data['tolerance']}"
+        assert f" Symplectic{near}." in text_of(page(method))
     if not exact:
         assert f"within {data['tolerance']}" in text_of(found[""][1])
 
