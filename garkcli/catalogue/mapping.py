@@ -49,7 +49,7 @@ class Catalogue(ModuleType):
     >>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue
     ((4,), False)
     >>> garkcli.catalogue.search("Verlet", order=2, symplectic=True)
-    ['leapfrog-2', 'stoermer-verlet']
+    ['leapfrog-2', 'pseudo-leapfrog-2', 'stoermer-verlet']
     """
 
     def __getitem__(self, name: str) -> MethodFile:

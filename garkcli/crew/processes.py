@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -40,7 +41,10 @@ class _Worker(Generic[Item, Outcome]):
             target=_serve, args=(other, work, not_its_own), daemon=True
         )
         # a worker that is interrupted before it is ready would say so
-        with _without_interrupts():
+        with _without_interrupts(), warnings.catch_warnings():
+            # the threads are those of numpy's BLAS, which stops them before a fork
+            message = "This process .* is multi-threaded"
+            warnings.filterwarnings("ignore", message, DeprecationWarning)
             self.process.start()
         other.close()
 

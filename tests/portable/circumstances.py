@@ -194,7 +194,7 @@ def circumstances() -> Iterator[Circumstance]:
     yield Circumstance("background", what, newest, PROCESSES, wrapper=ignoring)
     what = "without resource, locks, FIFOs, signals and forks"
     no_unix = Venv(sys.executable, "no-unix")
-    yield Circumstance("no-unix", what, no_unix, ELSEWHERE, _like_windows)
+    yield Circumstance("no-unix", what, no_unix, ELSEWHERE)
     for python in other_pythons():
         version = version_of(python)
         what = f"Python {version} with the newest versions"
@@ -344,11 +344,6 @@ def _ascii(python: Path) -> dict[str, str]:
     if "utf" in encoding.lower():
         raise NotHad(f"streams are of {encoding} all the same")
     return variables
-
-
-def _like_windows(python: Path) -> dict[str, str]:  # noqa: ARG001 -- any
-    """Streams in the encoding that they have where output is kept in a file."""
-    return {"PYTHONIOENCODING": "cp1252"}
 
 
 _WHERE = "import garkcli; print(garkcli.__file__)"
