@@ -17,7 +17,10 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
-AnyMethod: TypeAlias = "GarkMethod | Tableau | Method | str | os.PathLike[str] | Sequence[Any] | Mapping[str, Any]"  # noqa: E501 -- one name for all of them
+AnyMethod: TypeAlias = (
+    "GarkMethod | Tableau | Method | str | os.PathLike[str]"
+    " | Sequence[Any] | Mapping[str, Any]"
+)
 """A method, a tableau; a path or a name of the catalogue; arrays ``(A, b)``, ``(A, b, c)`` or
 ``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
 """

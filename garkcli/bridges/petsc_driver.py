@@ -40,20 +40,10 @@ def driver(
         kind: rk, dirk, arkimex or basicsymplectic.
         sides: the right-hand sides, the explicit one first.
     """
-    stem = PurePath(file).stem
     trial = trial_of(payload)
-    program = f"{stem}_test"
-    lines = C.lines(
-        [
-            f"Runs {file} in TS of PETSc.",
-            "Build:",
-            f"  mpicc {program}.c {file} $(pkg-config --cflags --libs PETSc) -lm -o {program}",
-            "The same errors:",
-            f"  {command_of(payload, f'{stem}_problem.yaml')}",
-        ]
-    )
     register = f"gark_{payload.identifier}_register"
-    lines += [
+    lines = [
+        *_comment(payload, file),
         "#include <math.h>",
         "#include <stdio.h>",
         "",
@@ -69,6 +59,32 @@ def driver(
         lines += _right_hand_sides(kind)
     lines += error_function(trial)
     lines += _run(trial, kind, name)
+    lines += _main(register)
+    return [
+        Written("_test.c", "\n".join(lines) + "\n"),
+        Written("_problem.yaml", trial.file),
+    ]
+
+
+def _comment(payload: Payload, file: str) -> list[str]:
+    """What the program does, how it is built, and the command that has the same errors."""
+    stem = PurePath(file).stem
+    program = f"{stem}_test"
+    return C.lines(
+        [
+            f"Runs {file} in TS of PETSc.",
+            "Build:",
+            f"  mpicc {program}.c {file} $(pkg-config --cflags --libs PETSc) -lm -o {program}",
+            "The same errors:",
+            f"  {command_of(payload, f'{stem}_problem.yaml')}",
+        ]
+    )
+
+
+def _main(register: str) -> list[str]:
+    """PETSc with its options, the method among its own by the function ``register``, and the
+    runs.
+    """
     prologue = [
         "  PetscFunctionBeginUser;",
         "  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));",
@@ -79,17 +95,13 @@ def driver(
         prologue.append(
             f'  PetscCall(PetscOptionsSetValue(NULL, "{option}", {text}));'
         )
-    lines += [
+    return [
         "int main(int argc, char **argv)",
         "{",
         *main_function("run(n, y)", prologue),
         "  PetscCall(PetscFinalize());",
         "  return 0;",
         "}",
-    ]
-    return [
-        Written("_test.c", "\n".join(lines) + "\n"),
-        Written("_problem.yaml", trial.file),
     ]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Sized
 
 from garkcli.check.every_facts import Fact, told
 from garkcli.exact.cells import Interval
@@ -80,24 +80,33 @@ def values_text(roots: Sequence[RealRoot], name: str) -> str:
     groups: dict[str, list[RealRoot]] = {}
     for root in roots:
         groups.setdefault(str(root.polynomial), []).append(root)
-    texts = []
-    for same in list(groups.values())[:MOST]:
-        numbers = " or ".join(map(_number, same))
-        if same[0].exact is not None:
-            texts.append(f"{name} = {numbers}")
-        else:
-            polynomial = _polynomial(same[0], name)
-            texts.append(f"{polynomial} = 0, {name} = {numbers}")
-    more = len(groups) - MOST
-    others = f" and {more} more" if more > 0 else ""
-    return " or ".join(texts) + others
+    named = list(groups.values())[:MOST]
+    texts = [_roots_text(same, name) for same in named]
+    shown = " or ".join(texts)
+    return shown + _others(groups)
+
+
+def _roots_text(same: Sequence[RealRoot], name: str) -> str:
+    """Some roots of one polynomial, which is told where they have no simple form."""
+    first = same[0]
+    numbers = " or ".join(map(_number, same))
+    values = f"{name} = {numbers}"
+    if first.exact is not None:
+        return values
+    return f"{_polynomial(first, name)} = 0, {values}"
+
+
+def _others(everything: Sized) -> str:
+    """How many there are beyond those that are named."""
+    more = len(everything) - MOST
+    return f" and {more} more" if more > 0 else ""
 
 
 def zeros_text(polynomials: Sequence[str]) -> str:
     """That polynomials are zero, all of them."""
-    shown = ", ".join(f"{p} = 0" for p in polynomials[:MOST])
-    more = len(polynomials) - MOST
-    return f"{shown} and {more} more" if more > 0 else shown
+    equations = [f"{p} = 0" for p in polynomials[:MOST]]
+    shown = ", ".join(equations)
+    return shown + _others(polynomials)
 
 
 def any_zero_text(polynomials: Sequence[str]) -> str:
@@ -105,9 +114,7 @@ def any_zero_text(polynomials: Sequence[str]) -> str:
     if len(polynomials) == 1:
         return zeros_text(polynomials)
     shown = ", ".join(polynomials[:MOST])
-    more = len(polynomials) - MOST
-    others = f" and {more} more" if more > 0 else ""
-    return f"one of {shown}{others} is 0"
+    return f"one of {shown}{_others(polynomials)} is 0"
 
 
 def interval_text(interval: Interval, name: str) -> str:
@@ -118,9 +125,11 @@ def interval_text(interval: Interval, name: str) -> str:
         return values_text([start], name)
     text = name
     if start is not None:
-        text = f"{_number(start)} {'≤' if interval.has_start else '<'} {text}"
+        sign = "≤" if interval.has_start else "<"
+        text = f"{_number(start)} {sign} {text}"
     if end is not None:
-        text = f"{text} {'≤' if interval.has_end else '<'} {_number(end)}"
+        sign = "≤" if interval.has_end else "<"
+        text = f"{text} {sign} {_number(end)}"
     return text
 
 

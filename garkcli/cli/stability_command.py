@@ -73,14 +73,7 @@ def command(
     from garkcli.methodfile.load import load
     from garkcli.report.stability import render
 
-    if (slow is None) != (fast is None):
-        raise UsageProblem("--slow and --fast belong together", "give both")
-    if order_star and plot is None:
-        raise UsageProblem(
-            "--order-star is for the picture", "give --plot FILE too"
-        )
-    if plot is not None:
-        _check_plot(plot)
+    _check_options(slow, fast, plot, order_star)
     ratios = [_ratio(text) for text in ratio]
     reports = []
     paths = list(find_files(files))
@@ -113,6 +106,24 @@ def command(
 
         save_plot(stability_figure(reports, order_star), plot, output)
     return 0
+
+
+def _check_options(
+    slow: str | None, fast: str | None, plot: str | None, order_star: bool
+) -> None:
+    """Whether options that need one another are given together, before any work is done.
+
+    Raises:
+        UsageProblem: one of them is missing, or there can be no such picture.
+    """
+    if (slow is None) != (fast is None):
+        raise UsageProblem("--slow and --fast belong together", "give both")
+    if order_star and plot is None:
+        raise UsageProblem(
+            "--order-star is for the picture", "give --plot FILE too"
+        )
+    if plot is not None:
+        _check_plot(plot)
 
 
 def _for_every_value(

@@ -113,7 +113,7 @@ def loads_family(
     Args:
         text: of the file.
         source: what to call it.
-        settings: values of parameters, by name, in place of those in the file.
+        settings: as in ``load_family``.
         is_design: whether what stands under ``design`` is meant; else it is passed over.
         deadline: as in ``load_family``.
 
@@ -125,27 +125,21 @@ def loads_family(
     >>> family.tableau.block(0, 0)
     ((0, 0), (t, 0))
     """
-    reader, description = described(text, source, settings)
-    numbers = reader.numbers
-    if not numbers.free:
-        # where the file or a setting has a fault, that is what is told
-        loads(text, source, settings)
-        raise _without_unknowns(source, settings)
-    wishes = Wishes()
-    if is_design:
-        wishes = read_wishes(reader.source, numbers, reader.design)
+    reader, description = _with_unknowns(text, source, settings)
+    wishes = _wishes(reader) if is_design else Wishes()
     made = built(reader, description, FamilyValues)
     tableau, values = made.tableau, made.values
     ring = values.domain.ring
-    meaning = meaning_of(
-        wishes, tableau, ring, values, reader.source, deadline
+    read = reader.source
+    meaning = meaning_of(wishes, tableau, ring, values, read, deadline)
+    free = reader.numbers.free
+    ranges = {name: values.ends(x) for name, x in free.items()}
+    read.close()
+    poles = _cancelled(values.domain.divisors, tableau, ring, free)
+    zeros = (
+        *_of_nodes(description, tableau),
+        *numerators(meaning.zeros, ring),
     )
-    ranges = {name: values.ends(x) for name, x in numbers.free.items()}
-    reader.source.close()
-    places = {name: extent(text, x, x) for name, x in numbers.places.items()}
-    poles = _cancelled(values.domain.divisors, tableau, ring, numbers.free)
-    zeros = [*_of_nodes(description, tableau)]
-    zeros += numerators(meaning.zeros, ring)
     return FamilyFile(
         source=source,
         text=text,
@@ -153,10 +147,10 @@ def loads_family(
         tableau=tableau,
         further=made.further,
         ring=ring,
-        parameters=tuple(numbers.free),
+        parameters=tuple(free),
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
-        relations=tuple(zeros),
+        relations=zeros,
         nonzero=(*meaning.nonzero, *poles),
         positive=_signs(meaning.positive, ring),
         not_negative=_signs(meaning.not_negative, ring),
@@ -165,12 +159,38 @@ def loads_family(
         unsettled=meaning.unsettled,
         wanted_at=reader.design_place(),
         settings=settings,
-        places=places,
+        places=_places(reader, text),
         shape=_shape(reader),
         structure=description.structure,
         left_behind=left_behind(description.content),
         claims=description.claims,
     )
+
+
+def _with_unknowns(
+    text: str, source: str, settings: Mapping[str, str]
+) -> tuple[Reader, Description]:
+    """What a file with free parameters says.
+
+    Raises:
+        MethodError: it has none.
+    """
+    reader, description = described(text, source, settings)
+    if not reader.numbers.free:
+        # where the file or a setting has a fault, that is what is told
+        loads(text, source, settings)
+        raise _without_unknowns(source, settings)
+    return reader, description
+
+
+def _wishes(reader: Reader) -> Wishes:
+    return read_wishes(reader.source, reader.numbers, reader.design)
+
+
+def _places(reader: Reader, text: str) -> Mapping[str, Extent]:
+    """Where each parameter stands."""
+    places = reader.numbers.places
+    return {name: extent(text, x, x) for name, x in places.items()}
 
 
 def _cancelled(

@@ -87,7 +87,7 @@ def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
 def estimate_constants(
     difference: Tableau, order: int, is_rounded: bool = False
 ) -> ErrorConstants | None:
-    """The same norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u): of the estimate h Σ (b_i − b̂_i) k_i of the error.
+    """The same norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u): of the error estimate h Σ (b_i − b̂_i) k_i.
 
     Args:
         difference: the tableau with the weights b − b̂.

@@ -9,6 +9,9 @@ from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import number
 from garkcli.sweep.row import Row
 
+_Point = list[float]
+"""A number a column, smaller for better."""
+
 
 def kept(rows: Iterable[Row]) -> list[Row]:
     """The rows of methods that fulfil all conditions."""
@@ -19,38 +22,58 @@ def distinct(rows: Iterable[Row]) -> list[Row]:
     """The first row of each method: several seeds may find the same."""
     found: dict[str, Row] = {}
     for row in rows:
-        what = [row.get(name) for name in ("method", "parameters", "values")]
-        known_by = json.dumps(what) if "values" in row else str(row["key"])
-        found.setdefault(known_by, row)
+        found.setdefault(_known_by(row), row)
     return list(found.values())
+
+
+def _known_by(row: Row) -> str:
+    """What rows of one method have in common: its values, or the key where it was not searched
+    for.
+    """
+    if "values" not in row:
+        return str(row["key"])
+    what = [row.get(name) for name in ("method", "parameters", "values")]
+    return json.dumps(what)
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     """Rows sorted by columns, the first counting most; what has no value comes last, and equal
     ones are in the order of their keys.
     """
-    return sorted(rows, key=lambda row: (*_badness(row, by), str(row["key"])))
+
+    def place(row: Row) -> tuple[object, ...]:
+        key = str(row["key"])
+        return (*_badness(row, by), key)
+
+    return sorted(rows, key=place)
 
 
 def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     """The rows with all values that no other row surpasses: at least as good in every column and
     better in one.
     """
-    complete = [
-        row for row in rows if all(row.get(name) is not None for name in by)
-    ]
-    front: list[tuple[Row, tuple[float, ...]]] = []
+    complete = [row for row in rows if _has_values(row, by)]
+    front: list[Row] = []
+    points: list[_Point] = []
     # whatever surpasses a row comes before it in lexicographic order
     for row in best_first(complete, by):
-        point = tuple(badness for _, badness in _badness(row, by))
-        if not any(_surpasses(other, point) for _, other in front):
-            front.append((row, point))
-    return [row for row, _ in front]
+        point = [badness for _, badness in _badness(row, by)]
+        if any(_surpasses(other, point) for other in points):
+            continue
+        front.append(row)
+        points.append(point)
+    return front
 
 
-def _surpasses(other: Sequence[float], point: Sequence[float]) -> bool:
-    is_as_good = all(a <= b for a, b in zip(other, point, strict=True))
-    return is_as_good and tuple(other) != tuple(point)
+def _has_values(row: Row, by: Sequence[str]) -> bool:
+    return all(row.get(name) is not None for name in by)
+
+
+def _surpasses(other: _Point, point: _Point) -> bool:
+    """Whether one point is as good in every column and better in one."""
+    pairs = zip(other, point, strict=True)
+    is_as_good = all(a <= b for a, b in pairs)
+    return is_as_good and other != point
 
 
 def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
@@ -59,7 +82,8 @@ def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
     for name in by:
         value = row.get(name)
         assert not isinstance(value, dict)
-        found.append((value is None, _size(name, value)))
+        is_missing = value is None
+        found.append((is_missing, _size(name, value)))
     return found
 
 

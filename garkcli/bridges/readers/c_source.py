@@ -7,9 +7,9 @@ from collections import ChainMap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
+from garkcli.bridges.readers.c_grammar import CONSTANTS, GRAMMAR
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.found import MAX_STAGES, Unreadable
-from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import C, Token, tokens_of, without
 from garkcli.bridges.readers.naming import Scope, role_of
 from garkcli.bridges.readers.parsing import ValueParser
@@ -20,53 +20,6 @@ from garkcli.bridges.readers.scalars import (
     whole,
 )
 
-_ROOTS = {
-    "sqrt": "sqrt",
-    "sqrtl": "sqrt",
-    "sqrtf": "sqrt",
-    "cbrt": "cbrt",
-    "sunrsqrt": "sqrt",
-    "sunsqrt": "sqrt",
-    "petscsqrtreal": "sqrt",
-    "petscsqrtscalar": "sqrt",
-    "pow": "power",
-    "petscpowreal": "power",
-    "sunrpoweri": "power",
-    "sunpowi": "power",
-}
-_PASSED = (
-    *("SUN_RCONST", "RCONST", "ARK_RCONST", "REAL", "REAL_C", "sunrealtype"),
-    *("realtype", "double", "float", "long", "int", "PetscReal", "PetscInt"),
-    *(
-        "PetscRealConstant",
-        "real",
-        "Real",
-        "T",
-        "Scalar",
-        "amrex",
-        "const",
-        "RC",
-        "GARK_REAL_C",
-    ),
-    *("value_type", "real_t", "_rt", "number", "size_t", "unsigned", "auto"),
-)
-GRAMMAR = Grammar(
-    lists={"{": "}"},
-    roots=_ROOTS,
-    passed=frozenset(_PASSED),
-    has_indices=True,
-    nothing=frozenset({"NULL", "nullptr", "PETSC_NULL", "PETSC_NULLPTR"}),
-)
-CONSTANTS: dict[str, Value] = {
-    "ZERO": number("0"),
-    "ONE": number("1"),
-    "TWO": number("2"),
-    "HALF": Scalar("1/2", 1),
-    "SUN_RCONST_ZERO": number("0"),
-    "NULL": None,
-    "nullptr": None,
-}
-"""Constants that headers define and whose values their names tell."""
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
     r"(?P<l>[0-9]{1,2})(?:_(?P<m>[0-9]{1,2}))?"

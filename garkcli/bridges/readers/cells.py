@@ -70,10 +70,14 @@ def _grid(blocks: Mapping[tuple[int, ...], Value]) -> Value:
     size = max(max(index) for index in blocks)
     if size > MAX_COLOURS:
         return None
+    numbers = range(1, size + 1)
     rows: list[Value] = []
-    for l in range(1, size + 1):
-        row = [blocks.get((l, m)) or None for m in range(1, size + 1)]
-        rows.append([_as_matrix(x) for x in row])
+    for l in numbers:
+        row: list[Value] = []
+        for m in numbers:
+            block = blocks.get((l, m)) or None
+            row.append(_as_matrix(block))
+        rows.append(row)
     return rows
 
 
@@ -87,9 +91,14 @@ def _as_matrix(value: Value) -> Value:
 
 
 def _listed(entries: Mapping[tuple[int, ...], Value]) -> Value:
+    """The rows of b, c, … in order; one of a single entry is written like a number."""
     size = max(index[0] for index in entries)
-    found = [entries.get((l,)) for l in range(1, size + 1)]
-    return [[x] if isinstance(x, Scalar) else x for x in found]
+    rows: list[Value] = []
+    for l in range(1, size + 1):
+        row = entries.get((l,))
+        is_number = isinstance(row, Scalar)
+        rows.append([row] if is_number else row)
+    return rows
 
 
 def _filled(entries: Mapping[tuple[int, ...], Value]) -> Value:
@@ -97,6 +106,11 @@ def _filled(entries: Mapping[tuple[int, ...], Value]) -> Value:
     size = max(max(index) for index in entries)
     numbers = range(1, size + 1)
     zero: Value = number("0")
-    if all(len(index) == 1 for index in entries):
+    is_vector = all(len(index) == 1 for index in entries)
+    if is_vector:
         return [entries.get((i,), zero) for i in numbers]
-    return [[entries.get((i, j), zero) for j in numbers] for i in numbers]
+    rows: list[Value] = []
+    for i in numbers:
+        row = [entries.get((i, j), zero) for j in numbers]
+        rows.append(row)
+    return rows

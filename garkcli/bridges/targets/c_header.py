@@ -38,11 +38,11 @@ def write(payload: Payload) -> str:
     constants = ",\n  ".join(_constants(payload, name))
     lines += ["enum {", f"  {constants}", "};", ""]
     for part, rows in _arrays(payload):
-        size = f"[{len(rows)}]" if len(rows) > 1 or part[0] in "Ad" else ""
-        declaration = (
-            f"static const gark_real {name}_{part}{size}[{len(rows[0])}]"
-        )
-        lines += _one(payload, declaration, rows, bool(size))
+        is_matrix = len(rows) > 1 or part[0] in "Ad"
+        height = f"[{len(rows)}]" if is_matrix else ""
+        width = f"[{len(rows[0])}]"
+        declaration = f"static const gark_real {name}_{part}{height}{width}"
+        lines += _one(payload, declaration, rows, is_matrix)
     return "\n".join([*lines, "", f"#endif /* {guard} */"]) + "\n"
 
 
@@ -55,8 +55,8 @@ def _one(
     lines = [f"{declaration} = {{"]
     for row in rows:
         inner = array(payload, "", (row,), STYLE)
-        numbers = inner[1:-1]
-        lines += ["  {", *[f"  {line}" for line in numbers], "  },"]
+        numbers = [f"  {line}" for line in inner[1:-1]]
+        lines += ["  {", *numbers, "  },"]
     return [*lines, "};"]
 
 
