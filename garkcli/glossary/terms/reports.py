@@ -97,7 +97,11 @@ TERMS = (
         " symmetric, with positive weights and so on. Each may be claimed.",
         "",
         _PROPERTIES,
-        ("property",),
+        (
+            "property",
+            "properties that differ",
+            "properties decided of one alone",
+        ),
         ("explicit", "symmetric", "A-stable"),
     ),
     Term(
