@@ -28,12 +28,13 @@ _ROWS = ("A", "b", "c", "embedded")
 _CURE = "load a file with load(path), or make one with from_arrays(A, b)"
 
 
-def method_of(given: AnyMethod) -> GarkMethod:
+def method_of(given: AnyMethod, tolerance: object = None) -> GarkMethod:
     """The method that is meant, with its entries as they are printed.
 
     Args:
         given: a method, a tableau; a path, or a name of the catalogue; a tuple ``(A, b)``,
             ``(A, b, c)`` or ``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
+        tolerance: the rounding of arrays, where they bring none.
 
     Raises:
         MethodError: it is none of these.
@@ -53,14 +54,14 @@ def method_of(given: AnyMethod) -> GarkMethod:
     if isinstance(given, (str, os.PathLike)):
         return load(os.fspath(given))
     if isinstance(given, Mapping):
-        return _of_mapping(given)
+        return _of_mapping({**_rounded(tolerance), **given})
     if isinstance(given, (tuple, list)):
         if not 2 <= len(given) <= len(_ROWS):
             raise MethodError(
                 f"{len(given)} arrays are no method",
                 "give (A, b), (A, b, c) or (A, b, c, embedded)",
             )
-        return from_arrays(*given)
+        return from_arrays(*given, **_rounded(tolerance))
     raise MethodError(
         f"a method is expected, not {type(given).__name__}", _CURE
     )
@@ -98,8 +99,14 @@ def with_tolerance(
     given: AnyMethod, tolerance: object = None
 ) -> tuple[GarkMethod, fmpq | None]:
     """A method with the tolerance that it is judged within: the one given, or its own."""
-    method = method_of(given)
+    method = method_of(given, tolerance)
     return method, tolerance_of(method, tolerance)
+
+
+def _rounded(tolerance: object) -> dict[str, Any]:
+    """What says that arrays are rounded; nothing where they are exact."""
+    is_rounded = tolerance_of(None, tolerance) is not None
+    return {"tolerance": tolerance} if is_rounded else {}
 
 
 def _of_mapping(given: Mapping[str, Any]) -> GarkMethod:

@@ -72,7 +72,7 @@ def assert_order(
       fails at order 3: [[[]]]: 0 instead of 1/6, off by -1/6
     """
     __tracebackhide__ = True
-    found = method_of(method)
+    found = method_of(method, tolerance)
     wanted = {
         "order": order,
         "embedded": embedded,

@@ -169,3 +169,19 @@ def test_methods_stay_what_they_are() -> None:
     assert isinstance(method.tableau, Tableau)
     assert method_of(method.tableau).tableau is method.tableau
     assert find_order(method_of((RK4, WEIGHTS))).order == 4
+
+
+def test_rounded_arrays_take_the_tolerance_beside_them() -> None:
+    """Floats of a solver are refused without one, and are what the tolerance says with it; one that
+    stands among the arrays goes first.
+    """
+    A, b = [[0, 0], [2 / 3, 0]], [1 / 4, 3 / 4]
+    assert_order((A, b), 2, tolerance="1e-15")
+    assert_order({"A": A, "b": b}, 2, tolerance="1e-15")
+    assert_order({"A": A, "b": b, "tolerance": "1e-15"}, 2)
+    assert find_order((A, b), tolerance="1e-15").order == 2
+    for tolerance in (None, 0):
+        with pytest.raises(MethodError, match="rounded number"):
+            assert_order((A, b), 2, tolerance=tolerance)
+    with pytest.raises(AssertionError):
+        assert_order((A, [1 / 3, 2 / 3]), 2, tolerance="1e-15")
