@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 from garkcli.backward.energy import ModifiedRun
 from garkcli.backward.summary import BackwardAnalysis
 from garkcli.bridges.audit import Audited
+from garkcli.check.analysis import Analysis
 from garkcli.check.meanings import Meaning
 from garkcli.check.outcome import Outcome
 from garkcli.comparison.comparison import Comparison
@@ -35,9 +36,10 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     """What a command prints of a value, in one of its formats.
 
     Args:
-        value: a method (``gark tableau``); what ``check_file``, ``find_stability``, ``converge``,
-            ``long_run``, ``compare``, ``backward_analysis``, ``modified_run``, ``find_parameters``,
-            ``minimise``, ``run_sweep``, ``explain`` or ``audit`` returned; or a list of outcomes.
+        value: a method (``gark tableau``); what ``check_file``, ``analyse``, ``find_stability``,
+            ``converge``, ``long_run``, ``compare``, ``backward_analysis``, ``modified_run``,
+            ``find_parameters``, ``minimise``, ``run_sweep``, ``explain`` or ``audit`` returned; or
+            a list of outcomes.
         format: as the command has it: ``"text"``, ``"json"`` and others.
         name: what to call the method where the value does not say it.
 
@@ -81,7 +83,7 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
         if isinstance(one, kind):
             return kind.__name__, writer, formats
     raise MethodError(
-        f"no command prints a {type(value).__name__}",
+        f"no command prints values of the kind {type(value).__name__}",
         "give a method, or what a call on methods returned",
     )
 
@@ -103,6 +105,10 @@ def _outcomes(value: Any, format: str, _: str) -> str:
 
     outcomes = value if isinstance(value, (list, tuple)) else [value]
     return FORMATS[format](outcomes, _PLAIN, 0, None)
+
+
+def _analysis(found: Analysis, format: str, name: str) -> str:
+    return _outcomes(Outcome(name, name, analysis=found), format, name)
 
 
 def _stability(found: Stability, format: str, name: str) -> str:
@@ -198,6 +204,7 @@ _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
         _outcomes,
         ("text", "json", "sarif", "junit", "github", "markdown"),
     ),
+    Analysis: (_analysis, ("text", "json")),
     Stability: (_stability, ("text", "json", "latex")),
     Convergence: (_convergence, ("text", "json", "csv")),
     LongRun: (_long_run, ("text", "json", "csv")),

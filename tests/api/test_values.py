@@ -196,7 +196,7 @@ def test_one_of_several_goes_for_itself() -> None:
 
 
 @given(st.integers(2, 10**6))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5, deadline=None)
 def test_entries_are_numbers_of_others(n: int) -> None:
     """The float of a root is the nearest one; NumPy and SymPy take entries as they are."""
     ((x,),) = loads(f"A: [[1 + sqrt({n})]]\nb: [1]").A
