@@ -175,7 +175,8 @@ def suggestion_lines(
     small = f"up to order {found.order} the residuals are at most {rounding}"
     return [
         f"{hint} {small}, then {size(found.genuine)}:",
-        f"        the coefficients look rounded; {cure}",
+        "        the coefficients look rounded;",
+        f"        {cure}",
     ]
 
 

@@ -38,7 +38,7 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
         lines += _repair_lines("the claimed order", text)
         if place == 0 and blame.restores:
             claims = ", ".join(blame.restores)
-            lines.append(f"{_MARGIN}and so would {claims}")
+            lines += indented(_wrapped(f"and so would {claims}"), _MARGIN)
     return lines
 
 

@@ -282,3 +282,18 @@ def test_long_decimals_fit_a_screen(
         found = render([check_file("m.gark.yaml")], Paint())
         assert shown in found
         assert max(map(len, found.splitlines())) <= 80
+
+
+def test_hints_fit_80_columns() -> None:
+    """The line that a rounded method lacks is shown on a line of its own, and none is too long."""
+    text = """
+A: [[0.25, -0.0386751345948], [0.5386751345948, 0.25]]
+b: [0.5, 0.5]
+expect: {order: 4}
+"""
+    lines = report(text).splitlines()
+    place = lines.index("        the coefficients look rounded;")
+    assert (
+        "with the line  tolerance: 1e-13  the order is 4" in lines[place + 1]
+    )
+    assert max(map(len, lines)) <= 80
