@@ -78,3 +78,13 @@ def test_long_names_have_places_to_break() -> None:
     html = '<a href="a_b/c">a_b</a><span class="pre">a/b_c/</span>'
     shown = '<a href="a_b/c">a_b</a><span class="pre">a/<wbr>b_<wbr>c/</span>'
     assert made(html) == shown
+
+
+def test_columns_of_tables_have_names() -> None:
+    """Whoever hears a table read aloud hears what its columns are: no head is empty."""
+    head = re.compile(r"^\|(.*)\|\n\|[-:| ]+\|$", re.MULTILINE)
+    for name in pages():
+        text = (DOCS / name).read_text(encoding="utf-8")
+        for found in head.finditer(text):
+            cells = found.group(1).replace(r"\|", "").split("|")
+            assert all(cell.strip() for cell in cells), (name, found.group(1))
