@@ -11,15 +11,14 @@ from garkcli import (
     Tableau,
     Tree,
     conditions,
-    diagonal_method,
     find_order,
-    gark,
     load,
-    pair,
 )
+from garkcli.families.registry import diagonal_method
 from garkcli.order import constants
 from garkcli.order.constants import error_constants
 from garkcli.order.listing import all_conditions
+from garkcli.tableau.forms import gark, pair
 from tests.oracles.brute import Plain, Trees
 
 ROOT = Path(__file__).resolve().parents[2]
