@@ -94,8 +94,8 @@ TERMS = (
     ),
     Term(
         "oscillation",
-        "The part of an error of the energy that comes and goes, bounded for ever: that of"
-        " symplectic methods.",
+        "The part of an error of the energy that comes and goes. The errors of a symplectic method"
+        " with small steps are of this kind, for exponentially long times.",
         "",
         "this project, docs/energy.md",
         ("largest error", "energy"),

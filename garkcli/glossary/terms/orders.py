@@ -27,8 +27,8 @@ TERMS = (
     ),
     Term(
         "density",
-        "The product, over all vertices, of the number of vertices from there on. The order"
-        " condition of a tree requires its reciprocal.",
+        "The product, over all vertices, of the number of vertices of the subtree that begins"
+        " there. The order condition of a tree requires its reciprocal.",
         "γ(u) = ρ(u) Π γ(u_i), over the branches u_i",
         _TREES,
         ("gamma of a tree", "required"),
@@ -123,7 +123,8 @@ TERMS = (
     ),
     Term(
         "C(η)",
-        "The stages of a block are exact for polynomials of degree up to η: the stage order.",
+        "The stages of a block are exact where the solution is a polynomial of degree up to η."
+        " The least η of all blocks is the stage order.",
         "A^{l,m} (c^{m})^(k−1) = (c^{l})^k / k,  k = 1, …, η",
         paper(_ORDER + ", definition of the simplifying conditions"),
         ("C", "C(eta)", "C(q)", "C(k)"),

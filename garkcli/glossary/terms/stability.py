@@ -43,7 +43,7 @@ TERMS = (
     Term(
         "P-stable",
         "Solutions of the harmonic oscillator stay bounded for every step size.",
-        "|tr R(x)| ≤ 2 and what is equal has no growth, for all x = (hω)²",
+        "the powers of R(x) are bounded for all x = (hω)²; where det R = 1: |tr R| < 2 or R = ±I",
         "J. Lambert, I. Watson, Symmetric multistep methods for periodic initial value problems"
         " (1976)",
         (),
@@ -88,7 +88,7 @@ TERMS = (
         "SSP coefficient",
         "How much larger than for Euler's method a step may be so that norms that Euler's method"
         " does not increase are not increased.",
-        "the largest r with rK(I + rK)⁻¹ ≥ 0 and rK(I + rK)⁻¹𝟙 ≤ 𝟙, K the rows of A and b",
+        "the largest r with rK(I + rK)⁻¹ ≥ 0 and rK(I + rK)⁻¹𝟙 ≤ 𝟙, K = (A 0; bᵀ 0)",
         "D. Ketcheson, C. Macdonald, S. Gottlieb, Optimal implicit strong stability preserving"
         " Runge-Kutta methods (2009)",
         ("SSP", "additive SSP radii", "intervals, SSP"),
@@ -97,7 +97,7 @@ TERMS = (
     Term(
         "algebraically stable",
         "Two solutions of a contractive problem do not move apart, for every step size.",
-        "b ≥ 0 and M = BA + AᵀB − bbᵀ ≥ 0",
+        "b ≥ 0 and M = BA + AᵀB − bbᵀ positive semidefinite, B = diag(b)",
         f"{_STIFF}, section IV.12",
         ("algebraic stability",),
         ("A-stable", "symplectic"),
