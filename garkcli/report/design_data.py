@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple, get_args
 
 from garkcli.design.choices import Choice
-from garkcli.design.design import Design, Found, Kind, Step, Whose
+from garkcli.design.design import Design, Whose
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
+from garkcli.design.step import Found, Kind, Step
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (

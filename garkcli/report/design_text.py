@@ -7,9 +7,10 @@ from itertools import groupby
 from textwrap import wrap
 
 from garkcli.design.choices import Choice
-from garkcli.design.design import Design, Found, Step
+from garkcli.design.design import Design
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
+from garkcli.design.step import Found, Step
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (

@@ -10,12 +10,7 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 from garkcli.design.admissible import is_admissible
-from garkcli.design.design import (
-    Design,
-    Found,
-    Step,
-    order_of,
-)
+from garkcli.design.design import Design, order_of
 from garkcli.design.groebner import NotDecided
 from garkcli.design.member import member, value_of
 from garkcli.design.minimise.climbing import GRID, climbed
@@ -31,6 +26,7 @@ from garkcli.design.minimise.result import (
     Proof,
 )
 from garkcli.design.solutions import Solution, solutions
+from garkcli.design.step import Found, Step
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one

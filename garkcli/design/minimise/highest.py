@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from garkcli.design.design import Found
 from garkcli.design.member import member
 from garkcli.design.minimise.comparison import Comparison, at_root
 from garkcli.design.minimise.levels import MOST_DEGREE, height, on_levels
@@ -13,6 +12,7 @@ from garkcli.design.minimise.objective import Level, Size
 from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution
+from garkcli.design.step import Found
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.root_number import number_of

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from time import monotonic
 
-from garkcli.design.design import Design, Step
+from garkcli.design.design import Design
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.coordinates import nodes_as_coordinates
 from garkcli.design.minimise.highest import Highest
@@ -19,6 +19,7 @@ from garkcli.design.minimise.parts import parts_of
 from garkcli.design.minimise.registry import find_objective
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
+from garkcli.design.step import Step
 from garkcli.errors import UsageProblem
 
 SHARE = 0.25

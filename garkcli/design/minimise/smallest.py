@@ -10,7 +10,6 @@ from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.design import Found
 from garkcli.design.groebner import NotDecided
 from garkcli.design.member import member
 from garkcli.design.minimise.bound import is_nowhere_less
@@ -26,6 +25,7 @@ from garkcli.design.minimise.parts import Part, parts_within
 from garkcli.design.minimise.refining import critical_point_near
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution, value_at
+from garkcli.design.step import Found
 from garkcli.exact.cells import Interval, between
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import in_one

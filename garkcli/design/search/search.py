@@ -10,12 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from flint import arb, fmpq, fmpq_mpoly
 
 from garkcli.design.admissible import is_admissible
-from garkcli.design.design import (
-    TABLEAUS,
-    Found,
-    Whose,
-    order_of,
-)
+from garkcli.design.design import TABLEAUS, Whose, order_of
 from garkcli.design.member import value_of
 from garkcli.design.search.inside import Inside
 from garkcli.design.search.krawczyk import is_proved
@@ -31,6 +26,7 @@ from garkcli.design.search.snap import (
     unknowns_of,
 )
 from garkcli.design.solutions import Solution
+from garkcli.design.step import Found
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 
