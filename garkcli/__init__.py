@@ -326,4 +326,6 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    """What is meant for people: neither what this module imports nor the rooms."""
+    of_module = [name for name in globals() if name.startswith("__")]
+    return sorted({*of_module, *__all__})

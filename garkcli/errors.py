@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 
 class GarkError(Exception):
@@ -43,6 +44,15 @@ class GarkError(Exception):
         if not self.help:
             return self.message
         return f"{self.message}; {self.help}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """An error reaches another process with all it knows, whatever it was made from."""
+        return _made_again, (type(self), self.args), self.__dict__
+
+
+def _made_again(kind: type[GarkError], args: tuple[Any, ...]) -> GarkError:
+    """An error without its attributes, which pickle sets."""
+    return kind.__new__(kind, *args)
 
 
 class ExpressionError(GarkError):
@@ -145,6 +155,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     "did you mean 'radau-ia' or 'radau-iia'?"
     """
     known = list(known)
+    word = str(word)  # Python may give anything
     words = _that_begin_like(word, known)
     close = nearest(word, words)
     if close:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping, Set
+from operator import index
+from typing import Any, SupportsIndex
 
 from garkcli.errors import MethodError
 from garkcli.exact.given import number_text
@@ -55,6 +56,10 @@ def from_arrays(
     >>> from_arrays([[0, 0], [1, 0]], ["1/2", "1/2"], embedded=[1, 0]).embedded
     ((1, 0),)
     """
+    if b is None:
+        raise MethodError(
+            "b is missing", "give the weights: from_arrays(A, b)"
+        )
     writer = _Writer(is_rounded=tolerance is not None)
     A = _listed(_in_rows(A, "A"))
     entries: dict[str, str] = {}
@@ -65,7 +70,7 @@ def from_arrays(
         listed = _listed(_in_rows(rows, key))
         if _depth(A) <= 2:
             listed = _one_row(listed)
-        if listed is not None or key == "b":
+        if listed is not None:
             entries[key] = writer.text(listed, key)
     if tolerance is not None:
         entries["tolerance"] = number_text(
@@ -133,13 +138,22 @@ def _in_rows(value: Any, where: str) -> Any:
                 f"colours count from 1, as in {example}",
             )
     if not is_of_blocks:
-        return [value.get(l) for l in range(1, max(value, default=0) + 1)]
+        colours = range(1, max(value, default=0) + 1)
+        missing = [l for l in colours if l not in value]
+        if missing:
+            raise MethodError(
+                f"{where}: nothing for colour {missing[0]}",
+                "give every colour a row",
+            )
+        return [value[l] for l in colours]
     size = range(1, max(map(max, value), default=0) + 1)
     return [[value.get((l, m)) for m in size] for l in size]
 
 
 def _is_colour(x: object) -> bool:
-    return isinstance(x, int) and not isinstance(x, bool) and x >= 1
+    if isinstance(x, bool) or not isinstance(x, SupportsIndex):
+        return False
+    return index(x) >= 1
 
 
 def _listed(value: Any) -> Any:
@@ -150,6 +164,11 @@ def _listed(value: Any) -> Any:
         value = value.tolist()
     if isinstance(value, Mapping):
         raise MethodError("a mapping is no array", "give A, b and c as lists")
+    if isinstance(value, Set):
+        raise MethodError(
+            "a set is no array: it has no order, and no entry twice",
+            "give A, b and c as lists",
+        )
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_listed(item) for item in value]
     return value

@@ -20,6 +20,7 @@ from garkcli.comparison import comparison
 from garkcli.comparison.comparison import Comparison
 from garkcli.conversion import convert as conversion
 from garkcli.conversion.convert import Converted
+from garkcli.errors import MethodError
 from garkcli.methodfile import family
 from garkcli.methodfile import load as methods
 from garkcli.methodfile import problem as problems
@@ -49,7 +50,7 @@ def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
     >>> load("rk4").b
     (1/6, 1/3, 1/3, 1/6)
     """
-    return methods.load(os.fspath(path), texts(settings, "settings"))
+    return methods.load(os.fsdecode(path), texts(settings, "settings"))
 
 
 def loads(
@@ -70,7 +71,7 @@ def loads(
     >>> made.A, made.order
     (((1/4,),), 1)
     """
-    return methods.loads(text, source, texts(settings, "settings"))
+    return methods.loads(_text(text), source, texts(settings, "settings"))
 
 
 def load_family(
@@ -94,7 +95,7 @@ def load_family(
     ('g',)
     """
     given = texts(settings, "settings")
-    return family.load_family(os.fspath(path), given, deadline)
+    return family.load_family(os.fsdecode(path), given, deadline)
 
 
 def loads_family(
@@ -121,7 +122,7 @@ def loads_family(
     ('t',)
     """
     given = texts(settings, "settings")
-    return family.loads_family(text, source, given, is_design, deadline)
+    return family.loads_family(_text(text), source, given, is_design, deadline)
 
 
 def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
@@ -138,7 +139,7 @@ def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
     px**2/2 + py**2/2 - 1/sqrt(x**2 + y**2)
     """
     value = rational_or_none(stiffness, "stiffness")
-    return problems.load_problem(os.fspath(path), value)
+    return problems.load_problem(os.fsdecode(path), value)
 
 
 def loads_problem(
@@ -159,7 +160,7 @@ def loads_problem(
     px**2/2 - cos(x)
     """
     value = rational_or_none(stiffness, "stiffness")
-    return problems.loads_problem(text, source, value)
+    return problems.loads_problem(_text(text), source, value)
 
 
 def check_file(
@@ -185,7 +186,7 @@ def check_file(
     (True, <Order 4>, [True, True])
     """
     return checking.check_file(
-        os.fspath(path),
+        os.fsdecode(path),
         whole(limit, "limit", 1),
         want_constants,
         texts(settings, "settings"),
@@ -234,3 +235,17 @@ def convert(
     """
     many = None if stages is None else whole(stages, "stages", 1)
     return conversion.convert(method_of(method), to, many)
+
+
+def _text(given: object) -> str:
+    """The text of a file.
+
+    Raises:
+        MethodError: it is none.
+    """
+    if isinstance(given, str):
+        return given
+    raise MethodError(
+        f"a text is expected, not {type(given).__name__}",
+        "load(path) and its like read a file, from_arrays takes arrays",
+    )

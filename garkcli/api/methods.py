@@ -16,7 +16,7 @@ from garkcli.api.anymethod import (
     tableau_of,
     with_tolerance,
 )
-from garkcli.api.numbers import Number, Whole, colour_of, whole
+from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.errors import MethodError
@@ -248,8 +248,8 @@ def symplectic_pair(
     """
     tableau = tableau_of(method)
     count = tableau.size
-    V = [colour_of(l, "velocities", count) for l in velocities]
-    F = [colour_of(l, "forces", count) for l in forces]
+    V = colours_of(velocities, "velocities", count)
+    F = colours_of(forces, "forces", count)
     if not V and not F:
         raise MethodError(
             "a pair of no colour", "give colours of velocities and of forces"

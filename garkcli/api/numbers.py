@@ -87,6 +87,21 @@ def colour_of(given: Any, where: str, count: int) -> int:
     return colour - 1
 
 
+def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
+    """Several of them.
+
+    Raises:
+        MethodError: one is none of the method's, or they are no list.
+
+    >>> colours_of([1, 2], "forces", 2)
+    [0, 1]
+    """
+    if not _is_list(given):
+        cure = "give a list of colours, such as [1]"
+        raise MethodError(f"{where}: {given!r} is no list", cure)
+    return [colour_of(x, where, count) for x in given]
+
+
 def texts(given: Settings, where: str) -> dict[str, str]:
     """Values of parameters as the texts of coefficients.
 

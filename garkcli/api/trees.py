@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from garkcli.api.anymethod import AnyMethod, with_tolerance
-from garkcli.api.numbers import Number, Whole, colour_of, whole
+from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.errors import MethodError, counted
 from garkcli.exact.field import ZERO
 from garkcli.exact.field import Number as Exact
@@ -97,7 +97,7 @@ def count_trees(
     """
     colours = whole(colours, "colours", 1)
     order = whole(order, "order", 1)
-    few = [colour_of(l, "linear", colours) for l in linear]
+    few = colours_of(linear, "linear", colours)
     return count.count_trees(colours, order, edges, few)
 
 

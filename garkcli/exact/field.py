@@ -15,8 +15,11 @@ from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.nodes import Expression
+from garkcli.exact.pickling import register
 from garkcli.exact.rewriting import format_expression
 from garkcli.upward import found
+
+register()  # methods are copied, and sent to other processes
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
@@ -201,7 +204,9 @@ class Algebraic:
     def __rtruediv__(self, other: object) -> Number:
         return self.inverse() * other  # type: ignore[operator]
 
-    def __pow__(self, exponent: int) -> Number:
+    def __pow__(self, exponent: object) -> Number:
+        if not isinstance(exponent, int):
+            return NotImplemented
         result: Number = ONE
         base: Number = self
         if exponent < 0:

@@ -22,6 +22,10 @@ FLOAT_DIGITS = 15
 """Decimal digits that every float keeps: a decimal of so many is the only one its float prints."""
 
 
+MAX_BITS = 10_000
+"""Numerators and denominators of more are not written out for the parser, which refuses them:
+Python would not write those of more than 4300 digits.
+"""
 EXACTLY = "give it exactly, as a Fraction or a text such as '1/3'"
 """What helps where a float is a rounded number."""
 OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
@@ -56,7 +60,11 @@ def number_text(
         return to_text(x)
     if isinstance(x, numbers.Rational):
         # int, Fraction, NumPy's integers, SymPy's rationals
-        return _fraction_text(int(x.numerator), int(x.denominator))
+        p, q = int(x.numerator), int(x.denominator)
+        if max(abs(p), q).bit_length() > MAX_BITS:
+            message = f"{where}: a number of more than 1000 digits"
+            raise MethodError(message, "no coefficient needs so many")
+        return _fraction_text(p, q)
     if isinstance(x, Decimal) and x.is_finite():
         return str(x)
     if _is_float(x):

@@ -1,4 +1,4 @@
-"""How exact numbers travel between processes; imported by what sends them."""
+"""How exact numbers are copied and travel between processes."""
 
 from __future__ import annotations
 

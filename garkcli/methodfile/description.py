@@ -271,9 +271,9 @@ def left_behind(content: Content) -> tuple[str, ...]:
 class ClaimText:
     """One claim of ``expect``: its key, its value as plain data, and where it stands."""
 
-    node: Node
+    node: Node = field(compare=False)
     key: str
-    value: object
+    value: object = field(hash=False)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
 from typing import Literal, TypeAlias
@@ -66,7 +66,7 @@ class Tableau:
 
     spaces: tuple[StageSpace, ...]
     colours: tuple[Colour, ...]
-    blocks: Mapping[Edge, Matrix]
+    blocks: Mapping[Edge, Matrix] = field(hash=False)
 
     def __post_init__(self) -> None:
         for number, colour in enumerate(self.colours, start=1):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -224,3 +226,86 @@ def test_arrays_of_entries() -> None:
     assert np.allclose(A.sum(axis=1), np.array(method.c, dtype=float))
     assert sympy.Matrix(method.A).trace() == sympy.Rational(1, 2)
     assert np.array(load("gauss-6").A, dtype=float).shape == (6, 6)
+
+
+@pytest.mark.parametrize("name", ["rk4", "gauss-2", "stoermer-verlet"])
+def test_methods_are_equal_copied_and_sent(name: str) -> None:
+    """A method read once more, a deep copy and one from another process are equal to it, and with
+    radicals too; so are its conjugate and the entries, and equal ones have one hash.
+    """
+    method = load(name)
+    sent = pickle.loads(pickle.dumps(method))
+    for other in (load(name), copy.deepcopy(method), sent):
+        assert other == method
+        assert hash(other) == hash(method)
+        assert other.conjugate == method.conjugate
+        assert other.b == method.b
+    assert load("heun") != method
+    assert sent.order == method.order
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: load("no-such-file.yaml"),
+        lambda: loads("A: [[0]]"),
+        lambda: garkcli.parse_tree("[[]"),
+        lambda: garkcli.conjugate(([[0]], [0])),
+        lambda: garkcli.catalogue["no-such-name"],
+        lambda: VERLET.A[0, 1],
+    ],
+)
+def test_errors_reach_another_process(call: Callable[[], object]) -> None:
+    """A pool of processes hands on what was raised: the error is the same on the other side."""
+    with pytest.raises(GarkError) as caught:
+        call()
+    error = caught.value
+    sent = pickle.loads(pickle.dumps(error))
+    assert type(sent) is type(error)
+    assert str(sent) == str(error)
+    assert vars(sent) == vars(error)
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: garkcli.symplectic_pair("rk4", 1, 1), "such as [1]"),  # type: ignore[arg-type]
+        (lambda: garkcli.convert("rk4", 3), "no form 3"),  # type: ignore[arg-type]
+        (lambda: loads(b"A: [[0]]"), "a text is expected, not bytes"),  # type: ignore[arg-type]
+        (lambda: garkcli.from_arrays([[0]], None), "b is missing"),
+        (
+            lambda: garkcli.from_arrays([{0, 1}, {1, 0}], [0, 1]),
+            "a set is no array",
+        ),
+        (
+            lambda: garkcli.from_arrays({(3, 3): [[0]]}, {1: [1], 3: [1]}),
+            "b: nothing for colour 2",
+        ),
+        (
+            lambda: garkcli.from_arrays([[10**5000]], [1]),
+            "more than 1000 digits",
+        ),
+    ],
+)
+def test_what_is_of_another_kind_is_said(
+    call: Callable[[], object], said: str
+) -> None:
+    """What Python lets through is refused in the words of the interface."""
+    with pytest.raises(GarkError) as caught:
+        call()
+    assert said in str(caught.value)
+
+
+def test_colours_of_numpy_are_colours() -> None:
+    """What a loop over arrays gives may name the colours."""
+    one = np.int64(1)
+    made = garkcli.from_arrays({(one, one): [["1/2"]]}, {one: [1]})
+    assert made.order == 2
+
+
+def test_powers_of_entries_are_whole() -> None:
+    """A power that is no whole number is refused as numbers refuse it."""
+    entry = load("gauss-2").A[0][1]
+    assert entry**-1 * entry == 1
+    with pytest.raises(TypeError):
+        entry**0.5
