@@ -180,7 +180,7 @@ def test_method_files_name_members() -> None:
         "transfer: interpolation"
     )
     assert loaded.stages == (2, 2)
-    assert loaded.A[0][0][0][0] == loaded.c[0][0]
+    assert loaded.A[1, 1][0][0] == loaded.c[1][0]
     beside = loads(
         "methods:\n  - {family: gauss, stages: 2}\n"
         "  - {family: sdc, points: 2, sweeps: 1, nodes: gauss}\n"
