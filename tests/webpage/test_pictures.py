@@ -23,7 +23,7 @@ from garkcli.webpage.pictures import (
     pictures,
 )
 from garkcli.webpage.pictures.contours import Point, outlines
-from garkcli.webpage.pictures.drawing import shortened
+from garkcli.webpage.pictures.drawing import colour, shortened
 from garkcli.webpage.pictures.scales import linear_marks
 
 MOST_CHARACTERS = 60_000
@@ -319,3 +319,28 @@ def test_several_methods_are_in_one_picture() -> None:
     dashed = errors.svg.count("stroke-dasharray")
     assert dashed == 2 * 2  # curves and legend, of all but the first
     assert compared_pictures(methods[:1]) == []
+
+
+def lightness(colour: str) -> float:
+    """The relative luminance of ``#rrggbb``, as WCAG 2 defines it."""
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    red, green, blue = (
+        x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+        for x in parts
+    )
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+@pytest.mark.parametrize("paper", ["#ffffff", "#111111", "#1e1e1e"])
+def test_curves_are_seen_on_any_page(paper: str) -> None:
+    """A page without our styles, such as a notebook, may be light or dark: the colours that curves
+    then have differ from both by 3 to 1, as WCAG 2 asks of pictures.
+    """
+    found = {
+        re.sub(r"^var\(--picture-\d,(.*)\)$", r"\1", colour(k))
+        for k in range(4)
+    }
+    assert len(found) == 4
+    for one in found:
+        low, high = sorted([lightness(one), lightness(paper)])
+        assert (high + 0.05) / (low + 0.05) >= 3

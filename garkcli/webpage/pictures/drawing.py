@@ -28,6 +28,8 @@ LEFT, RIGHT, TOP, BOTTOM = 58, 12, 10, 40
 INSIDE = WIDTH - LEFT - RIGHT
 COLOURS = ("#24558f", "#a02417", "#35702f", "#76439a")
 """Of clearly different lightness from white, at least 4.5 to 1."""
+ON_ANY = ("#2f7dc8", "#d24a3a", "#3f8f36", "#9b6ac0")
+"""Of a page without STYLE, a notebook for instance, light or dark: 3 to 1 and more on both."""
 _DARK_COLOURS = ("#8ab8f5", "#ff9d8c", "#8fd08a", "#d3a6f2")
 DASHES = (None, "7 3", "2 2.5", "8 2.5 2 2.5")
 _LEGEND_ROW = 18
@@ -56,9 +58,9 @@ STYLE = _style()
 
 
 def colour(k: int) -> str:
-    """The colour of the k-th curve, that of the page or else our own."""
-    place = k % len(COLOURS)
-    ours = COLOURS[place]
+    """The colour of the k-th curve, that of the page or else one for any page."""
+    place = k % len(ON_ANY)
+    ours = ON_ANY[place]
     return f"var(--picture-{place + 1},{ours})"
 
 
