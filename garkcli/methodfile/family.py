@@ -127,23 +127,34 @@ def loads_family(
     """
     reader, description = _with_unknowns(text, source, settings)
     wishes = _wishes(reader) if is_design else Wishes()
+    return _family(reader, description, wishes, settings, deadline)
+
+
+def _family(
+    reader: Reader,
+    description: Description,
+    wishes: Wishes,
+    settings: Mapping[str, str],
+    deadline: float | None,
+) -> FamilyFile:
+    """The family that a file describes, with what is wanted of it."""
     made = built(reader, description, FamilyValues)
     tableau, values = made.tableau, made.values
     ring = values.domain.ring
-    read = reader.source
-    meaning = meaning_of(wishes, tableau, ring, values, read, deadline)
+    source = reader.source
+    meaning = meaning_of(wishes, tableau, ring, values, source, deadline)
     free = reader.numbers.free
     ranges = {name: values.ends(x) for name, x in free.items()}
-    read.close()
+    source.close()
     poles = _cancelled(values.domain.divisors, tableau, ring, free)
     zeros = (
         *_of_nodes(description, tableau),
         *numerators(meaning.zeros, ring),
     )
     return FamilyFile(
-        source=source,
-        text=text,
-        name=one_line(description.name) or source,
+        source=source.name,
+        text=source.text,
+        name=one_line(description.name) or source.name,
         tableau=tableau,
         further=made.further,
         ring=ring,
@@ -159,7 +170,7 @@ def loads_family(
         unsettled=meaning.unsettled,
         wanted_at=reader.design_place(),
         settings=settings,
-        places=_places(reader, text),
+        places=_places(reader),
         shape=_shape(reader),
         structure=description.structure,
         left_behind=left_behind(description.content),
@@ -187,8 +198,9 @@ def _wishes(reader: Reader) -> Wishes:
     return read_wishes(reader.source, reader.numbers, reader.design)
 
 
-def _places(reader: Reader, text: str) -> Mapping[str, Extent]:
+def _places(reader: Reader) -> Mapping[str, Extent]:
     """Where each parameter stands."""
+    text = reader.source.text
     places = reader.numbers.places
     return {name: extent(text, x, x) for name, x in places.items()}
 
