@@ -192,13 +192,7 @@ def _ark(table: FoundTable) -> Iterator[str]:
     for block in table.A[0]:
         yield "    -"
         yield from _rows(block or (), 6)
-    yield "  b:"
-    yield from _rows(table.b, 4)
-    if table.embedded is not None:
-        yield "  embedded:"
-        yield from _rows(table.embedded, 4)
-    if table.dense is not None:
-        yield from _polynomials(table.dense, "  ")
+    yield from _weights(table)
 
 
 def _blocks(table: FoundTable) -> Iterator[str]:
@@ -214,6 +208,14 @@ def _blocks(table: FoundTable) -> Iterator[str]:
             yield f"{dash} null" if block is None else dash
             yield from _rows(block or (), 8)
             dash = "      -"
+    yield from _weights(table)
+    if table.linear:
+        numbers = ", ".join(str(l + 1) for l in table.linear)
+        yield f"linear: [{numbers}]"
+
+
+def _weights(table: FoundTable) -> Iterator[str]:
+    """The weights of several colours, a row each, and those beside them."""
     yield "  b:"
     yield from _rows(table.b, 4)
     if table.embedded is not None:
@@ -221,9 +223,6 @@ def _blocks(table: FoundTable) -> Iterator[str]:
         yield from _rows(table.embedded, 4)
     if table.dense is not None:
         yield from _polynomials(table.dense, "  ")
-    if table.linear:
-        numbers = ", ".join(str(l + 1) for l in table.linear)
-        yield f"linear: [{numbers}]"
 
 
 def _polynomials(dense: Sequence[Rows], indent: str) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""Tables made ready for targets: rows below the diagonal, errors, one stage more; refusals."""
+"""Tables made ready for targets: named arrays, rows below the diagonal, a stage more; refusals."""
 
 from __future__ import annotations
 
@@ -18,6 +18,32 @@ from garkcli.tableau.pointwise import Row
 _BITS = 1000
 """Of arithmetic with enclosures, far beyond what is written of them."""
 _DIGITS = 300
+
+
+def named_arrays(payload: Payload, before: str = "") -> list[tuple[str, Rows]]:
+    """The arrays of a method, each with a name for programs: ``A``, ``b``; ``A1_2``, ``b2`` of
+    several vector fields.
+
+    Args:
+        payload: the method.
+        before: what is between the letter and its numbers.
+    """
+    found: list[tuple[str, Rows]] = []
+    is_one = payload.size == 1
+    for l, blocks in enumerate(payload.A, start=1):
+        for m, block in enumerate(blocks, start=1):
+            number = "" if is_one else f"{before}{l}_{m}"
+            if block is not None:
+                found.append((f"A{number}", block))
+    for l in range(payload.size):
+        number = "" if is_one else f"{before}{l + 1}"
+        found.append((f"b{number}", (payload.b[l],)))
+        found.append((f"c{number}", (payload.c[l],)))
+        if payload.embedded is not None:
+            found.append((f"embedded{number}", (payload.embedded[l],)))
+        if payload.dense is not None:
+            found.append((f"dense{number}", payload.dense[l]))
+    return found
 
 
 def below_diagonal(found: Table) -> Rows:

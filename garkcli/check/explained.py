@@ -34,26 +34,22 @@ _LONG = 60
 
 def witness_text(witness: Witness, colours: bool) -> str:
     """Which condition fails, and by how much; ``colours`` where there are several."""
-    value = to_text(witness.value)
-    residual = to_text(witness.residual)
-    if len(value) + len(residual) > _LONG:
-        value = f"about {to_decimal(witness.value, 8)}"
-        residual = to_decimal(witness.residual, 4)
-    tree = format_tree(witness.tree, colours)
-    where = f"fails at order {witness.tree.order}: {tree}"
-    return f"{where}: {value} instead of {witness.required}, off by {residual}"
+    return _told(witness, format_tree(witness.tree, colours))
 
 
 def dense_witness_text(found: DenseWitness, colours: bool) -> str:
     """Which power of θ in the condition of which tree is not what it should be."""
-    witness = found.witness
+    tree = format_tree(found.witness.tree, colours)
+    return _told(found.witness, f"{tree}, at θ^{found.power}")
+
+
+def _told(witness: Witness, condition: str) -> str:
     value = to_text(witness.value)
     residual = to_text(witness.residual)
     if len(value) + len(residual) > _LONG:
         value = f"about {to_decimal(witness.value, 8)}"
         residual = to_decimal(witness.residual, 4)
-    tree = format_tree(witness.tree, colours)
-    where = f"fails at order {witness.tree.order}: {tree}, at θ^{found.power}"
+    where = f"fails at order {witness.tree.order}: {condition}"
     return f"{where}: {value} instead of {witness.required}, off by {residual}"
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from garkcli.check.every_family import EveryFamily, every_family
 from garkcli.cli.companion import companion
 from garkcli.cli.options import Output
-from garkcli.cli.rendering import write_tableau
+from garkcli.cli.rendering import refuse_partitioned, write_tableau
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.tableau.tableau import Tableau
@@ -91,13 +91,9 @@ def write_family(
 
 def _method_file(tableau: Tableau, name: str, family: EveryFamily) -> str:
     """A method file with the same free parameters."""
-    from garkcli.methodfile.writer import can_spell_out, write_tableau_file
+    from garkcli.methodfile.writer import write_tableau_file
 
-    if not can_spell_out(tableau):
-        raise UsageProblem(
-            "a method file spells out a GARK tableau or one pair (q, p), not this partitioned one",
-            "--format json has all of its blocks",
-        )
+    refuse_partitioned(tableau)
 
     def text(number: object) -> str:
         return str(number).replace("^", "**")

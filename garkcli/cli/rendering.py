@@ -77,6 +77,21 @@ def shown_entries(
     return found if digits is None else found.in_decimals(digits)
 
 
+def refuse_partitioned(tableau: Tableau) -> None:
+    """Refuse what a method file has no form for.
+
+    Raises:
+        UsageProblem: it is partitioned, and no pair (q, p).
+    """
+    from garkcli.methodfile.writer import can_spell_out
+
+    if not can_spell_out(tableau):
+        raise UsageProblem(
+            "a method file spells out a GARK tableau or one pair (q, p), not this partitioned one",
+            "--format json has all of its blocks",
+        )
+
+
 def _method_file(
     tableau: Tableau,
     name: str,
@@ -84,17 +99,9 @@ def _method_file(
     tolerance: fmpq | None,
     further: Further,
 ) -> str:
-    from garkcli.methodfile.writer import (
-        can_spell_out,
-        write_rounded,
-        write_tableau_file,
-    )
+    from garkcli.methodfile.writer import write_rounded, write_tableau_file
 
-    if not can_spell_out(tableau):
-        raise UsageProblem(
-            "a method file spells out a GARK tableau or one pair (q, p), not this partitioned one",
-            "--format json has all of its blocks",
-        )
+    refuse_partitioned(tableau)
     if digits is not None:
         found = shown_entries(tableau, digits)
         return write_rounded(tableau, found, name, further)

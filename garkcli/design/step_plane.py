@@ -8,20 +8,20 @@ them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import chain, count, islice
+from itertools import chain, islice
 from math import isqrt
-from typing import TypeAlias, cast
+from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.member import member
-from garkcli.exact.field import ZERO, Number
+from garkcli.design.sampling import largest_degree, through, values_without
+from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.parametric import Parameters, common_denominator, fraction
-from garkcli.exact.polynomial import Polynomial, interpolated
-from garkcli.exact.projection import PLANE
+from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.exact.polynomial import Polynomial
 from garkcli.stability.step_function import unreduced
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -84,9 +84,9 @@ def through_members(
     of_blocks = common_denominator(entries, ring)
     of_weights = common_denominator(weights, ring)
     # each row of the equations times the one denominator, each entry of N times the other
-    degree = unknowns * _degree(entries, of_blocks, ring)
-    degree += _degree(weights, of_weights, ring)
-    allowed = _values_without(of_blocks * of_weights)
+    degree = unknowns * largest_degree(entries, of_blocks, ring)
+    degree += largest_degree(weights, of_weights, ring)
+    allowed = values_without(of_blocks * of_weights)
     points = list(islice(allowed, degree + 1))
     [name] = ring.names
     denominators, numerators = [], []
@@ -95,8 +95,8 @@ def through_members(
         scale = _at(of_blocks, t) ** unknowns * _at(of_weights, t)
         denominators.append(denominator * scale)
         numerators.append([p * scale for p in entries_of_step])
-    D = _through(points, denominators)
-    N = [_through(points, values) for values in zip(*numerators, strict=True)]
+    D = through(points, denominators)
+    N = [through(points, values) for values in zip(*numerators, strict=True)]
     return _in_lowest_terms(D, N, isqrt(len(N)), (of_blocks, of_weights))
 
 
@@ -115,26 +115,6 @@ def _in_lowest_terms(
     return StepPlane(D // common, tuple(rows), tuple(of_parameter))
 
 
-def _degree(
-    numbers: Sequence[Number], denominator: fmpq_mpoly, ring: Parameters
-) -> int:
-    """The largest degree in t of numbers times a common denominator, and of that itself."""
-    degrees = [int(denominator.total_degree())]
-    for x in numbers:
-        numerator, own = fraction(x, ring)
-        if numerator:
-            cleared = numerator * (denominator // own)
-            degrees.append(int(cleared.total_degree()))
-    return max(degrees)
-
-
-def _values_without(poles: fmpq_mpoly) -> Iterator[fmpq]:
-    """0, 1, 2, … without the roots of a polynomial."""
-    for k in count():
-        if _at(poles, fmpq(k)):
-            yield fmpq(k)
-
-
 def _at(p: fmpq_mpoly, t: fmpq) -> fmpq:
     return fmpq(p(t))
 
@@ -143,16 +123,3 @@ def _in_parameter(p: fmpq_mpoly) -> Polynomial:
     powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
     exponents = range(max(powers) + 1)
     return Polynomial([powers.get(k, ZERO) for k in exponents])
-
-
-def _through(
-    points: Sequence[fmpq], values: Sequence[Polynomial]
-) -> fmpq_mpoly:
-    """The polynomial in z and t with given polynomials in z at given t."""
-    terms: dict[tuple[int, ...], fmpq] = {}
-    for j in range(max(p.degree for p in values) + 1):
-        coefficient = interpolated(points, [p[j] for p in values])
-        for k, a in enumerate(coefficient.coefficients):
-            if a:
-                terms[j, k] = cast("fmpq", a)
-    return PLANE.from_dict(terms)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from garkcli.bridges.c_text import array, c_style, heading
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
+from garkcli.bridges.tables import named_arrays
 from garkcli.tableau.pointwise import Row
 
 STYLE = c_style("GARK_REAL_C")
@@ -26,7 +27,7 @@ typedef double gark_real;
 
 
 def write(payload: Payload) -> str:
-    """The header; several vector fields have arrays ``A12``, ``b2`` with their numbers."""
+    """The header; several vector fields have arrays ``A1_2``, ``b2`` with their numbers."""
     name = f"gark_{payload.identifier}"
     guard = f"{name.upper()}_H"
     notes = (
@@ -37,7 +38,7 @@ def write(payload: Payload) -> str:
     lines += [f"#ifndef {guard}", f"#define {guard}", "", _TYPE, ""]
     constants = ",\n  ".join(_constants(payload, name))
     lines += ["enum {", f"  {constants}", "};", ""]
-    for part, rows in _arrays(payload):
+    for part, rows in named_arrays(payload):
         is_matrix = len(rows) > 1 or part[0] in "Ad"
         height = f"[{len(rows)}]" if is_matrix else ""
         width = f"[{len(rows[0])}]"
@@ -69,25 +70,6 @@ def _constants(payload: Payload, name: str) -> list[str]:
     found.append(f"{name}_order = {payload.orders.order}")
     if payload.orders.embedded is not None:
         found.append(f"{name}_embedded_order = {payload.orders.embedded}")
-    return found
-
-
-def _arrays(payload: Payload) -> list[tuple[str, Sequence[Row]]]:
-    """The name of each array with its rows."""
-    found: list[tuple[str, Sequence[Row]]] = []
-    is_one = payload.size == 1
-    for l, blocks in enumerate(payload.A, start=1):
-        for m, block in enumerate(blocks, start=1):
-            if block is not None:
-                found.append((f"A{'' if is_one else f'{l}_{m}'}", block))
-    for l in range(payload.size):
-        number = "" if is_one else str(l + 1)
-        found.append((f"b{number}", (payload.b[l],)))
-        found.append((f"c{number}", (payload.c[l],)))
-        if payload.embedded is not None:
-            found.append((f"embedded{number}", (payload.embedded[l],)))
-        if payload.dense is not None:
-            found.append((f"dense{number}", payload.dense[l]))
     return found
 
 

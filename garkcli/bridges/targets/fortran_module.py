@@ -9,6 +9,7 @@ from garkcli.bridges.lines import filled
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
+from garkcli.bridges.tables import named_arrays
 from garkcli.tableau.pointwise import Row
 
 STYLE = Style(
@@ -41,7 +42,7 @@ def write(payload: Payload) -> str:
     for l, stages in enumerate(payload.stages, start=1):
         stages_name = f"stages{_number(payload, l)}"
         lines.append(f"  integer, parameter :: {stages_name} = {stages}")
-    for part, rows in _arrays(payload):
+    for part, rows in named_arrays(payload, "_"):
         is_matrix = part.startswith(("A", "dense"))
         lines += (
             _matrix(payload, part, rows)
@@ -54,24 +55,6 @@ def write(payload: Payload) -> str:
 def _number(payload: Payload, l: int) -> str:
     """What tells the arrays of vector fields from each other."""
     return "" if payload.size == 1 else f"_{l}"
-
-
-def _arrays(payload: Payload) -> list[tuple[str, Sequence[Row]]]:
-    found: list[tuple[str, Sequence[Row]]] = []
-    for l, blocks in enumerate(payload.A, start=1):
-        for m, block in enumerate(blocks, start=1):
-            number = "" if payload.size == 1 else f"_{l}_{m}"
-            if block is not None:
-                found.append((f"A{number}", block))
-    for l in range(payload.size):
-        number = _number(payload, l + 1)
-        found.append((f"b{number}", (payload.b[l],)))
-        found.append((f"c{number}", (payload.c[l],)))
-        if payload.embedded is not None:
-            found.append((f"embedded{number}", (payload.embedded[l],)))
-        if payload.dense is not None:
-            found.append((f"dense{number}", payload.dense[l]))
-    return found
 
 
 def _vector(

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import count
-from typing import cast
+from itertools import islice
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.member import member
-from garkcli.exact.parametric import Parameters, common_denominator, fraction
-from garkcli.exact.polynomial import Polynomial, interpolated
-from garkcli.exact.projection import PLANE
+from garkcli.design.sampling import largest_degree, through, values_without
+from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.exact.polynomial import Polynomial
 from garkcli.tableau.tableau import Tableau
 
 
@@ -33,35 +32,11 @@ def in_plane(
     """
     [name] = ring.names
     denominator = common_denominator(entries, ring)
-    degree = int(denominator.total_degree())
-    for x in entries:
-        over, under = fraction(x, ring)
-        cleared = over * (denominator // under)
-        if cleared:
-            degree = max(degree, int(cleared.total_degree()))
-    points: list[fmpq] = []
+    degree = size * largest_degree(entries, denominator, ring)
+    points = list(islice(values_without(denominator), degree + 1))
     rows: list[Sequence[Polynomial]] = []
-    for k in count():
-        t = fmpq(k)
-        scale = fmpq(denominator(t))
-        if not scale:
-            continue
+    for t in points:
+        scale = fmpq(denominator(t)) ** size
         found = decided(member(tableau, ring, {name: t}))
-        points.append(t)
-        rows.append([p * scale**size for p in found])
-        if len(points) > degree * size:
-            break
-    return [_through(points, values) for values in zip(*rows, strict=True)]
-
-
-def _through(
-    points: Sequence[fmpq], values: Sequence[Polynomial]
-) -> fmpq_mpoly:
-    """The polynomial in y and t with given polynomials in y at given t."""
-    terms: dict[tuple[int, ...], fmpq] = {}
-    for j in range(max(p.degree for p in values) + 1):
-        coefficient = interpolated(points, [p[j] for p in values])
-        for k, a in enumerate(coefficient.coefficients):
-            if a:
-                terms[j, k] = cast("fmpq", a)
-    return PLANE.from_dict(terms)
+        rows.append([p * scale for p in found])
+    return [through(points, values) for values in zip(*rows, strict=True)]
