@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from garkcli.bridges.readers.assignments import Assigned, Begun, Called, Walk
+from garkcli.bridges.readers.assignments import Assigned, Called, Walk
 from garkcli.bridges.readers.blocks import assembled, table_of_blocks
 from garkcli.bridges.readers.cells import Cells
+from garkcli.bridges.readers.finder import Finder, tables_of
 from garkcli.bridges.readers.found import (
     FoundTable,
     Reader,
@@ -16,7 +17,7 @@ from garkcli.bridges.readers.found import (
 )
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import JULIA, Token, tokens_of, without
-from garkcli.bridges.readers.naming import ROLES, Scope
+from garkcli.bridges.readers.naming import ROLES
 from garkcli.bridges.readers.scalars import Value, is_row, rows_of, whole
 from garkcli.bridges.readers.shaping import square, weights
 
@@ -46,16 +47,7 @@ def find(text: str, source: str) -> list[FoundTable]:
     tokens = without(tokens_of(text, JULIA), "comment")
     walk = Walk(tokens, GRAMMAR, MAKERS, _ENDS, _title)
     walk.names.update({word: word for word in _TRUTHS})
-    finder = _Finder(source)
-    for event in walk.events():
-        if isinstance(event, Begun):
-            finder.begin(event.title)
-        if isinstance(event, Assigned):
-            finder.assigned(event)
-        if isinstance(event, Called):
-            finder.called(event)
-    finder.end()
-    return sorted(finder.found, key=lambda x: x.line)
+    return tables_of(walk, _Finder(source))
 
 
 def _title(tokens: list[Token], place: int) -> str:
@@ -78,22 +70,15 @@ def _holds_names(tokens: list[Token], place: int) -> bool:
     return is_name and inside[1].text == "="
 
 
-class _Finder:
+class _Finder(Finder):
     """Collects what is assigned in one function."""
 
     def __init__(self, source: str) -> None:
-        self.found: list[FoundTable] = []
-        self._source = source
-        self._scope = Scope()
+        super().__init__(source)
         self._cells = Cells(1)
         self._made: list[FoundTable] = []
         self._values: dict[str, Value] = {}
         self._line = 1
-
-    def begin(self, title: str) -> None:
-        """Another function begins."""
-        self.end()
-        self._scope = Scope(title)
 
     def end(self) -> None:
         """The tables of the function; those that a constructor takes are found once."""

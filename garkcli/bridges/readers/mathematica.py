@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from garkcli.bridges.readers.assignments import Assigned, Begun, Walk
+from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.blocks import table_of_blocks
+from garkcli.bridges.readers.finder import Finder, tables_of
 from garkcli.bridges.readers.found import (
     FoundTable,
     Reader,
@@ -18,7 +19,7 @@ from garkcli.bridges.readers.lexing import (
     tokens_of,
     without,
 )
-from garkcli.bridges.readers.naming import ROLES, Scope
+from garkcli.bridges.readers.naming import ROLES
 from garkcli.bridges.readers.scalars import (
     Scalar,
     Value,
@@ -58,14 +59,7 @@ def find(text: str, source: str) -> list[FoundTable]:
         _with_names(_on_their_lines(tokens)), GRAMMAR, {}, _ENDS, _title
     )
     walk.names["x"] = Scalar("x")
-    finder = _Finder(source)
-    for event in walk.events():
-        if isinstance(event, Begun):
-            finder.begin(event.title)
-        if isinstance(event, Assigned):
-            finder.assigned(event)
-    finder.end()
-    return sorted(finder.found, key=lambda x: x.line)
+    return tables_of(walk, _Finder(source))
 
 
 def _on_their_lines(tokens: list[Token]) -> list[Token]:
@@ -109,21 +103,14 @@ def _title(tokens: list[Token], place: int) -> str:
     return token.text if signs == ["=", "<", "|"] else ""
 
 
-class _Finder:
+class _Finder(Finder):
     """Collects lists into tables."""
 
     def __init__(self, source: str) -> None:
-        self.found: list[FoundTable] = []
-        self._source = source
-        self._scope = Scope()
+        super().__init__(source)
         self._values: dict[str, Value] = {}
         self._line = 0
         self._listed: list[FoundTable] = []
-
-    def begin(self, title: str) -> None:
-        """An association begins."""
-        self.end()
-        self._scope = Scope(title)
 
     def end(self) -> None:
         """The tables of what has ended."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.bridges.readers.assignments import Assigned, Begun, Walk
+from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.cells import Cells
+from garkcli.bridges.readers.finder import Finder, tables_of
 from garkcli.bridges.readers.found import (
     MAX_STAGES,
     FoundTable,
@@ -43,14 +44,7 @@ def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a MATLAB source."""
     tokens = without(tokens_of(text, MATLAB), "comment")
     walk = Walk(tokens, GRAMMAR, {}, _ENDS, _title)
-    finder = _Finder(source)
-    for event in walk.events():
-        if isinstance(event, Begun):
-            finder.begin(event)
-        if isinstance(event, Assigned):
-            finder.assigned(event)
-    finder.end()
-    return sorted(finder.found, key=lambda x: x.line)
+    return tables_of(walk, _Finder(source))
 
 
 def _title(tokens: list[Token], place: int) -> str:
@@ -71,22 +65,13 @@ def _title(tokens: list[Token], place: int) -> str:
     return title
 
 
-class _Finder:
+class _Finder(Finder):
     """Collects the matrices of one structure, or of one branch, into tables."""
 
     def __init__(self, source: str) -> None:
-        self.found: list[FoundTable] = []
-        self._source = source
-        self._title = ""
-        self._scope = Scope()
+        super().__init__(source)
         self._cells: dict[str, Cells] = {}
         self._blocks: list[FoundTable] = []
-
-    def begin(self, event: Begun) -> None:
-        """Another function or branch begins."""
-        self.end()
-        self._title = event.title
-        self._scope = Scope(event.title)
 
     def end(self) -> None:
         """The tables of what has ended; those in a block are found once."""
@@ -95,20 +80,20 @@ class _Finder:
         self.found += self._blocks
         self.found += [x for x in loose if (x.A, x.b) not in in_blocks]
         for stem, cells in self._cells.items():
-            name = self._title or stem
+            name = self._scope.title or stem
             table = cells.table(self._source, NAME, name)
             if table is not None:
                 self.found.append(table)
         self._cells = {}
         self._blocks = []
-        self._scope = Scope(self._title)
+        self._scope = Scope(self._scope.title)
 
     def assigned(self, event: Assigned) -> None:
         """A matrix was assigned to a name, to a field or to a cell."""
         stem, _, field = event.name.rpartition(".")
         block = rklab(event.value)
         if block is not None and field.upper().startswith("B"):
-            name = self._title or event.name
+            name = self._scope.title or event.name
             self._blocks.append(block.table(self._source, event.line, name))
             return
         cells = self._cells.setdefault(stem, Cells(event.line))
@@ -116,7 +101,7 @@ class _Finder:
         if event.indices:
             return
         name = f"{stem}_{field}" if stem and field != "name" else field
-        if stem and stem == event.name.partition(".")[0] and self._title:
+        if stem and stem == event.name.partition(".")[0] and self._scope.title:
             # m of a function that returns m
             name = field
         self._scope.add(name, event.value, event.line)

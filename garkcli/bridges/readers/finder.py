@@ -1,0 +1,53 @@
+"""From what a walk over a source meets to tables, one part of the source after the other."""
+
+from __future__ import annotations
+
+from garkcli.bridges.readers.assignments import Assigned, Begun, Called, Walk
+from garkcli.bridges.readers.found import FoundTable
+from garkcli.bridges.readers.naming import Scope
+
+
+class Finder:
+    """Collects arrays into tables.
+
+    Args:
+        source: what the source is called.
+
+    Attributes:
+        found: the tables so far.
+    """
+
+    def __init__(self, source: str) -> None:
+        self.found: list[FoundTable] = []
+        self._source = source
+        self._scope = Scope()
+
+    def begin(self, title: str) -> None:
+        """Another part begins: a function, a branch, an association."""
+        self.end()
+        self._scope = Scope(title)
+
+    def end(self) -> None:
+        """A part ends: what is collected are its tables."""
+        raise NotImplementedError
+
+    def assigned(self, event: Assigned) -> None:
+        """A name has a value."""
+        raise NotImplementedError
+
+    def called(self, event: Called) -> None:
+        """What makes a tableau is called; only some languages have that."""
+
+
+def tables_of(walk: Walk, finder: Finder) -> list[FoundTable]:
+    """The tables of a source, by their lines."""
+    for event in walk.events():
+        match event:
+            case Begun():
+                finder.begin(event.title)
+            case Assigned():
+                finder.assigned(event)
+            case Called():
+                finder.called(event)
+    finder.end()
+    return sorted(finder.found, key=lambda x: x.line)
