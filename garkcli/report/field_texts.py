@@ -10,6 +10,9 @@ from garkcli.glossary.fields import field_text
 from garkcli.glossary.key import keys_of
 from garkcli.page.schema import Schema
 
+REFERENCES = (("publication",), ("reference",))
+"""The fields whose parts are those of a reference in a method file."""
+
 
 def told(schema: Schema, report: str) -> Schema:
     """A schema of a report in which each field says what it holds."""
@@ -46,7 +49,10 @@ def _field(schema: Any, path: tuple[str, ...]) -> Any:
 
 def text_of(path: tuple[str, ...]) -> str:
     """What a field holds: by its entry, or as the claim, the column or the key that it is."""
-    return field_text(path) or _elsewhere().get(path[-1], "")
+    name = path[-1]
+    if path[-2:-1] in REFERENCES:
+        return _elsewhere().get(name, "")
+    return field_text(path) or _elsewhere().get(name, "")
 
 
 @lru_cache(maxsize=1)

@@ -85,3 +85,30 @@ def test_every_field_is_a_word() -> None:
         assert meanings(name), name
     (found,) = meanings("simplifying")
     assert (found.kind, found.name) == ("field of JSON reports", "simplifying")
+
+
+HOMONYMS = {
+    ("trees", "trees", "gamma"): "density",
+    ("conditions", "conditions", "gamma"): "density",
+    ("check", "files", "properties", "gamma"): "implicit stage",
+    ("converge", "steps", "error"): "at the end",
+    ("sweep", "best", "error"): "error coefficients",
+    ("check", "files", "colours"): "by their names",
+    ("list-methods", "colours"): "How many",
+    ("check", "files", "witness", "order"): "vertices",
+    ("check", "files", "order"): "order conditions",
+    ("check", "files", "order", "fact", "where"): "parameter",
+    ("show", "publication", "where"): "in the work",
+    ("show", "publication", "note"): "reader of the reference",
+    ("converge", "note"): "visible order",
+    ("show", "title"): "the method",
+    ("show", "publication", "title"): "publication",
+}
+"""Fields whose name means something else in another place, with a word of their text."""
+
+
+def test_a_name_is_told_by_its_place(paths: set[tuple[str, ...]]) -> None:
+    """What a field holds is not what a claim, a column or a key of the same name is."""
+    for path, word in HOMONYMS.items():
+        assert path in paths
+        assert word in text_of(path), path
