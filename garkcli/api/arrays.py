@@ -34,9 +34,10 @@ def from_arrays(
     tenth, and one of more than 15 digits needs a ``tolerance``.
 
     Args:
-        A: the matrix, shape (s, s); the rows of a triangle may end at the diagonal or before it. Of
-            N colours N rows of N blocks, shape (s_l, s_m), None where colour l does not see colour
-            m; or a mapping of pairs (l, m), counted from 1, to blocks.
+        A: the matrix, shape (s, s); the rows of a triangle may end at the diagonal or before it,
+            and an explicit method may lack the last column, as in SciPy. Of N colours N rows of N
+            blocks, shape (s_l, s_m), None where colour l does not see colour m; or a mapping of
+            pairs (l, m), counted from 1, to blocks.
         b: the weights, length s; of N colours a row each, or a mapping of colours to rows.
         c: the nodes, length s; of N colours a row each.
         embedded: embedded weights, as b.
@@ -61,7 +62,7 @@ def from_arrays(
             "b is missing", "give the weights: from_arrays(A, b)"
         )
     writer = _Writer(is_rounded=tolerance is not None)
-    A = _listed(_in_rows(A, "A"))
+    A = _triangle(_listed(_in_rows(A, "A")))
     entries: dict[str, str] = {}
     if name:
         entries["name"] = _quoted(name)
@@ -179,6 +180,23 @@ def _depth(value: Any) -> int:
         return 0
     inside = map(_depth, value)
     return 1 + max(inside, default=0)
+
+
+def _triangle(A: Any) -> Any:
+    """A matrix without its last column, which is zero like all on and above the diagonal, as rows
+    that end before it; anything else as it is.
+
+    >>> _triangle([[0], ["1/2"]]), _triangle([[1], ["1/2"]])
+    ([[], ['1/2']], [[1], ['1/2']])
+    """
+    if _depth(A) != 2 or not all(isinstance(row, list) for row in A):
+        return A
+    lengths = {len(row) for row in A}
+    if lengths != {len(A) - 1}:
+        return A
+    above = [x for i, row in enumerate(A) for x in row[i:]]
+    is_explicit = not any(isinstance(x, str) or x != 0 for x in above)
+    return [row[:i] for i, row in enumerate(A)] if is_explicit else A
 
 
 def _one_row(value: Any) -> Any:

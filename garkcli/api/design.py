@@ -232,6 +232,11 @@ def found_methods(
         return list(_searched(found, _file_of(family_of(family)), whose))
     if isinstance(found, Minimum):
         return list(_least(found, _file_of(found.design.family)))
+    if not isinstance(found, Design):
+        raise MethodError(
+            f"what was found is expected, not {type(found).__name__}",
+            "give what find_parameters, minimise or search_methods returned",
+        )
     chosen = accepted_methods(found)
     read = _file_of(found.family)
     return [_made(read, x.values, found.whose, x.order) for x in chosen]

@@ -91,7 +91,7 @@ def _figure(
         return energy_figure(result)
     if isinstance(result, SweepReport):
         return _front(result)
-    raise MethodError(f"there is no figure of a {kind.__name__}", _CURE)
+    raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE)
 
 
 def _errors(

@@ -8,6 +8,7 @@ from fractions import Fraction
 from sys import float_info
 from typing import Any
 
+import numpy as np
 import pytest
 from flint import fmpq, fmpq_mat, fmpz
 from hypothesis import assume, given, settings
@@ -314,3 +315,15 @@ def test_every_family_shows_its_entries() -> None:
         assert sum(method.b[1:], start=method.b[0]) == 1
     lobatto = diagonal_method("lobatto-iiia", 3)
     assert str(lobatto.A[1][0]) == "5/24"
+
+
+def test_an_explicit_method_without_its_last_column() -> None:
+    """Solvers keep s rows of s − 1 entries, zero from the diagonal on: the method is that of the
+    whole matrix. A column short of anything else is a wrong shape.
+    """
+    whole = np.array([[0, 0, 0], [0.5, 0, 0], [-1, 2, 0]])
+    b = ["1/6", "2/3", "1/6"]
+    assert from_arrays(whole[:, :2], b).A == from_arrays(whole, b).A
+    short = [[0, 0], ["1/2", 1], [-1, 2]]
+    with pytest.raises(MethodFileError, match="A is 3 by 2"):
+        from_arrays(short, b)

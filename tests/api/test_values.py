@@ -272,6 +272,7 @@ def test_errors_reach_another_process(call: Callable[[], object]) -> None:
         (lambda: garkcli.symplectic_pair("rk4", 1, 1), "such as [1]"),  # type: ignore[arg-type]
         (lambda: garkcli.convert("rk4", 3), "no form 3"),  # type: ignore[arg-type]
         (lambda: loads(b"A: [[0]]"), "a text is expected, not bytes"),  # type: ignore[arg-type]
+        (lambda: garkcli.found_methods(None), "not NoneType"),  # type: ignore[arg-type]
         (lambda: garkcli.from_arrays([[0]], None), "b is missing"),
         (
             lambda: garkcli.from_arrays([{0, 1}, {1, 0}], [0, 1]),

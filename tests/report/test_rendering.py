@@ -156,7 +156,7 @@ def test_plots_are_drawn_and_saved(tmp_path: Path) -> None:
         ([], "nothing to draw"),
         ([run, found[0]], "several kinds"),
         ([run, run], "not drawn together"),
-        ([3], "no figure of a int"),
+        ([3], "no figure of the kind int"),
     ):
         with pytest.raises(MethodError, match=said):
             garkcli.plot(*results)
