@@ -44,7 +44,8 @@ def meanings(word: str) -> list[Meaning]:
     Raises:
         UsageProblem: nobody knows it.
 
-    >>> meanings("density")[0].formula
+    >>> from garkcli import explain
+    >>> explain("density")[0].formula
     'γ(u) = ρ(u) Π γ(u_i), over the branches u_i'
     """
     exactly, nearly = [], []

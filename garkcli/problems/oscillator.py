@@ -45,6 +45,7 @@ class Oscillator:
 
     >>> Oscillator(0.5, [(1, 0), (0, 1)])
     Oscillator(omega=1/2, shares=((1, 0), (0, 1)))
+    >>> from flint import fmpq
     >>> Oscillator.default(3, fmpq(1)).shares
     ((1, 0), (0, 1/2), (0, 1/2))
     """

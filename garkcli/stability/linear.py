@@ -35,6 +35,7 @@ class StabilityFunction:
         denominator: Q.
 
     >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.stability.linear import stability_function
     >>> from garkcli.tableau.forms import gark
     >>> midpoint = gark([diagonal_method("gauss", 1)], {})
     >>> stability_function(midpoint).numerator

@@ -19,6 +19,7 @@ class NoSuchColour(MethodError, KeyError):
 class ByColour(Mapping[K, Any], Generic[K]):
     """What a method has for each colour, or for each pair of them; colours count from 1.
 
+    >>> from garkcli.tableau.bycolour import ByColour
     >>> rows = ByColour({1: (1,), 2: ("1/2", "1/2")})
     >>> rows[2], list(rows), rows.get(3)
     (('1/2', '1/2'), [1, 2], None)

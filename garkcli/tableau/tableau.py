@@ -49,6 +49,9 @@ class Colour:
 class Tableau:
     """A GARK tableau as a directed graph of colours.
 
+    Colours and stage spaces are indices of ``colours`` and ``spaces`` here, from 0; those of
+    ``GarkMethod.A`` count from 1.
+
     Attributes:
         spaces: the stage spaces.
         colours: the vector fields, in the order of the file.
@@ -101,15 +104,15 @@ class Tableau:
         return len(self.colours)
 
     def space(self, colour: int) -> StageSpace:
-        """The stage space of a colour."""
+        """The stage space of a colour, from 0."""
         return self.spaces[self.colours[colour].space]
 
     def block(self, l: int, m: int) -> Matrix | None:
-        """A^{l,m}, or None where the stages of colour l do not see colour m."""
+        """A^{l,m}, l and m from 0, or None where the stages of colour l do not see colour m."""
         return self.blocks.get((self.colours[l].space, m))
 
     def edges(self) -> Iterator[Edge]:
-        """All (l, m) for which A^{l,m} exists."""
+        """All (l, m), from 0, for which A^{l,m} exists."""
         for l in range(self.size):
             for m in range(self.size):
                 if self.block(l, m) is not None:

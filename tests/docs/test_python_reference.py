@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import ast
+import builtins
 import dataclasses
+import doctest
 import inspect
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -51,6 +55,27 @@ def test_every_name_has_its_section() -> None:
     assert len(headings) == len(set(headings))
     assert {*garkcli.__all__} <= {*headings}
     assert returned() <= {*headings, "Iterator", "Any"}
+
+
+def test_examples_can_be_copied() -> None:
+    """Behind ``from garkcli import *`` an example uses no name that it does not bring."""
+    given = {*garkcli.__all__, *dir(builtins)}
+    blocks = re.findall(r"```python\n(.*?)```", page(), re.DOTALL)
+    assert len(blocks) > 60
+    for block in blocks:
+        examples = doctest.DocTestParser().get_examples(block)
+        tree = ast.parse("".join(x.source for x in examples))
+        nodes = list(ast.walk(tree))
+        names = [x for x in nodes if isinstance(x, ast.Name)]
+        used = {x.id for x in names if isinstance(x.ctx, ast.Load)}
+        made = {x.id for x in names if isinstance(x.ctx, ast.Store)}
+        made |= {x.arg for x in nodes if isinstance(x, ast.arg)}
+        brought = {
+            (x.asname or x.name).partition(".")[0]
+            for x in nodes
+            if isinstance(x, ast.alias)
+        }
+        assert used <= given | made | brought, block
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
