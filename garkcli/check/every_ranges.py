@@ -46,26 +46,36 @@ def can_vanish(
     """
     if not p:
         return True
-    factors = [factor for factor, _ in p.factor()[1]]
-    return any(_can_vanish(factor, ring, ranges) for factor in factors)
+    _, factors = p.factor()
+    return any(_can_vanish(factor, ring, ranges) for factor, _ in factors)
 
 
 def _can_vanish(
     p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]
 ) -> bool:
     """The same of an irreducible polynomial."""
-    used = [k for k, degree in enumerate(p.degrees()) if degree]
-    terms = prod(int(p.degrees()[k]) + 1 for k in used)
-    has_roots = any(ring.names[k] not in ranges for k in used)
-    if has_roots or terms > MOST_TERMS:
+    used = _used(p)
+    names = [ring.names[k] for k in used]
+    has_roots = any(name not in ranges for name in names)
+    if has_roots or _terms_in_u(p) > MOST_TERMS:
         return True
-    inside = [ranges[ring.names[k]] for k in used]
+    inside = [ranges[name] for name in names]
     if len(used) == 1:
         # all of them are known
         roots = real_roots(_in_one_of(p, used[0]))
         return any(is_within(root, inside[0]) for root, _ in roots)
     cases = product(*map(_charts, inside))
     return any(_may_vanish(p, used, inside, case) for case in cases)
+
+
+def _used(p: fmpq_mpoly) -> list[int]:
+    """The unknowns that occur in a polynomial, by their numbers."""
+    return [k for k, degree in enumerate(p.degrees()) if degree]
+
+
+def _terms_in_u(p: fmpq_mpoly) -> int:
+    """How many terms a polynomial can have when it is rewritten."""
+    return prod(int(degree) + 1 for degree in p.degrees())
 
 
 def is_within(value: RealRoot, ends: Range) -> bool:
@@ -78,8 +88,12 @@ def is_within(value: RealRoot, ends: Range) -> bool:
 
 def _in_one_of(p: fmpq_mpoly, index: int) -> Polynomial:
     """A polynomial in which one unknown occurs, in that."""
-    powers = {int(e[index]): fmpq(a) for e, a in p.to_dict().items()}
-    return Polynomial([powers.get(k, ZERO) for k in range(max(powers) + 1)])
+    powers = {}
+    for exponents, a in p.to_dict().items():
+        power = int(exponents[index])
+        powers[power] = fmpq(a)
+    degree = max(powers)
+    return Polynomial([powers.get(k, ZERO) for k in range(degree + 1)])
 
 
 def _charts(ends: Range) -> Iterator[_Chart]:
@@ -103,27 +117,40 @@ def _may_vanish(
     case: Sequence[_Chart],
 ) -> bool:
     """Whether coefficients in u leave it open that there is a zero."""
-    context = p.context()
-    u = context.gens()
-    degrees = [int(degree) for degree in p.degrees()]
-    total = context.constant(0)
-    for exponents, a in p.to_dict().items():
-        term = context.constant(a)
-        for k, chart in zip(used, case, strict=True):
-            over, under = chart(u[k])
-            power = int(exponents[k])
-            term *= over**power * under ** (degrees[k] - power)
-        total += term
-    found = {tuple(map(int, e)): a for e, a in total.to_dict().items()}
+    found = {}
+    for exponents, a in _rewritten(p, used, case).to_dict().items():
+        found[tuple(map(int, exponents))] = fmpq(a)
     # a closed range has a corner at each end, the others at u = 0 alone
+    degrees = [int(degree) for degree in p.degrees()]
     corners: list[tuple[int, ...]] = [(0,)] * len(degrees)
     for k, ends in zip(used, inside, strict=True):
         if None not in ends:
             corners[k] = (0, degrees[k])
     at_corners = [found.get(corner, ZERO) for corner in product(*corners)]
     one = at_corners[0]
-    has_zero = any(a * one <= 0 for a in at_corners)
-    return has_zero or any(a * one < 0 for a in found.values())
+    are_signed_alike = all(a * one > 0 for a in at_corners)
+    opposes = any(a * one < 0 for a in found.values())
+    return opposes or not are_signed_alike
+
+
+def _rewritten(
+    p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]
+) -> fmpq_mpoly:
+    """A polynomial in u, without the denominator that is positive."""
+    context = p.context()
+    u = context.gens()
+    degrees = p.degrees()
+    total = context.constant(0)
+    for exponents, a in p.to_dict().items():
+        term = context.constant(a)
+        for k, chart in zip(used, case, strict=True):
+            over, under = chart(u[k])
+            power = int(exponents[k])
+            rest = int(degrees[k]) - power
+            term *= over**power
+            term *= under**rest
+        total += term
+    return total
 
 
 def carried(
@@ -147,11 +174,13 @@ def carried(
         if ranges[name] == FREE:
             continue
         other, slope, rest = _affine(name, value, left)
-        shifted = [None if x is None else x - rest for x in (least, greatest)]
+        low = None if least is None else least - rest
+        high = None if greatest is None else greatest - rest
         if other is None:
-            _fail_outside(name, value, (shifted[0], shifted[1]))
+            _fail_outside(name, value, (low, high))
             continue
-        low, high = (None if x is None else x / slope for x in shifted)
+        low = None if low is None else low / slope
+        high = None if high is None else high / slope
         new = (low, high) if slope > 0 else (high, low)
         found[other] = _common(other, found[other], new)
     return found
@@ -165,23 +194,22 @@ def _affine(
         return None, ZERO, value
     assert isinstance(value, Parametric)
     p = value.numerator
-    used = [k for k, degree in enumerate(p.degrees()) if degree]
-    other = value.ring.names[used[0]]
-    is_one = len(used) == 1 and value.denominator.is_one()
-    if not is_one or p.degrees()[used[0]] != 1 or other not in left:
+    used = _used(p)
+    index = used[0]
+    other = value.ring.names[index]
+    is_polynomial = value.denominator.is_one()
+    is_affine = len(used) == 1 and p.degrees()[index] == 1
+    if not is_polynomial or not is_affine or other not in left:
         text = value.ring.text(p)
         raise MethodError(
             f"{name} has a range, and its value {text} follows from others",
             "give the range to one of these, or values with --set",
         )
-    rest, slope = (p.to_dict().get(e, ZERO) for e in _first_two(p, used[0]))
-    return other, fmpq(slope), fmpq(rest)
-
-
-def _first_two(p: fmpq_mpoly, index: int) -> list[tuple[int, ...]]:
-    """The exponents of 1 and of an unknown."""
-    size = len(p.degrees())
-    return [(0,) * size, tuple(int(k == index) for k in range(size))]
+    line = _in_one_of(p, index)
+    slope, rest = line[1], line[0]
+    assert isinstance(slope, fmpq)
+    assert isinstance(rest, fmpq)
+    return other, slope, rest
 
 
 def _fail_outside(name: str, value: object, shifted: Range) -> None:
@@ -198,8 +226,9 @@ def _fail_outside(name: str, value: object, shifted: Range) -> None:
 
 def _common(name: str, one: Range, other: Range) -> Range:
     """The intersection of two ranges of a parameter."""
-    starts = [x[0] for x in (one, other) if x[0] is not None]
-    ends = [x[1] for x in (one, other) if x[1] is not None]
+    both = [one, other]
+    starts = [start for start, _ in both if start is not None]
+    ends = [end for _, end in both if end is not None]
     least = max(starts, default=None)
     greatest = min(ends, default=None)
     if least is not None and greatest is not None and greatest < least:

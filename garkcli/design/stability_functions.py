@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.wants.r_infinity import characteristic_coefficients
+from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -40,15 +42,17 @@ class FamilyFunction:
         P, Q = self.numerator, self.denominator
         if len(P) > len(Q):
             return None
-        return fmpq(0) if len(P) < len(Q) else P[-1] / Q[-1]
+        if len(P) < len(Q):
+            return ZERO
+        return P[-1] / Q[-1]
 
     @property
     def e_polynomial(self) -> Coefficients:
         """|Q(iy)|² − |P(iy)|² as a polynomial in x = y²."""
-        P, Q = _squared(self.numerator), _squared(self.denominator)
-        size = max(len(P), len(Q))
-        differences = [_at(Q, k) - _at(P, k) for k in range(size)]
-        return _trimmed(differences)
+        P = _squared(self.numerator)
+        Q = _squared(self.denominator)
+        pairs = zip_longest(Q, P, fillvalue=ZERO)
+        return _trimmed([q - p for q, p in pairs])
 
 
 def family_functions(
@@ -58,18 +62,16 @@ def family_functions(
 
     Empty where colours drive positions or momenta only, or do not see one another.
     """
-    colours = range(tableau.size)
-    is_complete = all(
-        tableau.block(l, m) is not None for l in colours for m in colours
-    )
+    size = tableau.size
+    is_complete = len(list(tableau.edges())) == size**2
     if tableau.is_partitioned or not is_complete:
         return ()
-    found = [_function(tableau, ring, "all", [fmpq(1)] * tableau.size)]
-    if tableau.size > 1:
-        for l in colours:
-            shares = [fmpq(int(m == l)) for m in colours]
-            name = tableau.colours[l].name
-            found.append(_function(tableau, ring, name, shares))
+    found = [_function(tableau, ring, "all", [ONE] * size)]
+    if size > 1:
+        for l, colour in enumerate(tableau.colours):
+            shares = [ZERO] * size
+            shares[l] = ONE
+            found.append(_function(tableau, ring, colour.name, shares))
     return tuple(found)
 
 
@@ -90,25 +92,31 @@ def _function(
 def _in_lowest_terms(
     P: Sequence[Any], Q: Sequence[Any], ring: Parameters
 ) -> tuple[Coefficients, Coefficients]:
-    larger = Parameters(["_z", *ring.names])
+    """P and Q without common factors, divided by Q(0)."""
     common = common_denominator([*P, *Q], ring)
-
-    def polynomial(coefficients: Sequence[Any]) -> Any:
-        terms = {}
-        for k, a in enumerate(coefficients):
-            p, q = fraction(a, ring)
-            cleared = p * (common // q)
-            for exponents, c in cleared.to_dict().items():
-                terms[(k, *map(int, exponents))] = c
-        return larger.context.from_dict(terms)
-
-    p, q = polynomial(P), polynomial(Q)
+    p = _joined(P, common, ring)
+    q = _joined(Q, common, ring)
     factor = p.gcd(q)
-    numerator, denominator = p // factor, q // factor
-    rows = _by_power(numerator, ring), _by_power(denominator, ring)
-    scale = rows[1][0]
-    over = tuple(tuple(a / scale for a in row) for row in rows)
-    return _trimmed(over[0]), _trimmed(over[1])
+    numerator = _by_power(p // factor, ring)
+    denominator = _by_power(q // factor, ring)
+    scale = denominator[0]
+    over = [a / scale for a in numerator]
+    under = [a / scale for a in denominator]
+    return _trimmed(over), _trimmed(under)
+
+
+def _joined(
+    coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters
+) -> fmpq_mpoly:
+    """A polynomial in z, times a common denominator, as one in z and the parameters."""
+    larger = Parameters(["_z", *ring.names])
+    terms = {}
+    for k, a in enumerate(coefficients):
+        p, q = fraction(a, ring)
+        cleared = p * (common // q)
+        for exponents, c in cleared.to_dict().items():
+            terms[k, *map(int, exponents)] = c
+    return larger.context.from_dict(terms)
 
 
 def _by_power(polynomial: Any, ring: Parameters) -> list[Any]:
@@ -117,7 +125,7 @@ def _by_power(polynomial: Any, ring: Parameters) -> list[Any]:
     for exponents, a in polynomial.to_dict().items():
         k, *rest = map(int, exponents)
         powers.setdefault(k, {})[tuple(rest)] = a
-    one = ring.constant(fmpq(1))
+    one = ring.constant(ONE)
     found = []
     for k in range(max(powers) + 1):
         terms = ring.context.from_dict(powers.get(k, {}))
@@ -132,17 +140,15 @@ def _trimmed(coefficients: Sequence[Any]) -> Coefficients:
     return tuple(kept)
 
 
-def _at(coefficients: Coefficients, k: int) -> Any:
-    return coefficients[k] if k < len(coefficients) else fmpq(0)
-
-
 def _squared(p: Coefficients) -> Coefficients:
     """|p(iy)|² in x = y²: Σ (−1)^((j − k)/2) p_j p_k x^((j + k)/2) over even j + k."""
-    size = len(p)
-    out: list[Any] = [fmpq(0)] * size
-    for j in range(size):
-        for k in range(size):
-            if (j + k) % 2 == 0:
-                sign = -1 if (j - k) // 2 % 2 else 1
-                out[(j + k) // 2] = out[(j + k) // 2] + sign * p[j] * p[k]
-    return tuple(out)
+    squared: list[Any] = [ZERO] * len(p)
+    for j, a in enumerate(p):
+        for k, b in enumerate(p):
+            power, is_odd = divmod(j + k, 2)
+            if is_odd:
+                continue
+            is_negative = (j - k) // 2 % 2
+            product = -a * b if is_negative else a * b
+            squared[power] = squared[power] + product
+    return tuple(squared)
