@@ -7,7 +7,7 @@ from contextlib import suppress
 from html import escape
 from typing import TypeVar
 
-from garkcli.convergence.result import Convergence
+from garkcli.convergence.result import Convergence, Row
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured, rounded
 from garkcli.page.plain import printable
@@ -26,13 +26,7 @@ def convergence_html(result: Convergence) -> str:
     has_energy = any(row.energy_error is not None for row in result.rows)
     if has_energy:
         heads.append("energy error")
-    rows = []
-    for row in result.rows:
-        slope = "" if row.slope is None else f"{row.slope:.3f}"
-        cells = [str(row.h), rounded(row.error), slope]
-        if has_energy and row.energy_error is not None:
-            cells.append(rounded(row.energy_error))
-        rows.append(cells)
+    rows = [_step(row) for row in result.rows]
     observed = order_text(result.observed_order)
     said = (
         f"observed order {observed}, order of the method {predicted(result)}: "
@@ -40,9 +34,17 @@ def convergence_html(result: Convergence) -> str:
     )
     name = getattr(result.problem, "name", "oscillator")
     table = _table(f"{name}, to t = {result.t_end}", heads, rows)
-    return _shown(
-        [table, *_texts([said, *remarks(result)])], errors_svg, result
-    )
+    texts = _texts([said, *remarks(result)])
+    return _shown([table, *texts], errors_svg, result)
+
+
+def _step(row: Row) -> list[str]:
+    """The cells of a step size; the last one where there is an energy."""
+    slope = "" if row.slope is None else f"{row.slope:.3f}"
+    cells = [str(row.h), rounded(row.error), slope]
+    if row.energy_error is not None:
+        cells.append(rounded(row.energy_error))
+    return cells
 
 
 def long_run_html(run: LongRun) -> str:
@@ -51,7 +53,8 @@ def long_run_html(run: LongRun) -> str:
     rows = [_invariant(history) for history in run.invariants]
     name = getattr(run.problem, "name", "oscillator")
     title = f"{name}: {run.steps} steps of {run.step} to t = {run.t_end}"
-    return _shown([_table(title, heads, rows)], energy_svg, run)
+    table = _table(title, heads, rows)
+    return _shown([table], energy_svg, run)
 
 
 def _invariant(history: InvariantHistory) -> list[str]:
@@ -72,15 +75,20 @@ def _shown(parts: list[str], draw: Callable[[T], str], result: T) -> str:
 def _table(
     title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]
 ) -> str:
-    head = "".join(f'<th scope="col">{_text(x)}</th>' for x in heads)
-    lines = [f"<tr>{head}</tr>"]
+    head = [f'<th scope="col">{_text(x)}</th>' for x in heads]
+    lines = [_row(head)]
     for row in rows:
-        cells = "".join(f"<td>{_text(x)}</td>" for x in row)
-        lines.append(f"<tr>{cells}</tr>")
+        cells = [f"<td>{_text(x)}</td>" for x in row]
+        lines.append(_row(cells))
     body = "\n".join(lines)
     beside = "white-space:nowrap;text-align:left"
     caption = f'<caption style="{beside}">{_text(title)}</caption>'
     return f"<table>{caption}<tbody>\n{body}\n</tbody></table>"
+
+
+def _row(cells: Sequence[str]) -> str:
+    joined = "".join(cells)
+    return f"<tr>{joined}</tr>"
 
 
 def _texts(texts: Iterable[str]) -> list[str]:

@@ -27,17 +27,21 @@ def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
     vertices = layout(tree)
     edge = RADIUS + MARGIN
     top = max(v.y for v in vertices)
-    xs = [round(edge + v.x * STEP_X) for v in vertices]
-    ys = [edge + (top - v.y) * STEP_Y for v in vertices]
+    places = []
+    for v in vertices:
+        x = round(edge + v.x * STEP_X)
+        y = edge + (top - v.y) * STEP_Y
+        places.append((x, y))
     lines = []
     dots = []
-    for v, x, y in zip(vertices, xs, ys, strict=True):
+    for v, (x, y) in zip(vertices, places, strict=True):
         name = dot_name(v.colour, has_colours)
         dots.append(f'<use href="#{name}" x="{x}" y="{y}"/>')
         if v.parent >= 0:
-            lines.append(f"M{xs[v.parent]} {ys[v.parent]}L{x} {y}")
-    width = max(xs) + edge
-    height = max(ys) + edge
+            start_x, start_y = places[v.parent]
+            lines.append(f"M{start_x} {start_y}L{x} {y}")
+    width = edge + max(x for x, _ in places)
+    height = edge + max(y for _, y in places)
     size = f'viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
     path = "".join(lines)
     edges = f'<path d="{path}"/>' if path else ""

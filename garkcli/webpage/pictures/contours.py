@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 if TYPE_CHECKING:
-    from garkcli.arrays import Floats
+    from garkcli.arrays import Floats, Integers
 
 Point: TypeAlias = tuple[float, float]
 """Column and row in a grid, between its nodes."""
@@ -66,13 +66,8 @@ def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
 
 
 def _all_pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
-    inside = (padded <= 0).astype(int)
-    below = inside[:-1]
-    above = inside[1:]
-    kinds = below[:, :-1]
-    kinds = kinds + 2 * below[:, 1:]
-    kinds = kinds + 4 * above[:, 1:]
-    kinds = kinds + 8 * above[:, :-1]
+    """The pieces in all cells, from the edge where each begins to that where it ends."""
+    kinds = _kinds(padded)
     is_passed = (kinds > 0) & (kinds < 15)
     for i, j in np.argwhere(is_passed).tolist():
         kind = int(kinds[i, j])
@@ -81,6 +76,17 @@ def _all_pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
             start = _edge(i, j, piece[0])
             end = _edge(i, j, piece[1])
             yield start, end
+
+
+def _kinds(padded: Floats) -> Integers:
+    """Which corners of each cell are inside, as the keys of ``_PIECES``."""
+    inside = (padded <= 0).astype(int)
+    below = inside[:-1]
+    above = inside[1:]
+    left = below[:, :-1] + 8 * above[:, :-1]
+    right = 2 * below[:, 1:] + 4 * above[:, 1:]
+    kinds: Integers = left + right
+    return kinds
 
 
 def _pieces_of(kind: int, corners: Floats) -> tuple[str, ...]:
@@ -137,10 +143,11 @@ def _thinned(points: list[Point], tolerance: float) -> list[Point]:
 
 def _distance(point: Point, start: Point, end: Point) -> float:
     """From the line through both ends; from the end where they are one."""
-    x = point[0] - start[0]
-    y = point[1] - start[1]
-    u = end[0] - start[0]
-    v = end[1] - start[1]
+    left, bottom = start
+    x = point[0] - left
+    y = point[1] - bottom
+    u = end[0] - left
+    v = end[1] - bottom
     length = hypot(u, v)
     if length == 0:
         return hypot(x, y)
