@@ -101,6 +101,7 @@ HOMONYMS = {
     ("show", "publication", "where"): "in the work",
     ("show", "publication", "note"): "reader of the reference",
     ("converge", "note"): "visible order",
+    ("design-search", "methods", "residual"): "power of ten",
     ("show", "title"): "the method",
     ("show", "publication", "title"): "publication",
 }
