@@ -84,7 +84,8 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
             return kind.__name__, writer, formats
     raise MethodError(
         f"no command prints values of the kind {type(value).__name__}",
-        "give a method, or what a call on methods returned",
+        "give a method, or what analyse, check_file or another call that"
+        " help(garkcli.render) names returned",
     )
 
 

@@ -134,7 +134,8 @@ def test_a_sweep_is_rendered(tmp_path: Path) -> None:
 def test_what_no_command_prints_is_refused() -> None:
     """A value of another kind, and a format that the command has not."""
     with pytest.raises(
-        MethodError, match="no command prints values of the kind str"
+        MethodError,
+        match=r"no command prints values of the kind str; give .* analyse",
     ):
         render("rk4")
     with pytest.raises(UsageProblem, match="no format 'html' of GarkMethod"):
