@@ -13,12 +13,16 @@ parted by &, by tabs as pages and spreadsheets give them, or by commas, may be e
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import takewhile
+from typing import TypeAlias
 
 from garkcli.errors import MethodError, counted
 from garkcli.methodfile.typeset import plain
 
+_Row: TypeAlias = tuple[str, ...]
+"""Numbers as they were written."""
 MOST_LINES = 1000
 _RULE = re.compile(r"[\s|+=─│┼,&-]*")
 _BAR = re.compile(r"\|\|?|│|&")
@@ -40,10 +44,10 @@ class Pasted:
         embedded: further weights; None where there are none.
     """
 
-    A: tuple[tuple[str, ...], ...]
-    b: tuple[str, ...]
-    c: tuple[str, ...] | None = None
-    embedded: tuple[str, ...] | None = None
+    A: tuple[_Row, ...]
+    b: _Row
+    c: _Row | None = None
+    embedded: _Row | None = None
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ class _Line:
     """A line of numbers; ``node`` is None where no bar parts one from the row."""
 
     node: str | None
-    row: tuple[str, ...]
+    row: _Row
 
 
 def read_pasted(text: str) -> Pasted:
@@ -91,7 +95,7 @@ def _is_rule(text: str) -> bool:
 def _between_cells(text: str) -> str:
     """The sign that parts the cells of a table; empty where numbers stand side by side."""
     rows = [x for x in text.splitlines() if not _is_rule(x)]
-    if max((x.count("&") for x in rows), default=0) > 1:
+    if any(x.count("&") > 1 for x in rows):
         return "&"
     has_bars = any(_BAR.search(x) for x in rows)
     if has_bars or not rows:
@@ -105,7 +109,13 @@ def _without_nodes(lines: list[_Line]) -> list[_Line]:
     """Rows of a table whose first column is no column of nodes: weights have an entry there."""
     rows = [(line.node or "0", *line.row) for line in lines]
     longest = max(map(len, rows))
-    return [_Line(None, row + ("0",) * (longest - len(row))) for row in rows]
+    return [_Line(None, _filled(row, longest)) for row in rows]
+
+
+def _filled(row: _Row, length: int) -> _Row:
+    """A row with the zeros that were left out at its end."""
+    missing = length - len(row)
+    return row + ("0",) * missing
 
 
 def _line(text: str, sign: str) -> _Line:
@@ -121,19 +131,23 @@ def _line(text: str, sign: str) -> _Line:
             cells.pop()
         return _Line(node, tuple(x or "0" for x in cells))
     stripped = text.strip().removesuffix(";").strip()
-    parts = _BAR.split(stripped, maxsplit=1)
-    row = tuple(x for x in _BETWEEN.split(parts[-1].strip(" |")) if x)
-    if len(parts) == 1:
+    *before, numbers = _BAR.split(stripped, maxsplit=1)
+    words = _BETWEEN.split(numbers.strip(" |"))
+    row = tuple(word for word in words if word)
+    if not before:
         return _Line(None, row)
-    return _Line(parts[0].strip(), row)
+    [node] = before
+    return _Line(node.strip(), row)
 
 
 def _with_nodes(lines: list[_Line]) -> Pasted:
     """Stages have something before the bar, weights have nothing."""
     stages = list(takewhile(lambda x: bool(x.node), lines))
-    weights = [line.row for line in lines[len(stages) :]]
     nodes = tuple(line.node or "" for line in stages)
-    return _made([line.row for line in stages], weights, nodes)
+    every_row = [line.row for line in lines]
+    rows = every_row[: len(stages)]
+    weights = every_row[len(stages) :]
+    return _made(rows, weights, nodes)
 
 
 def _without_bars(lines: list[_Line]) -> Pasted:
@@ -141,24 +155,28 @@ def _without_bars(lines: list[_Line]) -> Pasted:
     rows = [line.row for line in lines]
     longest = max(map(len, rows))
     weights = [rows.pop()]
-    if len(rows) > 1 and len(rows[-1]) == len(weights[0]) == len(rows) - 1:
-        weights.insert(0, rows.pop())
+    if len(rows) > 1:
+        stages = len(rows) - 1
+        last = rows[-1]
+        if len(last) == len(weights[0]) == stages:
+            weights.insert(0, rows.pop())
+    stages = len(rows)
     lengths = [len(row) for row in rows]
-    if len(rows) > 1 and lengths == list(range(1, len(rows) + 1)):
+    growing = list(range(1, stages + 1))
+    if stages > 1 and lengths == growing:
         raise MethodError(
             "rows of 1, 2, … numbers: nodes may come first, or the diagonal last",
             "part nodes from their rows by |, or write the zeros",
         )
-    if longest == len(rows) + 1 == len(rows[-1]):
+    if longest == stages + 1 == len(rows[-1]):
         nodes = tuple(row[0] for row in rows)
-        return _made([row[1:] for row in rows], weights, nodes)
+        without = [row[1:] for row in rows]
+        return _made(without, weights, nodes)
     return _made(rows, weights, None)
 
 
 def _made(
-    rows: list[tuple[str, ...]],
-    weights: list[tuple[str, ...]],
-    nodes: tuple[str, ...] | None,
+    rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None
 ) -> Pasted:
     stages = len(rows)
     if not weights or not stages:
@@ -171,18 +189,19 @@ def _made(
             f"{len(weights)} lines stand below the stages",
             "one of weights, and another of embedded ones",
         )
+    of_stages = counted(stages, "stage")
     for i, row in enumerate(rows, start=1):
         if len(row) > stages:
             raise MethodError(
-                f"row {i} has {len(row)} entries, for {counted(stages, 'stage')}",
+                f"row {i} has {len(row)} entries, for {of_stages}",
                 "a line a stage, and a line of weights below",
             )
     for row in weights:
         if len(row) != stages:
             raise MethodError(
-                f"{counted(len(row), 'weight')} for {counted(stages, 'stage')}",
+                f"{counted(len(row), 'weight')} for {of_stages}",
                 "a weight a stage, zeros too",
             )
-    filled = tuple(row + ("0",) * (stages - len(row)) for row in rows)
+    filled = tuple(_filled(row, stages) for row in rows)
     embedded = weights[1] if len(weights) == 2 else None
     return Pasted(filled, weights[0], nodes, embedded)

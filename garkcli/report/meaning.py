@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.glossary.registry import TOPICS, terms_of
+from garkcli.glossary.term import Term
 from garkcli.page.paint import Paint, folded, indented
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import TEXT, Schema, array, published
@@ -54,12 +56,18 @@ def render(
     """What a word means, as text or as JSON."""
     if format == "json":
         return _REPORT.text(_Word(word, found))
-    blocks = ["\n".join(_lines(meaning, paint)) for meaning in found]
-    return "\n\n".join(blocks) + "\n"
+    blocks = [_block(meaning, paint) for meaning in found]
+    return "\n".join(blocks)
+
+
+def _block(meaning: Meaning, paint: Paint) -> str:
+    lines = _lines(meaning, paint)
+    return "\n".join(lines) + "\n"
 
 
 def _lines(meaning: Meaning, paint: Paint) -> Iterator[str]:
-    yield f"{paint('strong', meaning.name)}: {meaning.kind}"
+    name = paint("strong", meaning.name)
+    yield f"{name}: {meaning.kind}"
     yield from indented(folded(meaning.text, _WIDTH - 2, ""))
     if meaning.formula:
         yield ""
@@ -93,8 +101,9 @@ def _part(label: str, text: str) -> list[str]:
 def render_list(format: str) -> str:
     """The terms by topic, as text or as JSON."""
     if format == "json":
-        every = [term_meaning(x) for topic in TOPICS for x in terms_of(topic)]
-        return _REPORT.text(_Word("", every))
+        terms = chain.from_iterable(map(terms_of, TOPICS))
+        meanings = [term_meaning(term) for term in terms]
+        return _REPORT.text(_Word("", meanings))
     lines = []
     for topic, title in TOPICS.items():
         names = "; ".join(term.name for term in terms_of(topic))
@@ -104,16 +113,24 @@ def render_list(format: str) -> str:
 
 def glossary() -> str:
     """The terms as a page in Markdown, without its head."""
-    parts = []
+    paragraphs: list[str] = []
     for topic, title in TOPICS.items():
-        parts += [f"## {title}", ""]
+        paragraphs.append(f"## {title}")
         for term in terms_of(topic):
-            parts += [f"### {term.name}", "", term.text]
-            if term.formula:
-                parts += ["", f"    {term.formula}"]
-            if term.labels:
-                parts += ["", f"Also: {', '.join(term.labels)}."]
-            if term.see:
-                parts += ["", f"See {', '.join(term.see)}."]
-            parts += ["", f"Source: {term.source}.", ""]
-    return "\n".join(parts).rstrip() + "\n"
+            paragraphs += _entry(term)
+    return "\n\n".join(paragraphs) + "\n"
+
+
+def _entry(term: Term) -> Iterator[str]:
+    """The paragraphs of a term."""
+    yield f"### {term.name}"
+    yield term.text
+    if term.formula:
+        yield f"    {term.formula}"
+    if term.labels:
+        labels = ", ".join(term.labels)
+        yield f"Also: {labels}."
+    if term.see:
+        see = ", ".join(term.see)
+        yield f"See {see}."
+    yield f"Source: {term.source}."

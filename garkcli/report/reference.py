@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from garkcli.glossary.faults import TOPICS, FaultKind, faults_of
@@ -38,12 +38,12 @@ def _code(kind: FaultKind) -> Iterator[str]:
 
 def keys_table(kind: str) -> str:
     """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
-    lines = ["| key | what it is | example |", "|---|---|---|"]
+    rows = []
     for key in keys_of(kind).values():
         example = key.example.replace("|", "\\|")
-        row = (f"`{key.path}`", _cell(_said(key)), f"`{example}`")
-        lines.append(f"| {' | '.join(row)} |")
-    return "\n".join(lines) + "\n"
+        said = _cell(_said(key))
+        rows.append((f"`{key.path}`", said, f"`{example}`"))
+    return _table(("key", "what it is", "example"), rows)
 
 
 def _said(key: Key) -> str:
@@ -58,11 +58,12 @@ def _said(key: Key) -> str:
 
 def findings_table(command: str) -> str:
     """The findings of a command as a table in Markdown."""
-    lines = ["| code | what it means | what to do |", "|---|---|---|"]
+    rows = []
     for found in findings_of(command).values():
-        row = (f"`{found.code}`", _cell(found.text), _cell(found.cure))
-        lines.append(f"| {' | '.join(row)} |")
-    return "\n".join(lines) + "\n"
+        text = _cell(found.text)
+        cure = _cell(found.cure)
+        rows.append((f"`{found.code}`", text, cure))
+    return _table(("code", "what it means", "what to do"), rows)
 
 
 def fields_table() -> str:
@@ -70,13 +71,25 @@ def fields_table() -> str:
     reports: dict[tuple[str, str], dict[str, None]] = {}
     for report in REPORTS:
         for path, schema in fields_of(report_schema(report), (report,)):
-            row = (path[-1], text_of(path) + _one_of(schema))
-            reports.setdefault(row, {})[report] = None
-    lines = ["| field | in the reports | what it holds |", "|---|---|---|"]
+            field = (path[-1], text_of(path) + _one_of(schema))
+            reports.setdefault(field, {})[report] = None
+    rows = []
     for (name, text), named in sorted(reports.items()):
-        row_of = (f"`{name}`", ", ".join(named), _cell(text))
-        lines.append(f"| {' | '.join(row_of)} |")
+        all_reports = ", ".join(named)
+        rows.append((f"`{name}`", all_reports, _cell(text)))
+    return _table(("field", "in the reports", "what it holds"), rows)
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [_row(heads), "|" + "---|" * len(heads)]
+    lines += map(_row, rows)
     return "\n".join(lines) + "\n"
+
+
+def _row(cells: Sequence[str]) -> str:
+    joined = " | ".join(cells)
+    return f"| {joined} |"
 
 
 def _one_of(schema: Any) -> str:
