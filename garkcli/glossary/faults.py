@@ -26,6 +26,12 @@ UNKNOWN = "fault"
 HOLE = "{}"
 _REST = r"(?: \(also at .*\)|; .*|, and \d+ more.*)?"
 """What is added to a message: other places, or the cure."""
+_QUOTED = re.compile(
+    r"""(?<!\w)(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""", re.DOTALL
+)
+"""What a message quotes; behind a letter ' is an apostrophe or a derivative."""
+_SHORT = 6
+"""Characters, with the quotes, of what messages of the program quote themselves: '[', ">= n"."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +80,7 @@ def code_of(message: str, least: int = 1) -> str:
     """The code of the kind of fault that a message tells.
 
     Of several kinds the one with the longest words is meant; what a message says of the place,
-    before a colon, is passed over.
+    before a colon, is passed over, and so is what it quotes from a file.
 
     Args:
         message: what is wrong.
@@ -90,13 +96,20 @@ def code_of(message: str, least: int = 1) -> str:
 def codes_of(message: str, least: int = 1) -> list[str]:
     """The codes of the kinds with the longest words; of messages of the program it is one."""
     found: list[str] = []
+    own = _QUOTED.sub(_without_text, message)
     for said in _messages():
         if said.letters < least:
             break
-        if said.code not in found and said.is_told_by(message):
+        if said.code not in found and said.is_told_by(own):
             found.append(said.code)
             least = said.letters
     return found
+
+
+def _without_text(quoted: re.Match[str]) -> str:
+    """Quotes with nothing of a file between them, which may read like another message."""
+    text = quoted.group()
+    return text if len(text) <= _SHORT else "''"
 
 
 @dataclass(frozen=True)

@@ -176,13 +176,12 @@ class Numbers:
         parsed = parse(text)
         message = cure = ""
         if size_of(parsed, self._sizes) > MAX_SIZE:
-            message = f"more than {MAX_SIZE} operations"
+            message = f"more than {MAX_SIZE} operations, with the parameters written out"
             cure = "write it shorter"
         elif depth_of(parsed, self._depths) > MAX_DEPTH:
-            message = f"nested more than {MAX_DEPTH} deep"
+            message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
             cure = "give the parameter its value"
         if message:
-            message += ", with the parameters written out"
             raise LimitExceeded(message, cure, 0, len(text))
         return substitute(parsed, self.parameters)
 

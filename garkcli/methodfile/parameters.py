@@ -10,7 +10,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Entry, Free, Numbers
-from garkcli.methodfile.words import shortened
+from garkcli.methodfile.words import shortened, unquoted
 
 
 def read_parameters(numbers: Numbers, node: Node | None) -> None:
@@ -25,7 +25,7 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
     keys = key_nodes(node)
     for name, value_node in source.mapping(node, "parameters", ()).items():
         key = keys[name]
-        where = f"parameters: {name}"
+        where = f"parameters: {unquoted(name)}"
         value: Expression = Literal(ZERO)
         if name in FUNCTIONS:
             message = f"{where} is a function already"

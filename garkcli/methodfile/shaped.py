@@ -23,6 +23,7 @@ from garkcli.methodfile.numbers import Free, Numbers, Row, Rows
 from garkcli.methodfile.shapes.layout import Layout, Texts
 from garkcli.methodfile.shapes.registry import SHAPES, layout_of
 from garkcli.methodfile.source import Source
+from garkcli.methodfile.words import shortened
 
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20
@@ -96,7 +97,7 @@ class ShapeReader:
             if word is None:
                 return []
             if word not in SHAPES:
-                message = f"unknown, shape: {word} is no shape"
+                message = f"unknown, shape: {shortened(word)} is no shape"
                 cure = did_you_mean(word, SHAPES)
                 self.source.fault(item, message, cure)
                 return []

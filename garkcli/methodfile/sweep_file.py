@@ -23,7 +23,7 @@ from garkcli.methodfile.source import Source
 from garkcli.methodfile.sweep_methods import MethodsReader
 from garkcli.methodfile.sweep_search import FREE, is_free, read_search
 from garkcli.methodfile.sweep_text import SweepText, one_or_more
-from garkcli.methodfile.words import one_line, shortened
+from garkcli.methodfile.words import one_line, shortened, unquoted
 
 SWEEP_FILE = FileKind(
     "sweep file",
@@ -137,7 +137,7 @@ class _Reader:
         for name, values in self.source.mapping(
             node, "parameters", ()
         ).items():
-            where = f"parameters: {name}"
+            where = f"parameters: {unquoted(name)}"
             if not _NAME.fullmatch(name):
                 message = f"{where} cannot be the name of a parameter"
                 self.source.fault(values, message, "use letters, digits and _")

@@ -42,8 +42,14 @@ def one_line(text: str) -> str:
 
 
 def unquoted(name: str) -> str:
-    """A name of the file without quotes, cut where it is long."""
-    return shortened(name)[1:-1]
+    """A name of the file, cut where it is long; in quotes where it is no plain word.
+
+    >>> unquoted("tau"), unquoted("no name")
+    ('tau', "'no name'")
+    """
+    shown = shortened(name)
+    is_word = name.isidentifier() or not name
+    return shown[1:-1] if is_word else shown
 
 
 def shortened(text: str, length: int = 60) -> str:

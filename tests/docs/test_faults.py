@@ -6,7 +6,10 @@ import shlex
 from importlib import import_module
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from garkcli.api.files import loads_problem
 from garkcli.check.meanings import meanings
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.glossary.faults import (
@@ -22,6 +25,8 @@ from tests.cli.harness import ROOT, gark
 from tests.docs.fault_sites import ERRORS, sites, source
 
 KINDS = list(by_code().values())
+AROUND = ("{}", "a: {}", "; {}", "it's {}", '"{}\\n')
+"""Where the words of another message stand in a text."""
 FILLED = "\N{BLACK SQUARE}"
 """Stands where a message is filled; no kind has it among its words."""
 ENTRIES = "garkcli/glossary/data/faults-*.toml"
@@ -36,6 +41,12 @@ OF_THE_COMMAND_LINE = {
     "option {} requires an argument",
 }
 """Messages that click makes, or that are made for it."""
+JOINED = {
+    *("a hamiltonian and a lagrangian", "a hamiltonian and an rhs"),
+    "a lagrangian and an rhs",
+    "a hamiltonian and a lagrangian and an rhs",
+}
+"""Messages that are joined of the keys that stand together."""
 NO_MESSAGES = {
     *("MethodFileError", "HasFreeParameters"),  # have faults, with messages
     *("StepFailed", "Unreadable"),  # are caught where they are made
@@ -81,7 +92,7 @@ def test_every_message_of_a_kind_is_said() -> None:
     rare = {
         (part.strip(), kind.code)
         for kind in KINDS
-        for message in set(kind.says) - OF_THE_COMMAND_LINE
+        for message in set(kind.says) - OF_THE_COMMAND_LINE - JOINED
         for part in message.split(HOLE)
         if part.strip() not in messages
     }
@@ -139,6 +150,65 @@ def test_messages_are_words_of_explain() -> None:
     assert code_of("nonsense") == UNKNOWN
     run = gark("explain", "zzzq")
     assert run.err.endswith("help: gark explain lists the terms\n")
+
+
+OTHERS = [said.replace(HOLE, "x") for kind in KINDS for said in kind.says]
+"""What people may write into a file: the words of each message."""
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda x: x.code)
+@settings(max_examples=5)
+@given(said=st.sampled_from(OTHERS), around=st.sampled_from(AROUND))
+def test_what_is_quoted_has_no_say(
+    kind: FaultKind, said: str, around: str
+) -> None:
+    """A message keeps its code when what it quotes of a file reads like another message."""
+    text = repr(around.format(said))
+    for message in kind.says:
+        filled = message.replace(HOLE, text, 1).replace(HOLE, FILLED)
+        assert codes_of(filled) == [kind.code]
+
+
+def test_names_that_read_like_messages_are_quoted() -> None:
+    """A name of a file that is no plain word stands in quotes, so that it does not tell the code
+    of the message that it is in.
+    """
+    said = "a: --emit: no method has the infimum of x"
+    method = "A: [[0]]\nb: [1]\n"
+    assert _codes_of_file(f'{method}parameters: {{"{said}": 2}}') == {
+        "name-taken"
+    }
+    shape = f'unknown: {{stages: 2, shape: "{said}"}}'
+    assert _codes_of_file(shape) == {"unknown-word"}
+    problem = "variables: [q]\nhamiltonian: q\ninitial: {q: 1, pq: 0}\n"
+    with pytest.raises(MethodFileError) as caught:
+        loads_problem(f'{problem}parameters: {{"{said}": 2}}\n')
+    (fault,) = caught.value.faults
+    assert code_of(fault.message) == "name-taken"
+
+
+@pytest.mark.parametrize(
+    ("message", "code"),
+    [
+        ("parameters: pi has a meaning already", "name-taken"),
+        (
+            "f{1}: right-hand sides by the names of variables are expected",
+            "mapping-expected",
+        ),
+        ("aliases: an empty name", "name-taken"),
+        ("aliases: 'a' stands here twice", "doubled"),
+        ("a hamiltonian and an rhs", "given-twice"),
+        (
+            "hamiltonian: a coefficient of about 9000 digits",
+            "number-too-large",
+        ),
+    ],
+)
+def test_messages_that_are_put_together_have_codes(
+    message: str, code: str
+) -> None:
+    """What is made of several texts, which the source does not show as one, has its kind."""
+    assert codes_of(message) == [code]
 
 
 def test_texts_have_codes() -> None:

@@ -258,7 +258,7 @@ def test_momenta_of_a_lagrangian() -> None:
         ),
         (
             ONE + "parameters: {'a b': 1}",
-            [(4, 21, "parameters: a b is no name")],
+            [(4, 21, "parameters: 'a b' is no name")],
         ),
         (
             ONE + "parameters: {a: yes}",

@@ -104,7 +104,7 @@ TERMS = (
     Term(
         "conserved form",
         "The quadratic form in position and momentum that every step keeps on the oscillator.",
-        "α q² + β q p + δ p²",
+        "α (ωq)² + β (ωq) p + δ p²",
         "this project, docs/stability.md",
         ("conserved",),
         ("phase lag", "P-stable"),
