@@ -85,6 +85,10 @@ class Order:
         least = "at least " if self.is_lower_bound else ""
         return f"<Order {least}{self.order}>"
 
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "order_html")(self)
+        return html
+
 
 @dataclass(frozen=True)
 class Forest:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis, AnyOrder
     from garkcli.check.outcome import Claim, Outcome
     from garkcli.errors import Fault
-    from garkcli.order.certificate import Witness
+    from garkcli.order.certificate import Order, Witness
     from garkcli.order.conditions import Condition
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.pointwise import Cell, Entries
@@ -120,7 +120,8 @@ def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
 
 
 def _cell(text: str, style: str) -> str:
-    return f'<td style="{style}">{_text(text)}</td>'
+    # where a page gives tables no room of their own, fractions side by side would touch
+    return f'<td style="padding:0.1em 0.5em;{style}">{_text(text)}</td>'
 
 
 def witness_html(witness: Witness) -> str:
@@ -129,6 +130,17 @@ def witness_html(witness: Witness) -> str:
     text = witness_text(witness, colours)
     picture = draw_svg_sheet([witness.tree])
     return f"{picture}<p>{_text(text)}</p>"
+
+
+def order_html(order: Order) -> str:
+    """The order in a sentence, and the tree at which it ends."""
+    if order.witness is None:
+        holding = f"every condition up to order {order.order} holds"
+        return f"<p>order at least {order.order}: {holding}</p>"
+    failing = f"a condition of order {order.order + 1} fails"
+    return (
+        f"<p>order {order.order}: {failing}</p>{witness_html(order.witness)}"
+    )
 
 
 def condition_html(condition: Condition) -> str:

@@ -49,7 +49,9 @@ def test_a_method_is_its_tableau() -> None:
         ["", "1/2", "1/2"],
         ["", "1", "0"],
     ]
-    assert ">Heun</caption>" in EMBEDDED._repr_html_()
+    html = EMBEDDED._repr_html_()
+    assert ">Heun</caption>" in html
+    assert html.count("padding:") == html.count("<td")  # no cells touch
     gauss = diagonal_method("gauss", 2)
     first = [to_text(x) for x in (gauss.c[0], *gauss.A[0])]
     assert cells(gauss._repr_html_())[0] == first

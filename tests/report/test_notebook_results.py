@@ -124,6 +124,10 @@ def test_a_witness_is_its_tree_and_its_condition() -> None:
     ET.fromstring(f"<div>{html}</div>")
     assert "<svg" in html
     assert "[[[[[]]]]]: 0 instead of 1/120, off by -1/120" in html
+    order = garkcli.find_order("rk4")._repr_html_()
+    assert order == f"<p>order 4: a condition of order 5 fails</p>{html}"
+    limited = garkcli.find_order("rk4", limit=3)._repr_html_()
+    assert "order at least 3: every condition up to order 3 holds" in limited
     holding, failing = (
         next(garkcli.conditions(x, "[[[]]]")) for x in ("rk4", "heun")
     )
