@@ -24,7 +24,7 @@ SECTIONS: tuple[Section, ...] = (
     simplifying.SECTION,
     properties.SECTION,
     stability.SECTION,
-    pictures.SECTION,
-    conditions.SECTION,
     reference.SECTION,
+    pictures.SECTION,
+    conditions.SECTION,  # the longest, and across on paper: pages of its own
 )
