@@ -74,6 +74,12 @@ class Reported:
         return None if every is None else every.tableau
 
     @property
+    def free(self) -> str | None:
+        """The first of its free parameters; None where it has none."""
+        every = self.outcome.every
+        return None if every is None else every.parameters[0]
+
+    @property
     def is_slow(self) -> bool:
         """Whether its stability takes long: of many stages, with irrational or rounded numbers."""
         if self.tableau is None:

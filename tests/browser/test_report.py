@@ -30,6 +30,7 @@ PAGES = {
     "free": [str(FREE)],
     "hostile": [str(HOSTILE)],
     "big": ["methods/gauss6-lobatto7.gark.yaml"],
+    "long-numbers": ["methods/found/imex4-order3.gark.yaml"],
 }
 READ = ["rk4", "pair", "several", "free", "hostile"]
 """Those that axe looks at, for which a big page takes it minutes."""
@@ -70,6 +71,23 @@ def test_a_page_is_quiet_and_whole(
         assert sideways(found.page) == ""
         assert found.said == []
         assert found.asked == []
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_only_boxes_that_scroll_stop_the_keyboard(
+    reports: dict[str, Path], opened: Open, size: str
+) -> None:
+    """A stop for each box that is wider or higher than what is seen of it, and for no other."""
+    scrolls = (
+        "x => x.scrollWidth > x.clientWidth || x.scrollHeight > x.clientHeight"
+    )
+    with opened(reports["rk4"], SIZES[size]) as found:
+        kinds = set()
+        for box in found.page.locator(".box").all():
+            is_scrolled = box.evaluate(scrolls)
+            assert (box.get_attribute("tabindex") == "0") == is_scrolled
+            kinds.add(is_scrolled)
+        assert kinds == {True, False}
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)

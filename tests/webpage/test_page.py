@@ -375,6 +375,9 @@ def test_a_family_is_told_for_every_value() -> None:
     assert "Order 3 where 6*g^2 - 6*g + 1 = 0" in orders
     names = {text_of(x) for x in elements(section(FAMILY, "tableau"), "mi")}
     assert "g" in names
+    for name in ("stability", "pictures"):
+        said = text_of(section(FAMILY, name))
+        assert f"gark report --set g=… {FAMILY}" in said
     further = read(report_page(FAMILY, order=3))
     varying = text_of(by_id(further, "m1-conditions"))
     assert "2 of them do not hold for every value" in varying

@@ -314,6 +314,8 @@ def test_several_methods_are_in_one_picture() -> None:
     assert ">Heun's method of order 3<" in html.unescape(regions.svg)
     assert ">Feagin 12<" in regions.svg
     assert "Verlet" not in regions.svg
+    verlet = methods[3].name
+    assert f"No stability function: {verlet}." in regions.note
     assert "Feagin" not in errors.svg
     assert "Verlet" in errors.svg
     dashed = errors.svg.count("stroke-dasharray")

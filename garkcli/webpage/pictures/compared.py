@@ -57,10 +57,12 @@ def _regions(subjects: Sequence[Subject]) -> Picture:
     """The regions of all colours alike."""
     names = []
     functions = []
+    without = []
     for subject in subjects:
         tableau = subject.method.tableau
         found = directions(tableau)
         if not found:
+            without.append(subject.method.name)
             continue
         _, alike = found[0]
         R = stability_function(tableau, alike)
@@ -68,7 +70,11 @@ def _regions(subjects: Sequence[Subject]) -> Picture:
         functions.append(R)
     if len(names) < 2:
         raise NotDrawn("")
-    return region.drawn(names, functions)
+    picture = region.drawn(names, functions)
+    if without:
+        none = f"{picture.note} No stability function: {', '.join(without)}."
+        picture = replace(picture, note=none)
+    return picture
 
 
 def _errors(subjects: Sequence[Subject]) -> Picture:

@@ -12,6 +12,8 @@ from garkcli.webpage.section import Content, Section
 
 
 def _content(method: Reported) -> Content | None:
+    if method.has_pictures and method.free is not None:
+        return {"free": method.free, "file": method.outcome.file}
     if method.method is None or not method.has_pictures:
         return None
     drawn = [_shown(picture) for picture in pictures(method.method)]

@@ -47,9 +47,11 @@ class Part:
 
 
 def _content(method: Reported) -> Content | None:
+    file = method.outcome.file
+    if method.free is not None:
+        return {"free": method.free, "file": file}
     if method.method is None:
         return None
-    file = method.outcome.file
     if method.is_slow:
         return {"parts": [], "near": "", "file": file}
     found = find_stability(method.method)

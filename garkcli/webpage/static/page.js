@@ -38,5 +38,22 @@
     update();
   }
 
+  /* a box that does not scroll needs no stop of the keyboard */
+  function stop(box) {
+    var isScrolled = box.scrollWidth > box.clientWidth ||
+      box.scrollHeight > box.clientHeight;
+    if (isScrolled) {
+      box.tabIndex = 0;
+    } else {
+      box.removeAttribute("tabindex");
+    }
+  }
+
+  function stops() {
+    document.querySelectorAll(".box").forEach(stop);
+  }
+
   document.querySelectorAll("form.filters").forEach(prepare);
+  stops();
+  window.addEventListener("resize", stops);
 })();
