@@ -74,9 +74,7 @@ def titled(text: str, folder: Path) -> str:
         first = page.read_text(encoding="utf-8").partition("\n")[0]
         return f"[{first.removeprefix('# ')}]({link['page']}"
 
-    return re.sub(
-        r"\[(?:docs/)?[\w-]+\.md\]\((?P<page>[\w./-]+\.md)", with_title, text
-    )
+    return re.sub(r"\[(?:docs/)?[\w-]+\.md\]\((?P<page>[\w./-]+\.md)", with_title, text)
 
 
 def _complete(_: Sphinx, page: str, source: list[str]) -> None:

@@ -32,21 +32,9 @@ from garkcli.version import __version__ as __version__
 if TYPE_CHECKING:
     from garkcli.api.anymethod import method_of
     from garkcli.api.arrays import from_arrays
-    from garkcli.api.asserting import (
-        assert_order,
-        find_orders,
-    )
-    from garkcli.api.calls import (
-        claims_of,
-        find_stability,
-        prove_method,
-        two_springs,
-        with_claims,
-    )
-    from garkcli.api.construction import (
-        diagonal_method,
-        gark,
-    )
+    from garkcli.api.asserting import assert_order, find_orders
+    from garkcli.api.calls import claims_of, find_stability, prove_method, two_springs, with_claims
+    from garkcli.api.construction import diagonal_method, gark
     from garkcli.api.design import (
         find_parameters,
         found_methods,
@@ -74,19 +62,9 @@ if TYPE_CHECKING:
         simplifying,
         symplectic_pair,
     )
-    from garkcli.api.modified import (
-        backward_analysis,
-        modified_formula,
-        modified_run,
-    )
-    from garkcli.api.problems import (
-        hamiltonian,
-        problem,
-    )
-    from garkcli.api.properties import (
-        find_property,
-        reduced,
-    )
+    from garkcli.api.modified import backward_analysis, modified_formula, modified_run
+    from garkcli.api.problems import hamiltonian, problem
+    from garkcli.api.properties import find_property, reduced
     from garkcli.api.runs import (
         bind,
         converge,
@@ -103,11 +81,7 @@ if TYPE_CHECKING:
         elementary_weight,
         format_tree,
     )
-    from garkcli.bridges.calls import (
-        audit,
-        export,
-        import_methods,
-    )
+    from garkcli.bridges.calls import audit, export, import_methods
     from garkcli.catalogue.mapping import Catalogue
     from garkcli.check.meanings import meanings as explain
     from garkcli.errors import (
@@ -125,12 +99,7 @@ if TYPE_CHECKING:
     from garkcli.methodfile.schema import method_file_schema
     from garkcli.plots.calls import plot
     from garkcli.problems.oscillator import Oscillator
-    from garkcli.report.calls import (
-        certificate,
-        cite,
-        names,
-        run_sweep,
-    )
+    from garkcli.report.calls import certificate, cite, names, run_sweep
     from garkcli.report.rendering import render
     from garkcli.report.schemas import report_schema
     from garkcli.sweep.load import sweep_schema

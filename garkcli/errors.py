@@ -63,9 +63,7 @@ class ExpressionError(GarkError):
         end: the offset behind it.
     """
 
-    def __init__(
-        self, message: str, help: str = "", start: int = 0, end: int = 0
-    ) -> None:
+    def __init__(self, message: str, help: str = "", start: int = 0, end: int = 0) -> None:
         super().__init__(message, help)
         self.start = start
         self.end = end
@@ -161,11 +159,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     if close:
         return f"did you mean {close!r}?"
     letters = _letters(word)
-    begun = [
-        x
-        for x in words
-        if len(letters) > 2 and _letters(x).startswith(letters)
-    ]
+    begun = [x for x in words if len(letters) > 2 and _letters(x).startswith(letters)]
     if begun:
         return f"did you mean {' or '.join(map(repr, begun[:WORDS_SHOWN]))}?"
     if not known:
@@ -189,16 +183,12 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
     letters = _letters(word[:MAX_WORD])
     words = _that_begin_like(word, list(known))
-    spelt = {
-        _letters(x): x for x in reversed(words)
-    }  # of two alike the first stays
+    spelt = {_letters(x): x for x in reversed(words)}  # of two alike the first stays
     if letters in spelt:
         return spelt[letters]
     close = get_close_matches(letters, spelt, n=1)
     begun = [x for x in spelt if x.startswith(letters)]
-    if (
-        len(begun) > 1 and len(letters) > 2
-    ):  # a word cut short is near to all that it begins
+    if len(begun) > 1 and len(letters) > 2:  # a word cut short is near to all that it begins
         return ""
     return spelt[close[0]] if close else ""
 
@@ -256,9 +246,7 @@ class MethodFileError(GarkError):
         text: of the file.
     """
 
-    def __init__(
-        self, source: str, faults: Sequence[Fault], text: str = ""
-    ) -> None:
+    def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
         super().__init__("; ".join(fault.message for fault in faults))
         self.source = source
         self.faults = tuple(faults)
@@ -302,7 +290,4 @@ def excerpt(text: str, line: int, column: int, caret: str = "^") -> list[str]:
     part = text[start : start + EXCERPT_WIDTH]
     shown = part.replace("\t", " ")
     before = printable(shown[: column - 1 - start])
-    return [
-        f"{line:5} | {printable(shown)}",
-        f"      | {' ' * len(before)}{caret}",
-    ]
+    return [f"{line:5} | {printable(shown)}", f"      | {' ' * len(before)}{caret}"]

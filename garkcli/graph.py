@@ -36,9 +36,7 @@ def components(after: Edges[T]) -> list[list[T]]:
     return found
 
 
-def _visit(
-    root: T, after: Edges[T], seen: set[T], finish: Callable[[T], None]
-) -> None:
+def _visit(root: T, after: Edges[T], seen: set[T], finish: Callable[[T], None]) -> None:
     """Depth first from ``root``, without recursion; ``finish`` is called with each vertex after its
     successors.
     """

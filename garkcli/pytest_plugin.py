@@ -57,16 +57,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=[],
     )
     parser.addini(
-        "gark_require_claims",
-        "fail method files that make no claim",
-        type="bool",
-        default=False,
+        "gark_require_claims", "fail method files that make no claim", type="bool", default=False
     )
 
 
-def pytest_collect_file(
-    file_path: Path, parent: pytest.Collector
-) -> GarkFile | None:
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> GarkFile | None:
     """A method file that is asked for."""
     if not file_path.name.endswith(SUFFIX):
         return None
@@ -104,9 +99,7 @@ class GarkFile(pytest.File):
         """An item for each claim; one for the file where it makes none."""
         is_first = True
         for name, place in self._claims():
-            yield GarkItem.from_parent(
-                self, name=name, place=place, is_first=is_first
-            )
+            yield GarkItem.from_parent(self, name=name, place=place, is_first=is_first)
             is_first = False
 
     def _claims(self) -> list[tuple[str, Place]]:
@@ -148,9 +141,7 @@ class ClaimFails(Exception):
 class GarkItem(pytest.Item):
     """One claim of a file."""
 
-    def __init__(
-        self, *, place: Place, is_first: bool, **settings: Any
-    ) -> None:
+    def __init__(self, *, place: Place, is_first: bool, **settings: Any) -> None:
         super().__init__(**settings)
         self.place = place
         self.is_first = is_first
@@ -167,9 +158,7 @@ class GarkItem(pytest.Item):
         outcome = self.parent.outcome
         if not outcome.is_read and not self.is_first:
             # told of the method file, not of this one
-            raise pytest.skip.Exception(
-                "the file cannot be read", _use_item_location=True
-            )
+            raise pytest.skip.Exception("the file cannot be read", _use_item_location=True)
         found = filter(self._is_about, findings(outcome))
         parts = [self._text(finding, outcome) for finding in found]
         if parts:
@@ -195,9 +184,7 @@ class GarkItem(pytest.Item):
             lines.append(f"      help: {finding.help}")
         return "\n".join(lines)
 
-    def repr_failure(
-        self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None
-    ) -> Any:
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """The findings alone; a fault of gark itself with its traceback."""
         if isinstance(excinfo.value, ClaimFails):
             return str(excinfo.value)

@@ -43,8 +43,7 @@ def collocation(l: Method, m: Method) -> Matrix:
     """
     _refuse_large(l, m)
     columns = [
-        l.space.of_polynomial(antiderivative(basis))
-        for basis in m.space.basis_polynomials()
+        l.space.of_polynomial(antiderivative(basis)) for basis in m.space.basis_polynomials()
     ]
     return transpose(tuple(columns))
 
@@ -57,9 +56,7 @@ def interpolation(l: Method, m: Method) -> Matrix:
         BlockTooLarge: the entries would be too long.
     """
     _refuse_large(l, m)
-    columns = [
-        l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()
-    ]
+    columns = [l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()]
     return multiply(transpose(tuple(columns)), m.A)
 
 
@@ -113,37 +110,25 @@ _OF_CONJUGATE = "the block of the symplectic conjugate of the {} construction"
 _OF_PAIR = "{} on the lower-order method; the opposite block its conjugate"
 _ENTRIES: Mapping[str, _Entry] = {
     "collocation": _Entry(
-        collocation,
-        "a_ij = ∫_0^{c_i} L_j, with the Lagrange polynomials of the nodes of m",
+        collocation, "a_ij = ∫_0^{c_i} L_j, with the Lagrange polynomials of the nodes of m"
     ),
     "interpolation": _Entry(
-        interpolation,
-        "the stages of method m, interpolated at the nodes of l",
+        interpolation, "the stages of method m, interpolated at the nodes of l"
     ),
     "conjugate-collocation": _Entry(
-        conjugate_rule(collocation),
-        _OF_CONJUGATE.format("collocation"),
+        conjugate_rule(collocation), _OF_CONJUGATE.format("collocation")
     ),
     "conjugate-interpolation": _Entry(
-        conjugate_rule(interpolation),
-        _OF_CONJUGATE.format("interpolation"),
+        conjugate_rule(interpolation), _OF_CONJUGATE.format("interpolation")
     ),
-    "symplectic-collocation": _Entry(
-        collocation,
-        _OF_PAIR.format("collocation"),
-        makes_both=True,
-    ),
+    "symplectic-collocation": _Entry(collocation, _OF_PAIR.format("collocation"), makes_both=True),
     "symplectic-interpolation": _Entry(
-        interpolation,
-        _OF_PAIR.format("interpolation"),
-        makes_both=True,
+        interpolation, _OF_PAIR.format("interpolation"), makes_both=True
     ),
 }
 
 RULES: Mapping[str, Rule] = {
-    name: entry.rule
-    for name, entry in _ENTRIES.items()
-    if not entry.makes_both
+    name: entry.rule for name, entry in _ENTRIES.items() if not entry.makes_both
 }
 """The rules that make one block from two methods."""
 
@@ -154,15 +139,11 @@ PAIR_RULES: Mapping[str, Rule] = {
 them.
 """
 
-SUMMARIES: Mapping[str, str] = {
-    name: entry.summary for name, entry in _ENTRIES.items()
-}
+SUMMARIES: Mapping[str, str] = {name: entry.summary for name, entry in _ENTRIES.items()}
 """One line a rule, for people."""
 
 
-def combination(
-    terms: Sequence[tuple[Number, Rule]], l: Method, m: Method
-) -> Matrix:
+def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> Matrix:
     """Σ τ_k A_k^{l,m} over the rules; consistent where the weights τ_k sum to 1, eq. (lincomb)."""
     blocks = [scale(weight, rule(l, m)) for weight, rule in terms]
     total = blocks[0]
@@ -171,9 +152,7 @@ def combination(
     return total
 
 
-def build_on(
-    methods: Sequence[Method], orders: Sequence[int], l: int, m: int
-) -> int:
+def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
     """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower
     number.
     """

@@ -14,9 +14,7 @@ sys.dont_write_bytecode = False
 
 # the same examples every time: what passes here passes there; see docs/contributing/fuzzing.md
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
-settings.register_profile(
-    "gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM
-)
+settings.register_profile("gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM)
 settings.load_profile("gark")
 
 

@@ -19,9 +19,7 @@ else:
 needs_fork = pytest.mark.skipif(
     start_method() != "fork", reason="workers see no change to this process"
 )
-needs_fifos = pytest.mark.skipif(
-    not hasattr(os, "mkfifo"), reason="there are no FIFOs"
-)
+needs_fifos = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no FIFOs")
 needs_locks = pytest.mark.skipif(not _HAS_LOCKS, reason="there are no locks")
 needs_signals = pytest.mark.skipif(
     not hasattr(signal, "SIGHUP"), reason="signals between processes"

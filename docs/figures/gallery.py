@@ -21,10 +21,7 @@ from garkcli.cli import main
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGE = ROOT / "docs" / "gallery.md"
-_ENTRY = re.compile(
-    r"^!\[[^\]]+\]\(figures/gallery/([\w.-]+)\)\n\n`gark ([^`]+)`$",
-    re.MULTILINE,
-)
+_ENTRY = re.compile(r"^!\[[^\]]+\]\(figures/gallery/([\w.-]+)\)\n\n`gark ([^`]+)`$", re.MULTILINE)
 
 
 def commands() -> dict[str, list[str]]:

@@ -53,12 +53,7 @@ def draw_energy(axes: Axes) -> None:
     first = axes.inset_axes((0.03, 0.65, 0.94, 0.27))
     short = energy(60)
     first.plot(
-        short.times,
-        short.energy.errors,
-        color="#1f4e9e",
-        linewidth=0.8,
-        marker=".",
-        markersize=4,
+        short.times, short.energy.errors, color="#1f4e9e", linewidth=0.8, marker=".", markersize=4
     )
     first.axhline(0.0, color="0.1", linewidth=0.7)
     first.set_yticks([])
@@ -70,35 +65,16 @@ def draw_energy(axes: Axes) -> None:
 def energy(t_end: int) -> LongRun:
     """The run to ``t_end``, every extreme of it."""
     tableau = load(str(METHOD)).tableau
-    return long_run(
-        tableau, OSCILLATOR, fmpq(t_end), fmpq(1, 2), points=10_000
-    )
+    return long_run(tableau, OSCILLATOR, fmpq(t_end), fmpq(1, 2), points=10_000)
 
 
 def draw_order(axes: Axes) -> None:
     """The error against the step size, and the reference line."""
     rows = converge(load(str(METHOD)).tableau, OSCILLATOR).rows
-    h, errors = (
-        [float(row.h) for row in rows],
-        [float(row.error) for row in rows],
-    )
-    axes.loglog(
-        h,
-        errors,
-        marker="o",
-        color="#1f4e9e",
-        linewidth=1.6,
-        label="error at t = 4",
-    )
+    h, errors = ([float(row.h) for row in rows], [float(row.error) for row in rows])
+    axes.loglog(h, errors, marker="o", color="#1f4e9e", linewidth=1.6, label="error at t = 4")
     reference = [2.5 * errors[-1] * (x / h[-1]) ** 4 for x in h]
-    axes.loglog(
-        h,
-        reference,
-        color="#c0392b",
-        linestyle="--",
-        linewidth=1.6,
-        label="order four",
-    )
+    axes.loglog(h, reference, color="#c0392b", linestyle="--", linewidth=1.6, label="order four")
     axes.set_title("Log-log order plot", fontsize=11)
     axes.set_xlabel("step size h")
     axes.set_ylabel("error")
@@ -109,7 +85,4 @@ def draw_order(axes: Axes) -> None:
 
 
 if __name__ == "__main__":
-    save(
-        figure(),
-        Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "rectangular.png",
-    )
+    save(figure(), Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "rectangular.png")

@@ -27,7 +27,7 @@ ENVIRONMENT = {
     "NO_COLOR, FORCE_COLOR": "No colour, or colour without a terminal; --color is stronger.",
 }
 FILES = {
-    ".gark.toml": "What a project always wants of gark check; also [tool.gark] in pyproject.toml.",
+    ".gark.toml": "What a project always wants of gark check; also [tool.gark] in pyproject.toml."
 }
 COMPLETION = """
     The names of commands, options, files, problems and methods of the catalogue are completed
@@ -99,8 +99,7 @@ def options(context: click.Context) -> Iterator[str]:
     records = [
         record
         for param in context.command.get_params(context)
-        if isinstance(param, click.Option)
-        and (record := param.get_help_record(context))
+        if isinstance(param, click.Option) and (record := param.get_help_record(context))
     ]
     return listed(dict(records))
 

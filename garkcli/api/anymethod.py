@@ -18,8 +18,7 @@ from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
 AnyMethod: TypeAlias = (
-    "GarkMethod | Tableau | Method | str | os.PathLike[str]"
-    " | Sequence[Any] | Mapping[str, Any]"
+    "GarkMethod | Tableau | Method | str | os.PathLike[str] | Sequence[Any] | Mapping[str, Any]"
 )
 """A method, a tableau; a path or a name of the catalogue; arrays ``(A, b)``, ``(A, b, c)`` or
 ``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
@@ -62,9 +61,7 @@ def method_of(given: AnyMethod, tolerance: object = None) -> GarkMethod:
                 "give (A, b), (A, b, c) or (A, b, c, embedded)",
             )
         return from_arrays(*given, **_rounded(tolerance))
-    raise MethodError(
-        f"a method is expected, not {type(given).__name__}", _CURE
-    )
+    raise MethodError(f"a method is expected, not {type(given).__name__}", _CURE)
 
 
 def tableau_of(given: AnyMethod) -> Tableau:
@@ -89,15 +86,11 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
         return method.tolerance if isinstance(method, GarkMethod) else None
     value = rational_of(given, "tolerance", is_rounded=True)
     if not 0 <= value < 1:
-        raise MethodError(
-            "a tolerance lies between 0 and 1", "for instance '1e-13'"
-        )
+        raise MethodError("a tolerance lies between 0 and 1", "for instance '1e-13'")
     return value or None
 
 
-def with_tolerance(
-    given: AnyMethod, tolerance: object = None
-) -> tuple[GarkMethod, fmpq | None]:
+def with_tolerance(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, fmpq | None]:
     """A method with the tolerance that it is judged within: the one given, or its own."""
     method = method_of(given, tolerance)
     return method, tolerance_of(method, tolerance)

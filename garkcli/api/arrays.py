@@ -18,13 +18,7 @@ SOURCE = "<arrays>"
 
 
 def from_arrays(
-    A: Any,
-    b: Any,
-    c: Any = None,
-    embedded: Any = None,
-    *,
-    name: str = "",
-    tolerance: Any = None,
+    A: Any, b: Any, c: Any = None, embedded: Any = None, *, name: str = "", tolerance: Any = None
 ) -> MethodFile:
     """The method with the coefficients ``A``, ``b`` and, where they are not the row sums, ``c``.
 
@@ -58,9 +52,7 @@ def from_arrays(
     ((1, 0),)
     """
     if b is None:
-        raise MethodError(
-            "b is missing", "give the weights: from_arrays(A, b)"
-        )
+        raise MethodError("b is missing", "give the weights: from_arrays(A, b)")
     writer = _Writer(is_rounded=tolerance is not None)
     A = _triangle(_listed(_in_rows(A, "A")))
     entries: dict[str, str] = {}
@@ -74,9 +66,7 @@ def from_arrays(
         if listed is not None:
             entries[key] = writer.text(listed, key)
     if tolerance is not None:
-        entries["tolerance"] = number_text(
-            tolerance, "tolerance", is_rounded=True
-        )
+        entries["tolerance"] = number_text(tolerance, "tolerance", is_rounded=True)
     lines = [f"{key}: {text}\n" for key, text in entries.items()]
     return loads("".join(lines), SOURCE)
 
@@ -95,10 +85,7 @@ class _Writer:
         if value is None:
             return "null"
         if isinstance(value, list):
-            items = [
-                self.text(x, where, *place, i)
-                for i, x in enumerate(value, start=1)
-            ]
+            items = [self.text(x, where, *place, i) for i, x in enumerate(value, start=1)]
             return f"[{', '.join(items)}]"
         called = _called(where, place)
         return _quoted(number_text(value, called, self.is_rounded))
@@ -135,16 +122,14 @@ def _in_rows(value: Any, where: str) -> Any:
             what = "pair of colours" if is_of_blocks else "colour"
             example = "{(1, 2): [[1]]}" if is_of_blocks else "{1: [1]}"
             raise MethodError(
-                f"{where}: {key!r} is no {what}",
-                f"colours count from 1, as in {example}",
+                f"{where}: {key!r} is no {what}", f"colours count from 1, as in {example}"
             )
     if not is_of_blocks:
         colours = range(1, max(value, default=0) + 1)
         missing = [l for l in colours if l not in value]
         if missing:
             raise MethodError(
-                f"{where}: nothing for colour {missing[0]}",
-                "give every colour a row",
+                f"{where}: nothing for colour {missing[0]}", "give every colour a row"
             )
         return [value[l] for l in colours]
     size = range(1, max(map(max, value), default=0) + 1)
@@ -167,8 +152,7 @@ def _listed(value: Any) -> Any:
         raise MethodError("a mapping is no array", "give A, b and c as lists")
     if isinstance(value, Set):
         raise MethodError(
-            "a set is no array: it has no order, and no entry twice",
-            "give A, b and c as lists",
+            "a set is no array: it has no order, and no entry twice", "give A, b and c as lists"
         )
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_listed(item) for item in value]

@@ -73,12 +73,7 @@ def assert_order(
     """
     __tracebackhide__ = True
     found = method_of(method, tolerance)
-    wanted = {
-        "order": order,
-        "embedded": embedded,
-        "conjugate": conjugate,
-        "pair": pair,
-    }
+    wanted = {"order": order, "embedded": embedded, "conjugate": conjugate, "pair": pair}
     asked = {key: value for key, value in wanted.items() if value is not None}
     if not asked:
         raise MethodError("no order is given", "assert_order(method, 4)")
@@ -89,9 +84,7 @@ def assert_order(
         raise AssertionError("\n".join(failures))
 
 
-def find_orders(
-    method: Any, limit: int = DEFAULT_LIMIT
-) -> dict[str, int | str]:
+def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]:
     """The order of a method and those of its embedded weights, its conjugate and its pair, within
     its tolerance: what ``assert_order`` takes.
 
@@ -148,9 +141,7 @@ def _embedded(method: GarkMethod) -> GarkMethod:
             "from_arrays(A, b, c, embedded), or embedded: […] in its file",
         )
     tableau = with_weights(method.tableau, method.embedded)
-    return GarkMethod(
-        tableau=tableau, name=method.name, tolerance=method.tolerance
-    )
+    return GarkMethod(tableau=tableau, name=method.name, tolerance=method.tolerance)
 
 
 def _same(tableau: Tableau) -> Tableau:
@@ -171,9 +162,7 @@ def _called(method: GarkMethod) -> str:
     return method.name
 
 
-def _failure(
-    method: GarkMethod, part: _Part, value: Any, tolerance: Any
-) -> Iterator[str]:
+def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Iterator[str]:
     """The lines that say that an order is not as it should be; none where it is."""
     wanted = _read(value)
     least = wanted.least if isinstance(wanted, AtLeast) else wanted
@@ -216,9 +205,7 @@ def _read(value: Any) -> int | AtLeast:
     raise MethodError(f"{value!r} is no order", 'write 4 or ">= 4"')
 
 
-def _blamed(
-    tableau: Tableau, part: _Part, found: AnyOrder, claimed: int
-) -> Iterator[str]:
+def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:
     """The entries whose change would restore the order."""
     missed = Missed(found.order + 1, claimed, derive=part.derive)
     if not isinstance(found, Order):

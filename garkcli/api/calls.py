@@ -8,14 +8,7 @@ from flint import fmpq
 
 from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
 from garkcli.api.methods import analyse
-from garkcli.api.numbers import (
-    Number,
-    Whole,
-    colour_of,
-    rational,
-    rationals,
-    whole,
-)
+from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
 from garkcli.check import proof
 from garkcli.check.proof import MethodProof
 from garkcli.check.true_claims import true_claims, usual_keys
@@ -25,21 +18,11 @@ from garkcli.methodfile.claims_writer import write_claims
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.stability.slow_interval import SlowInterval, slow_interval
-from garkcli.stability.summary import (
-    Stability,
-    stability,
-    stability_of_rounded,
-)
-from garkcli.stability.two_frequencies import (
-    TwoFrequencies,
-    springs,
-    two_frequencies,
-)
+from garkcli.stability.summary import Stability, stability, stability_of_rounded
+from garkcli.stability.two_frequencies import TwoFrequencies, springs, two_frequencies
 
 
-def claims_of(
-    method: AnyMethod, keys: str | Iterable[str] = ()
-) -> dict[str, str]:
+def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, str]:
     """What is true of a method, as its file would claim it: ``gark claims``.
 
     Args:
@@ -86,18 +69,13 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
     """
     found = method_of(method)
     if not isinstance(found, MethodFile):
-        raise MethodError(
-            f"{found!r} has no text",
-            "give what load, loads or from_arrays return",
-        )
+        raise MethodError(f"{found!r} has no text", "give what load, loads or from_arrays return")
     claims = claims_of(found, keys)
     return write_claims(found.source, found.text, claims)
 
 
 def find_stability(
-    method: AnyMethod,
-    tolerance: Number | None = None,
-    ratios: Sequence[Number] = (),
+    method: AnyMethod, tolerance: Number | None = None, ratios: Sequence[Number] = ()
 ) -> Stability:
     """Everything that ``gark stability`` decides of a method.
 
@@ -118,9 +96,7 @@ def find_stability(
     method, near = with_tolerance(method, tolerance)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
-        raise MethodError(
-            "ratios are for exact methods of two colours", "leave them out"
-        )
+        raise MethodError("ratios are for exact methods of two colours", "leave them out")
     if any(ratio <= 0 for ratio in further):
         raise MethodError("ratios are positive", "the axes are always there")
     if near is None:
@@ -129,9 +105,7 @@ def find_stability(
 
 
 def two_springs(
-    method: AnyMethod,
-    slow: Number | tuple[Number, Number],
-    fast: Whole = 1,
+    method: AnyMethod, slow: Number | tuple[Number, Number], fast: Whole = 1
 ) -> TwoFrequencies | SlowInterval:
     """The step sizes at which a method is stable on a fast and a slow spring:
     ``gark stability --slow --fast``.
@@ -165,24 +139,18 @@ def two_springs(
         return two_frequencies(tableau, split, _square(slow))
     low, high = map(_square, slow)
     if low >= high:
-        raise MethodError(
-            "slow: the ends are not in ascending order", "give (low, high)"
-        )
+        raise MethodError("slow: the ends are not in ascending order", "give (low, high)")
     return slow_interval(tableau, split, low, high)
 
 
 def _square(given: Number) -> fmpq:
     number = rational(given, "slow")
     if number < 0:
-        raise MethodError(
-            f"slow: {number}: a square is not negative", "give 0 or more"
-        )
+        raise MethodError(f"slow: {number}: a square is not negative", "give 0 or more")
     return number
 
 
-def prove_method(
-    method: AnyMethod, limit: Whole = DEFAULT_LIMIT
-) -> MethodProof:
+def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof:
     """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
 
     Args:

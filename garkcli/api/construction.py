@@ -37,8 +37,7 @@ def diagonal_method(name: str, stages: Whole | None = None) -> GarkMethod:
 
 
 def gark(
-    methods: Sequence[AnyMethod | Method],
-    transfer: str | Blocks = "collocation",
+    methods: Sequence[AnyMethod | Method], transfer: str | Blocks = "collocation"
 ) -> GarkMethod:
     """The method with diagonal ``methods`` and the blocks between them, eq. (GARK).
 
@@ -58,25 +57,16 @@ def gark(
     {(1, 1): ((1/2,),), (1, 2): ((1,),), (2, 1): None, (2, 2): ((0,),)}
     """
     if isinstance(methods, str) or not methods:
-        raise MethodError(
-            "gark takes a list of methods", "give one a colour: ['gauss-2', …]"
-        )
+        raise MethodError("gark takes a list of methods", "give one a colour: ['gauss-2', …]")
     given = [method_of(method) for method in methods]
     diagonal = [_diagonal(method) for method in given]
     if not isinstance(transfer, str):
         return _with_blocks(given, transfer)
     if transfer not in RULES:
-        raise MethodError(
-            f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES)
-        )
+        raise MethodError(f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES))
     rule = RULES[transfer]
     numbered = list(enumerate(diagonal))
-    blocks = {
-        (l, m): rule(here, other)
-        for l, here in numbered
-        for m, other in numbered
-        if l != m
-    }
+    blocks = {(l, m): rule(here, other) for l, here in numbered for m, other in numbered if l != m}
     return method_of(forms.gark(diagonal, blocks))
 
 
@@ -102,7 +92,5 @@ def _diagonal(method: GarkMethod) -> Method:
     tableau = method.tableau
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
-        raise MethodError(
-            f"{method!r} is no diagonal method", "give methods of one colour"
-        )
+        raise MethodError(f"{method!r} is no diagonal method", "give methods of one colour")
     return Method(method.name, tableau.space(0), block, tableau.colours[0].b)

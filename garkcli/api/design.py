@@ -7,14 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from garkcli.api.files import load_family, loads
-from garkcli.api.numbers import (
-    Number,
-    Whole,
-    colour_of,
-    rational,
-    rational_or_none,
-    whole,
-)
+from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_none, whole
 from garkcli.design import design as designing
 from garkcli.design import stable_values as stabilities
 from garkcli.design.chosen import accepted_methods, values_text
@@ -50,8 +43,7 @@ def family_of(given: AnyFamily) -> Family:
     if isinstance(given, Family):
         return given
     raise MethodError(
-        f"a family is expected, not {type(given).__name__}",
-        "load a file with load_family(path)",
+        f"a family is expected, not {type(given).__name__}", "load a file with load_family(path)"
     )
 
 
@@ -84,9 +76,7 @@ def find_parameters(
     return designing.find_parameters(found, most, whose, seconds)
 
 
-def minimise(
-    design: Design | AnyFamily, objective: str, seconds: float | None = None
-) -> Minimum:
+def minimise(design: Design | AnyFamily, objective: str, seconds: float | None = None) -> Minimum:
     r"""The methods of the highest order with the least value of an objective:
     ``gark design --minimise``.
 
@@ -193,17 +183,13 @@ def stable_values(
         tableau = designing.TABLEAUS[whose](read.tableau)
         colour = colour_of(fast, "fast", tableau.size)
         springs = TwoSprings(
-            rational(slow, "slow"),
-            tableau.colours[colour].term,
-            rational_or_none(up_to, "up_to"),
+            rational(slow, "slow"), tableau.colours[colour].term, rational_or_none(up_to, "up_to")
         )
     return stabilities.stable_values(read, wanted, whose, springs)
 
 
 def found_methods(
-    found: Design | Minimum | Result,
-    family: AnyFamily | None = None,
-    whose: Whose = "method",
+    found: Design | Minimum | Result, family: AnyFamily | None = None, whose: Whose = "method"
 ) -> list[MethodFile]:
     r"""The methods that were found, each with the text of its file: ``gark design --emit-all``.
 
@@ -225,10 +211,7 @@ def found_methods(
     """
     if isinstance(found, Result):
         if family is None:
-            raise MethodError(
-                "a search does not know its family",
-                "found_methods(result, family)",
-            )
+            raise MethodError("a search does not know its family", "found_methods(result, family)")
         return list(_searched(found, _file_of(family_of(family)), whose))
     if isinstance(found, Minimum):
         return list(_least(found, _file_of(found.design.family)))
@@ -242,13 +225,9 @@ def found_methods(
     return [_made(read, x.values, found.whose, x.order) for x in chosen]
 
 
-def _searched(
-    result: Result, family: FamilyFile, whose: Whose
-) -> Iterator[MethodFile]:
+def _searched(result: Result, family: FamilyFile, whose: Whose) -> Iterator[MethodFile]:
     for method in result.methods:
-        yield _made(
-            family, method.values, whose, method.order, method.is_exact
-        )
+        yield _made(family, method.values, whose, method.order, method.is_exact)
 
 
 def _least(minimum: Minimum, family: FamilyFile) -> Iterator[MethodFile]:
@@ -270,18 +249,11 @@ def _file_of(family: Family) -> FamilyFile:
     """
     if isinstance(family, FamilyFile):
         return family
-    raise MethodError(
-        f"{family!r} has no text",
-        "give what load_family or loads_family return",
-    )
+    raise MethodError(f"{family!r} has no text", "give what load_family or loads_family return")
 
 
 def _made(
-    family: FamilyFile,
-    values: Mapping[str, str],
-    whose: Whose,
-    order: int,
-    is_exact: bool = True,
+    family: FamilyFile, values: Mapping[str, str], whose: Whose, order: int, is_exact: bool = True
 ) -> MethodFile:
     """A method of a family, its parameters as texts."""
     claim = f"{CLAIMS[whose]}: {order}"

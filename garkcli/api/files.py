@@ -6,14 +6,7 @@ import os
 from typing import TypeAlias
 
 from garkcli.api.anymethod import AnyMethod, method_of
-from garkcli.api.numbers import (
-    Number,
-    Settings,
-    Whole,
-    rational_or_none,
-    texts,
-    whole,
-)
+from garkcli.api.numbers import Number, Settings, Whole, rational_or_none, texts, whole
 from garkcli.check import check_file as checking
 from garkcli.check.outcome import Outcome
 from garkcli.comparison import comparison
@@ -53,9 +46,7 @@ def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
     return methods.load(os.fsdecode(path), texts(settings, "settings"))
 
 
-def loads(
-    text: str, source: str = "<text>", settings: Settings = NONE
-) -> MethodFile:
+def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> MethodFile:
     r"""Read a method file from its text.
 
     Args:
@@ -75,9 +66,7 @@ def loads(
 
 
 def load_family(
-    path: AnyPath,
-    settings: Settings = NONE,
-    deadline: float | None = None,
+    path: AnyPath, settings: Settings = NONE, deadline: float | None = None
 ) -> FamilyFile:
     """Read a method file with free parameters.
 
@@ -142,9 +131,7 @@ def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
     return problems.load_problem(os.fsdecode(path), value)
 
 
-def loads_problem(
-    text: str, source: str = "<text>", stiffness: Number | None = None
-) -> Problem:
+def loads_problem(text: str, source: str = "<text>", stiffness: Number | None = None) -> Problem:
     """Read a problem file from its text; see ``load_problem``.
 
     Args:
@@ -186,16 +173,11 @@ def check_file(
     (True, <Order 4>, [True, True])
     """
     return checking.check_file(
-        os.fsdecode(path),
-        whole(limit, "limit", 1),
-        want_constants,
-        texts(settings, "settings"),
+        os.fsdecode(path), whole(limit, "limit", 1), want_constants, texts(settings, "settings")
     )
 
 
-def compare(
-    one: AnyMethod, other: AnyMethod, limit: Whole = DEFAULT_LIMIT
-) -> Comparison:
+def compare(one: AnyMethod, other: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> Comparison:
     """Hold two methods against each other: ``gark diff``.
 
     Methods are the same where a renumbering of stages or colours turns one into the other, once
@@ -210,14 +192,10 @@ def compare(
     >>> compare(([[0, 0], [1, 0]], ["1/2", "1/2"]), ([[0, 1], [0, 0]], [0.5, 0.5]))
     <Comparison same>
     """
-    return comparison.compare(
-        method_of(one), method_of(other), whole(limit, "limit", 1)
-    )
+    return comparison.compare(method_of(one), method_of(other), whole(limit, "limit", 1))
 
 
-def convert(
-    method: AnyMethod, to: str = "spelled-out", stages: Whole | None = None
-) -> Converted:
+def convert(method: AnyMethod, to: str = "spelled-out", stages: Whole | None = None) -> Converted:
     """The same method in another form: ``gark convert``.
 
     Args:

@@ -10,12 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Protocol, cast, overload
 
-from garkcli.api.anymethod import (
-    AnyMethod,
-    method_of,
-    tableau_of,
-    with_tolerance,
-)
+from garkcli.api.anymethod import AnyMethod, method_of, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis, AnyOrder
@@ -33,9 +28,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def find_order(
-    method: AnyMethod,
-    limit: Whole = DEFAULT_LIMIT,
-    tolerance: Number | None = None,
+    method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> AnyOrder:
     """The order of a method: exactly, or within its tolerance.
 
@@ -64,11 +57,7 @@ def find_order(
         return certificate.find_order(method.tableau, limit)
     if is_own and method.base is not None:
         found = deciding.analyse(method.base.tableau, limit, near)
-        order = (
-            found.pair_order
-            if method.derivation == "pair"
-            else found.conjugate_order
-        )
+        order = found.pair_order if method.derivation == "pair" else found.conjugate_order
         if order is not None:
             return order
     from garkcli.order.rounded import find_order_within
@@ -77,9 +66,7 @@ def find_order(
 
 
 def analyse(
-    method: AnyMethod,
-    limit: Whole = DEFAULT_LIMIT,
-    tolerance: Number | None = None,
+    method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> Analysis:
     """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
 
@@ -95,15 +82,11 @@ def analyse(
     """
     limit = whole(limit, "limit", 1)
     method, near = with_tolerance(method, tolerance)
-    return deciding.analyse(
-        method.tableau, limit, near, further=method.further
-    )
+    return deciding.analyse(method.tableau, limit, near, further=method.further)
 
 
 def simplifying(
-    method: AnyMethod,
-    limit: Whole = DEFAULT_LIMIT,
-    tolerance: Number | None = None,
+    method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> Simplifying:
     """The simplifying assumptions B(r), C(η) and D(ζ) of every colour and every block.
 
@@ -149,19 +132,11 @@ class _OfSameKind(Protocol):
     def __call__(self, method: Tableau) -> Tableau: ...
     @overload
     def __call__(
-        self,
-        method: GarkMethod
-        | Method
-        | str
-        | PathLike[str]
-        | Sequence[Any]
-        | Mapping[str, Any],
+        self, method: GarkMethod | Method | str | PathLike[str] | Sequence[Any] | Mapping[str, Any]
     ) -> GarkMethod: ...
 
 
-def _of_same_kind(
-    make: Callable[[AnyMethod], Tableau | GarkMethod],
-) -> _OfSameKind:
+def _of_same_kind(make: Callable[[AnyMethod], Tableau | GarkMethod]) -> _OfSameKind:
     """The function itself; its type says what it returns for what."""
     return cast(_OfSameKind, make)
 
@@ -212,16 +187,10 @@ def pair(method: AnyMethod) -> Tableau | GarkMethod:
     return _derived(method, forms.pair(method.tableau), "pair")
 
 
-def _derived(
-    method: GarkMethod, tableau: Tableau, derivation: Derivation
-) -> GarkMethod:
+def _derived(method: GarkMethod, tableau: Tableau, derivation: Derivation) -> GarkMethod:
     name = f"{derivation} of {method.name}" if method.name else ""
     return GarkMethod(
-        tableau=tableau,
-        name=name,
-        tolerance=method.tolerance,
-        derivation=derivation,
-        base=method,
+        tableau=tableau, name=name, tolerance=method.tolerance, derivation=derivation, base=method
     )
 
 
@@ -251,7 +220,5 @@ def symplectic_pair(
     V = colours_of(velocities, "velocities", count)
     F = colours_of(forces, "forces", count)
     if not V and not F:
-        raise MethodError(
-            "a pair of no colour", "give colours of velocities and of forces"
-        )
+        raise MethodError("a pair of no colour", "give colours of velocities and of forces")
     return method_of(forms.symplectic_pair(tableau, V, F))

@@ -37,9 +37,7 @@ def backward_analysis(
     return summary.backward_analysis(method.tableau, most, near)
 
 
-def modified_formula(
-    method: AnyMethod, problem: AnyProblem, max_order: Whole
-) -> ModifiedFormula:
+def modified_formula(method: AnyMethod, problem: AnyProblem, max_order: Whole) -> ModifiedFormula:
     """The modified Hamiltonian of a symplectic method, the modified equation of any other.
 
     Args:

@@ -111,10 +111,7 @@ def texts(given: Settings, where: str) -> dict[str, str]:
     if not _is_mapping(given):
         cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"
         raise MethodError(f"{where}: {given!r} is no mapping", cure)
-    return {
-        name: number_text(x, f"{where}[{name!r}]", False, EXACTLY)
-        for name, x in given.items()
-    }
+    return {name: number_text(x, f"{where}[{name!r}]", False, EXACTLY) for name, x in given.items()}
 
 
 def _is_list(given: object) -> bool:

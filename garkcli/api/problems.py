@@ -25,10 +25,7 @@ OSCILLATOR = "oscillator"
 
 
 def problem(
-    name: str,
-    terms: Whole = 1,
-    seed: Whole = 1,
-    stiffness: Number | None = None,
+    name: str, terms: Whole = 1, seed: Whole = 1, stiffness: Number | None = None
 ) -> Problem:
     """The built-in problem called ``name``, Hamiltonian or not, split into terms.
 
@@ -68,9 +65,7 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
     >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
     ['px**2/2', '1 - cos(x)']
     """
-    return builtin.hamiltonian(
-        name, whole(terms, "terms", 1), whole(seed, "seed")
-    )
+    return builtin.hamiltonian(name, whole(terms, "terms", 1), whole(seed, "seed"))
 
 
 def problem_for(given: AnyProblem, tableau: Tableau) -> Problem | Oscillator:
@@ -103,10 +98,7 @@ def to_step(given: AnyProblem, tableau: Tableau) -> Problem:
     found = problem_for(given, tableau)
     if isinstance(found, Problem):
         return found
-    raise UsageProblem(
-        "the oscillator has exact step maps",
-        "take the problem split-oscillator",
-    )
+    raise UsageProblem("the oscillator has exact step maps", "take the problem split-oscillator")
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau) -> Hamiltonian:

@@ -16,9 +16,7 @@ from garkcli.properties.subject import Subject
 from garkcli.tableau.garkmethod import GarkMethod
 
 
-def find_property(
-    method: AnyMethod, key: str, tolerance: Number | None = None
-) -> Verdict:
+def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) -> Verdict:
     """What is true of a property, such as ``"l-stable"``, and what decides it.
 
     Args:
@@ -39,9 +37,7 @@ def find_property(
     method, near = with_tolerance(method, tolerance)
     order = find_order(method, tolerance=None if is_own else near or 0).order
     conditions = simplifying(method.tableau, DEFAULT_LIMIT, near or ZERO)
-    subject = Subject(
-        method.tableau, order, conditions, DEFAULT_LIMIT, near or ZERO
-    )
+    subject = Subject(method.tableau, order, conditions, DEFAULT_LIMIT, near or ZERO)
     return subject.verdict(key)
 
 

@@ -8,20 +8,8 @@ from typing import Any
 from flint import arb, fmpq
 
 from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
-from garkcli.api.numbers import (
-    Number,
-    Whole,
-    rational,
-    rational_or_none,
-    rationals,
-    whole,
-)
-from garkcli.api.problems import (
-    AnyProblem,
-    hamiltonian_for,
-    problem_for,
-    to_step,
-)
+from garkcli.api.numbers import Number, Whole, rational, rational_or_none, rationals, whole
+from garkcli.api.problems import AnyProblem, hamiltonian_for, problem_for, to_step
 from garkcli.convergence import convergence
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError, counted
@@ -131,10 +119,7 @@ def long_run(
 
 
 def symplecticity_defects(
-    method: AnyMethod,
-    problem: AnyProblem,
-    step: Number,
-    states: Sequence[State],
+    method: AnyMethod, problem: AnyProblem, step: Number, states: Sequence[State]
 ) -> tuple[Defect, ...]:
     """How far steps are from being symplectic: the entries of MᵀJM − J for their Jacobians M.
 
@@ -153,10 +138,7 @@ def symplecticity_defects(
     """
     tableau = tableau_of(method)
     return symplecticity.symplecticity_defects(
-        tableau,
-        hamiltonian_for(problem, tableau),
-        rational(step, "step"),
-        states,
+        tableau, hamiltonian_for(problem, tableau), rational(step, "step"), states
     )
 
 
@@ -190,10 +172,7 @@ def _some(steps: list[fmpq]) -> list[fmpq]:
 
 
 def integrate(
-    integrator: Integrator | Binding,
-    h: Number,
-    count: Whole,
-    initial: Sequence[Any] | None = None,
+    integrator: Integrator | Binding, h: Number, count: Whole, initial: Sequence[Any] | None = None
 ) -> list[Real]:
     """The state after ``count`` steps.
 
@@ -262,9 +241,7 @@ def _made(given: Integrator | Binding) -> Integrator:
     return given.at() if isinstance(given, Binding) else given
 
 
-def _start(
-    integrator: Integrator, initial: Sequence[Any] | None
-) -> list[Any] | None:
+def _start(integrator: Integrator, initial: Sequence[Any] | None) -> list[Any] | None:
     """A start with as many numbers as there are unknowns; floats as they are.
 
     Raises:

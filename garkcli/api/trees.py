@@ -35,8 +35,7 @@ def tree_of(given: AnyTree) -> Tree:
     if isinstance(given, str):
         return parse_tree(given)
     raise MethodError(
-        f"a tree is expected, not {type(given).__name__}",
-        "give its text, such as '[[],[]]'",
+        f"a tree is expected, not {type(given).__name__}", "give its text, such as '[[],[]]'"
     )
 
 
@@ -102,9 +101,7 @@ def count_trees(
 
 
 def conditions(
-    method: AnyMethod,
-    trees: AnyTree | Iterable[AnyTree],
-    tolerance: Number | None = None,
+    method: AnyMethod, trees: AnyTree | Iterable[AnyTree], tolerance: Number | None = None
 ) -> Iterator[Condition]:
     """The order conditions of some trees, eq. (bA).
 

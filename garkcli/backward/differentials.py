@@ -28,12 +28,7 @@ class Differentials:
         energies: H^{l}, sympy expressions.
     """
 
-    def __init__(
-        self,
-        tableau: Tableau,
-        problem: Hamiltonian,
-        energies: Sequence[Formula],
-    ) -> None:
+    def __init__(self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]) -> None:
         self.tableau = tableau
         self.problem = problem
         self.energies = energies
@@ -67,9 +62,7 @@ class Differentials:
         along = [self.field(u) for u in tree.branches]
         return self._along(term, (), along)
 
-    def _along(
-        self, term: int, taken: tuple[int, ...], along: Sequence[FormulaVector]
-    ) -> Formula:
+    def _along(self, term: int, taken: tuple[int, ...], along: Sequence[FormulaVector]) -> Formula:
         """A derivative of H^{l} that was taken by some unknowns, further along vectors which are
         not differentiated.
         """

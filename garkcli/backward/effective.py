@@ -128,9 +128,7 @@ def _bracket_with_delta(
     return matrix
 
 
-def _rational_sides(
-    right: Sequence[Number], field: NumberField | None
-) -> list[list[fmpq]]:
+def _rational_sides(right: Sequence[Number], field: NumberField | None) -> list[list[fmpq]]:
     """The coordinates over ℚ of a right-hand side, one column for each."""
     degree = field.degree if field else 1
     rows = [coordinates(number, degree) for number in right]
@@ -138,9 +136,7 @@ def _rational_sides(
 
 
 def _solve(
-    matrix: fmpz_mat,
-    sides: Sequence[Sequence[fmpq]],
-    field: NumberField | None,
+    matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]], field: NumberField | None
 ) -> list[Number]:
     """One solution of a linear system that has one, its right-hand side given by coordinates."""
     columns = matrix.ncols()

@@ -70,9 +70,7 @@ class ModifiedEnergy:
         excess = self.observed_order - self.exact_order
         if excess < -CLOSE:
             return "disagree"
-        return (
-            "agree" if self.is_lower_bound or excess <= CLOSE else "undecided"
-        )
+        return "agree" if self.is_lower_bound or excess <= CLOSE else "undecided"
 
     def __repr__(self) -> str:
         return f"<ModifiedEnergy h^{self.power}: {self.verdict}>"
@@ -146,9 +144,7 @@ def modified_run(
             "gark modified shows its modified equation",
         )
     if not formula.is_consistent:
-        raise UsageProblem(
-            "the method is not consistent", "it approximates no solution"
-        )
+        raise UsageProblem("the method is not consistent", "it approximates no solution")
     powers, formulas = _changing(formula)
     following = [(power, False) for power in powers[1:]]
     following.append(_next_power(tableau, formula))
@@ -159,14 +155,10 @@ def modified_run(
     meter.choose_digits(first, following[-1][0])
     table = meter.table(first)
     energies = []
-    for k, (power, (order, is_lower_bound)) in enumerate(
-        zip(powers, following, strict=True)
-    ):
+    for k, (power, (order, is_lower_bound)) in enumerate(zip(powers, following, strict=True)):
         rows = tuple(row[k] for row in table)
         energies.append(_energy(power, order, is_lower_bound, rows))
-    return ModifiedRun(
-        formula.problem, t_end, max_order, meter.digits, tuple(energies)
-    )
+    return ModifiedRun(formula.problem, t_end, max_order, meter.digits, tuple(energies))
 
 
 def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
@@ -180,9 +172,7 @@ def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
     return powers, formulas
 
 
-def _next_power(
-    tableau: Tableau, formula: ModifiedFormula
-) -> tuple[int, bool]:
+def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
     """The power of h that follows, and whether nothing is known but that it is not less."""
     for order in range(formula.max_order + 1, formula.max_order + _BEYOND + 1):
         try:
@@ -195,9 +185,7 @@ def _next_power(
     return formula.max_order + _BEYOND, True
 
 
-def _first_count(
-    problem: Hamiltonian, t_end: fmpq, longest: fmpq | None
-) -> int:
+def _first_count(problem: Hamiltonian, t_end: fmpq, longest: fmpq | None) -> int:
     """The steps of the first row.
 
     Raises:
@@ -215,9 +203,7 @@ def _first_count(
     return max(count, 2)
 
 
-def _energy(
-    power: int, order: int, is_lower_bound: bool, rows: tuple[Row, ...]
-) -> ModifiedEnergy:
+def _energy(power: int, order: int, is_lower_bound: bool, rows: tuple[Row, ...]) -> ModifiedEnergy:
     """The verdict on one column."""
     are_seen = are_above_noise(rows)
     observed = observed_order(rows) if are_seen else None

@@ -53,9 +53,7 @@ class Forest:
     trees: tuple[Tree, ...]
     cuts: tuple[tuple[Cut, ...], ...]
     # by root and the numbers of the branches
-    _numbers: dict[tuple[int, tuple[int, ...]], int] = field(
-        repr=False, compare=False
-    )
+    _numbers: dict[tuple[int, tuple[int, ...]], int] = field(repr=False, compare=False)
     _starts: tuple[int, ...] = field(repr=False, compare=False)
 
     @classmethod
@@ -88,14 +86,7 @@ class Forest:
         cuts = [cutter.cuts_of(number) for number in range(len(trees))]
         starts = [row[0] for row in table.starts]
         starts.append(len(trees))
-        return cls(
-            admissible,
-            order,
-            tuple(trees),
-            tuple(cuts),
-            numbers,
-            tuple(starts),
-        )
+        return cls(admissible, order, tuple(trees), tuple(cuts), numbers, tuple(starts))
 
     @classmethod
     def seen_by(cls, tableau: Tableau, order: int) -> Forest:
@@ -180,9 +171,7 @@ def _check_size(admissible: Admissible, order: int) -> None:
     raise UsageProblem(message, f"ask for --order {n - 1} at most")
 
 
-def _first_beyond_limit(
-    admissible: Admissible, order: int
-) -> tuple[int, int] | None:
+def _first_beyond_limit(admissible: Admissible, order: int) -> tuple[int, int] | None:
     """The first order with too many trees up to it, and how many; None where all are few enough."""
     total = 0
     for n, counts in enumerate(counts_upto(admissible, order), start=1):

@@ -6,11 +6,7 @@ from dataclasses import dataclass, replace
 from math import comb, prod
 from typing import TYPE_CHECKING, Any, Literal
 
-from garkcli.backward.differentials import (
-    Differentials,
-    Formula,
-    FormulaVector,
-)
+from garkcli.backward.differentials import Differentials, Formula, FormulaVector
 from garkcli.backward.hamiltonian import modified_hamiltonian
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.backward.visible import visible
@@ -87,9 +83,7 @@ class ModifiedFormula:
         return latex
 
 
-def modified_formula(
-    tableau: Tableau, problem: Hamiltonian, max_order: int
-) -> ModifiedFormula:
+def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> ModifiedFormula:
     """The modified Hamiltonian of a symplectic method, the modified equation of any other.
 
     Args:
@@ -129,9 +123,7 @@ def modified_formula(
 
 
 def _of_hamiltonian(
-    differentials: Differentials,
-    equation: ModifiedEquation,
-    structure: Structure,
+    differentials: Differentials, equation: ModifiedEquation, structure: Structure
 ) -> list[list[Formula]]:
     """For each power of h one formula."""
     sums: list[list[Formula]] = [[0] for _ in range(equation.max_order)]
@@ -147,9 +139,7 @@ def _of_hamiltonian(
     return sums
 
 
-def _of_equation(
-    differentials: Differentials, equation: ModifiedEquation
-) -> list[list[Formula]]:
+def _of_equation(differentials: Differentials, equation: ModifiedEquation) -> list[list[Formula]]:
     """For each power of h one formula for each unknown."""
     size = len(differentials.unknowns)
     sums: list[list[Formula]] = []
@@ -176,13 +166,11 @@ def _expanded(formula: Formula, power: int) -> Formula:
     size = int(expression.count_ops())
     if size > MAX_OPERATIONS:
         raise UsageProblem(
-            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})",
-            cure,
+            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})", cure
         )
     if _summands(expression) > MAX_SUMMANDS:
         raise UsageProblem(
-            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})",
-            cure,
+            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})", cure
         )
     return sympy.expand(expression)
 

@@ -25,11 +25,7 @@ from functools import cached_property
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.free import Structure
-from garkcli.trees.symplectic import (
-    ConditionClass,
-    independent_classes,
-    superfluous_classes,
-)
+from garkcli.trees.symplectic import ConditionClass, independent_classes, superfluous_classes
 from garkcli.trees.tree import Tree
 
 

@@ -43,9 +43,7 @@ def elementary_weights(tableau: Tableau, forest: Forest) -> list[Number]:
         for branch in branches:
             below = forest.trees[branch].root
             block = tableau.block(root, below)
-            assert (
-                block is not None
-            )  # the trees are those that the tableau admits
+            assert block is not None  # the trees are those that the tableau admits
             vector = space.product(vector, apply(block, vectors[branch]))
         vectors.append(vector)
         weights.append(dot(tableau.colours[root].b, vector))
@@ -137,9 +135,7 @@ def bracket(forest: Forest, c: Coefficients, b: Coefficients) -> list[Number]:
     return [x - y for x, y in zip(forth, back, strict=True)]
 
 
-def transported(
-    forest: Forest, b: Coefficients, c: Coefficients, lowest: int
-) -> list[Number]:
+def transported(forest: Forest, b: Coefficients, c: Coefficients, lowest: int) -> list[Number]:
     """e^{ad c} b: the field B(b, y) in the coordinates z = χ(y), χ the flow of B(c, y) over the
     time 1.
 

@@ -98,9 +98,7 @@ def backward_analysis(
     effective = Reached(shift.order, not shift.is_proved)
     order = _reached(equation.order, max_order)
     if structure is None:
-        return BackwardAnalysis(
-            equation, order, None, False, effective=effective
-        )
+        return BackwardAnalysis(equation, order, None, False, effective=effective)
     proved = is_symplectic(tableau)
     found = symplectic_order(equation, structure)
     terms = None
@@ -133,6 +131,4 @@ def _of_rounded(
     within = find_order_within(tableau, tolerance, equation.max_order)
     order = Reached(within.order, within.is_lower_bound)
     symplectic = is_symplectic_within(tableau, tolerance)
-    return BackwardAnalysis(
-        equation, order, structure, symplectic, tolerance=tolerance
-    )
+    return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)

@@ -64,9 +64,7 @@ def _terms_apart(tableau: Tableau) -> list[tuple[int, str]]:
     """
     terms: list[tuple[int, str]] = []
     for l, colour in enumerate(tableau.colours):
-        same_part = [
-            m for m, x in enumerate(tableau.colours) if x.part == colour.part
-        ]
+        same_part = [m for m, x in enumerate(tableau.colours) if x.part == colour.part]
         sees_own = any(tableau.block(l, m) is not None for m in same_part)
         terms.append((colour.term, "" if sees_own else colour.part))
     return terms

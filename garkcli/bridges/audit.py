@@ -11,11 +11,7 @@ from garkcli.bridges.importing import orders_of, read
 from garkcli.bridges.judging import Judged, allowed, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.found import FoundTable
-from garkcli.bridges.readers.registry import (
-    find_tables,
-    readers_for,
-    unlike_tables,
-)
+from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.explained import repair_text, witness_text
@@ -144,14 +140,7 @@ def audit(table: FoundTable) -> Audited | None:
     findings: list[AuditFinding] = []
     for check in CHECKS:
         findings += check(subject)
-    return Audited(
-        table,
-        method,
-        order,
-        embedded_order,
-        subject.nonautonomous,
-        tuple(findings),
-    )
+    return Audited(table, method, order, embedded_order, subject.nonautonomous, tuple(findings))
 
 
 def _of_trouble(table: FoundTable) -> AuditFinding:
@@ -215,9 +204,7 @@ def _culprit(subject: Subject, declared: int) -> str:
     return f"order {declared} would hold with {repair}" if repair else ""
 
 
-def _repair(
-    subject: Subject, tableau: Tableau, found: Judged, declared: int
-) -> str:
+def _repair(subject: Subject, tableau: Tableau, found: Judged, declared: int) -> str:
     """The one entry whose change restores an order, in words; empty where it is not known."""
     stages = sum(space.stages for space in tableau.spaces)
     if stages > MAX_BLAMED or found.witness is None:
@@ -226,9 +213,7 @@ def _repair(
     from garkcli.order.repairs import Missed
 
     near = 1000 * allowed(subject.method)
-    missed = Missed(
-        found.witness.tree.order, declared, tolerance=near, near=near
-    )
+    missed = Missed(found.witness.tree.order, declared, tolerance=near, near=near)
     blame = blame_of(tableau, missed)
     if blame is None or len(blame.repairs) != 1:
         return ""
@@ -288,18 +273,14 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     declared = subject.table.order
     timed = subject.nonautonomous
     wanted = subject.order.order if declared is None else declared
-    loses = timed is not None and timed.order < min(
-        wanted, subject.order.order
-    )
+    loses = timed is not None and timed.order < min(wanted, subject.order.order)
     text = "; ".join(rows[:3])
     if len(rows) > 3:
         text += f"; and {len(rows) - 3} more"
     if _is_turned(subject):
         yield AuditFinding("transposed", "the columns have the nodes for sums")
     elif loses and timed is not None:
-        message = (
-            f"order {timed.order} where f depends on t, and else {wanted}"
-        )
+        message = f"order {timed.order} where f depends on t, and else {wanted}"
         yield AuditFinding("nodes", f"{message}: {text}")
     else:
         level: Level = "error" if declared is None else "note"

@@ -34,11 +34,7 @@ def heading(payload: Payload, *notes: str) -> list[str]:
 
 
 def array(
-    payload: Payload,
-    declaration: str,
-    rows: Sequence[Row],
-    style: Style,
-    indent: str = "",
+    payload: Payload, declaration: str, rows: Sequence[Row], style: Style, indent: str = ""
 ) -> list[str]:
     """An array with its numbers, a line a row at least: ``declaration = {...};``."""
     lines = [f"{indent}{declaration} = {{"]

@@ -40,8 +40,7 @@ def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
     method = method_of(method)
     if not isinstance(method, MethodFile):
         raise MethodError(
-            f"{method!r} is no method file",
-            "give what load, loads or from_arrays return",
+            f"{method!r} is no method file", "give what load, loads or from_arrays return"
         )
     many = None if digits is None else whole(digits, "digits", 1)
     return bridge_named(target).written(prepared(method, many))
@@ -65,9 +64,7 @@ def import_methods(
     """
     readers = [] if format is None else [reader_named(format)]
     results = collected(_files(paths), readers, is_recognising)
-    return [
-        result.method.method for result in results if result.method is not None
-    ]
+    return [result.method.method for result in results if result.method is not None]
 
 
 def audit(paths: AnyPath | Iterable[AnyPath]) -> Iterator[Audited]:

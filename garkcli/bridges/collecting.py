@@ -108,9 +108,7 @@ def collected(
             name = plain_line(table.name) or default_name(source)
             result = _result(table, name, is_recognising)
             method = result.method
-            is_other = method is not None and not is_plausible(
-                table, method.method
-            )
+            is_other = method is not None and not is_plausible(table, method.method)
             # who names the format means the arrays that are there
             if is_other and not chosen:
                 left_out(table)

@@ -13,11 +13,7 @@ _WORDS = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
 
 
 def driver(
-    payload: Payload,
-    file: str,
-    build: str,
-    before: Iterable[str],
-    steps: Iterable[str],
+    payload: Payload, file: str, build: str, before: Iterable[str], steps: Iterable[str]
 ) -> list[Written]:
     """A program that steps through the time, and prints the errors.
 

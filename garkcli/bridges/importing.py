@@ -82,9 +82,7 @@ def read(table: FoundTable, name: str = "") -> MethodFile:
     return loads(written(table, name, None, {}), place_of(table))
 
 
-def orders_of(
-    method: MethodFile, table: FoundTable
-) -> tuple[Judged, Judged | None]:
+def orders_of(method: MethodFile, table: FoundTable) -> tuple[Judged, Judged | None]:
     """The order of a method and that of its embedded weights, within what their digits say."""
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
     order = judged(method, method.tableau, table.order, tolerance=admitted)
@@ -100,9 +98,7 @@ def place_of(table: FoundTable) -> str:
     return f"{table.source}:{table.line}"
 
 
-def _tolerance(
-    table: FoundTable, orders: Sequence[Judged | None]
-) -> fmpq | None:
+def _tolerance(table: FoundTable, orders: Sequence[Judged | None]) -> fmpq | None:
     """The rounding that the file has to admit; None where everything holds exactly."""
     wanted = [x.file_tolerance for x in orders if x is not None]
     found = [x for x in wanted if x is not None]
@@ -129,12 +125,7 @@ def _claims(order: Judged, embedded: Judged | None) -> Mapping[str, str]:
     return claims
 
 
-def written(
-    table: FoundTable,
-    name: str,
-    tolerance: fmpq | None,
-    claims: Mapping[str, str],
-) -> str:
+def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mapping[str, str]) -> str:
     """The method file of a table.
 
     Args:

@@ -10,12 +10,7 @@ from flint import arb, fmpq
 from garkcli.exact.field import Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.printed import approximant_units
-from garkcli.order.certificate import (
-    DEFAULT_LIMIT,
-    Order,
-    Witness,
-    find_order,
-)
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.propagation import Propagation, printed_rounding
 from garkcli.order.rounded import RoundedOrder, find_order_within
 from garkcli.order.suggestion import SLACK
@@ -53,9 +48,7 @@ class Judged:
         if self.largest is None:
             return None
         exponent = 0
-        while (
-            fmpq(10) ** (exponent - 1) >= 2 * self.largest and exponent > -900
-        ):
+        while fmpq(10) ** (exponent - 1) >= 2 * self.largest and exponent > -900:
             exponent -= 1
         return fmpq(10) ** exponent
 
@@ -128,13 +121,7 @@ def _within(found: RoundedOrder, exact: Order) -> Judged:
     is_open = found.witness is None
     if found.order == exact.order:
         return Judged(found.order, is_open, exact.witness)
-    return Judged(
-        found.order,
-        is_open,
-        found.witness,
-        found.tolerance,
-        found.largest_residual,
-    )
+    return Judged(found.order, is_open, found.witness, found.tolerance, found.largest_residual)
 
 
 def allowed(method: MethodFile) -> fmpq:

@@ -58,10 +58,7 @@ class Orders:
 
 
 def find_orders(
-    tableau: Tableau,
-    embedded: Tableau | None,
-    tolerance: fmpq | None,
-    limit: int = DEFAULT_LIMIT,
+    tableau: Tableau, embedded: Tableau | None, tolerance: fmpq | None, limit: int = DEFAULT_LIMIT
 ) -> Orders:
     """Prove the orders of a method.
 
@@ -86,9 +83,7 @@ def find_orders(
     return Orders(order, is_lower_bound, of_embedded, timed_order, tolerance)
 
 
-def _order(
-    tableau: Tableau, tolerance: fmpq | None, limit: int
-) -> tuple[int, bool]:
+def _order(tableau: Tableau, tolerance: fmpq | None, limit: int) -> tuple[int, bool]:
     """The order, and whether it is a lower bound only."""
     if tolerance is None:
         found = find_order(tableau, limit)

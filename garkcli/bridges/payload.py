@@ -122,8 +122,7 @@ class Payload:
             return style.text(x, self.digits)
         except TooWide:
             raise CannotExport(
-                f"the rounding of an entry of {self.name} is not decided",
-                "ask for other --digits",
+                f"the rounding of an entry of {self.name} is not decided", "ask for other --digits"
             ) from None
         except OverflowError:
             raise CannotExport(

@@ -5,11 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import PurePath
 
-from garkcli.bridges.c_text import (
-    error_function,
-    main_function,
-    side_functions,
-)
+from garkcli.bridges.c_text import error_function, main_function, side_functions
 from garkcli.bridges.comments import C
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Written
@@ -60,10 +56,7 @@ def driver(
     lines += error_function(trial)
     lines += _run(trial, kind, name)
     lines += _main(register)
-    return [
-        Written("_test.c", "\n".join(lines) + "\n"),
-        Written("_problem.yaml", trial.file),
-    ]
+    return [Written("_test.c", "\n".join(lines) + "\n"), Written("_problem.yaml", trial.file)]
 
 
 def _comment(payload: Payload, file: str) -> list[str]:
@@ -92,9 +85,7 @@ def _main(register: str) -> list[str]:
     ]
     for option, value in OPTIONS.items():
         text = f'"{value}"' if value else "NULL"
-        prologue.append(
-            f'  PetscCall(PetscOptionsSetValue(NULL, "{option}", {text}));'
-        )
+        prologue.append(f'  PetscCall(PetscOptionsSetValue(NULL, "{option}", {text}));')
     return [
         "int main(int argc, char **argv)",
         "{",

@@ -44,9 +44,7 @@ def _sum(row: Sequence[Number]) -> arb:
     return sum(map(to_ball, row), arb(0))
 
 
-def _agreeing(
-    rows: Sequence[Sequence[Number]], nodes: Sequence[Number]
-) -> int:
+def _agreeing(rows: Sequence[Sequence[Number]], nodes: Sequence[Number]) -> int:
     """How many rows have a node for a sum."""
     count = 0
     for row, node in zip(rows, nodes, strict=True):

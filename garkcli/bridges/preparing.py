@@ -14,14 +14,7 @@ from garkcli.bridges.payload import Kind, Payload
 from garkcli.methodfile.infinitesimal import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
-from garkcli.tableau.pointwise import (
-    Block,
-    Cell,
-    Entries,
-    entries,
-    in_points,
-    numeric_entries,
-)
+from garkcli.tableau.pointwise import Block, Cell, Entries, entries, in_points, numeric_entries
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -47,8 +40,7 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
     tableau = method.tableau
     if tableau.has_parameters:
         raise CannotExport(
-            f"{method.name} has free parameters",
-            "give each a value: --set NAME=VALUE",
+            f"{method.name} has free parameters", "give each a value: --set NAME=VALUE"
         )
     found = _entries(tableau, digits)
     embedded, dense = method.embedded, method.dense
@@ -107,9 +99,7 @@ def _entries(tableau: Tableau, digits: int | None) -> Entries:
     return replace(fine, c=c, A=tuple(map(blocks, colours)))
 
 
-def _nodes(
-    tableau: Tableau, l: int, row: tuple[Cell, ...]
-) -> tuple[Cell, ...]:
+def _nodes(tableau: Tableau, l: int, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
     """The nodes of a colour, rational ones exact."""
     colour = tableau.colours[l]
     space = tableau.spaces[colour.space]

@@ -11,11 +11,7 @@ from garkcli.bridges.trials import STEPS, command_of, trial_of
 
 
 def driver(
-    payload: Payload,
-    file: str,
-    imports: Iterable[str],
-    body: Iterable[str],
-    final: Iterable[str],
+    payload: Payload, file: str, imports: Iterable[str], body: Iterable[str], final: Iterable[str]
 ) -> list[Written]:
     """A program that loads the module ``table``, steps through the time, and prints the errors.
 

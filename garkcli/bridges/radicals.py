@@ -50,9 +50,7 @@ def has_square_roots_alone(x: Algebraic) -> bool:
     """Whether a number is a sum of multiples of square roots of rational numbers."""
     radicals = [x.field.radicals[i][0] for _, word in x.terms() for i in word]
     return all(
-        isinstance(radical, Root)
-        and radical.index == 2
-        and isinstance(radical.radicand, Literal)
+        isinstance(radical, Root) and radical.index == 2 and isinstance(radical.radicand, Literal)
         for radical in radicals
     )
 

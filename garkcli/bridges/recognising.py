@@ -107,9 +107,7 @@ def _is_as_good(before: Imported, after: Imported) -> bool:
     return after.embedded_order.order >= before.embedded_order.order
 
 
-def _with(
-    table: FoundTable, proposals: Sequence[Proposal], name: str
-) -> Imported | None:
+def _with(table: FoundTable, proposals: Sequence[Proposal], name: str) -> Imported | None:
     exact = {x.printed: x.exact for x in proposals}
     try:
         return imported(_changed(table, exact), name)
@@ -126,19 +124,11 @@ def _changed(table: FoundTable, exact: Mapping[str, str]) -> FoundTable:
     def rows(numbers: Rows) -> Rows:
         return tuple(map(row, numbers))
 
-    blocks = [
-        tuple(None if x is None else rows(x) for x in of_colour)
-        for of_colour in table.A
-    ]
+    blocks = [tuple(None if x is None else rows(x) for x in of_colour) for of_colour in table.A]
     embedded = None if table.embedded is None else rows(table.embedded)
     nodes = tuple(None if c is None else row(c) for c in table.c)
     return replace(
-        table,
-        A=tuple(blocks),
-        b=rows(table.b),
-        c=nodes,
-        embedded=embedded,
-        tolerance="",
+        table, A=tuple(blocks), b=rows(table.b), c=nodes, embedded=embedded, tolerance=""
     )
 
 
@@ -210,9 +200,7 @@ def _last_place(text: str) -> fmpq:
     return fmpq(10) ** -places
 
 
-def _near(
-    text: str, value: fmpq, unit: fmpq, exact: str, found: arb | fmpq
-) -> Proposal | None:
+def _near(text: str, value: fmpq, unit: fmpq, exact: str, found: arb | fmpq) -> Proposal | None:
     """The proposal, where the digits are those of the number."""
     with ctx.workprec(PRECISION):
         distance = abs(arb(found) - arb(value))
@@ -230,7 +218,5 @@ def _nearest_root(polynomial: fmpz_poly, value: fmpq) -> RealRoot | None:
 
 
 def _root_of(polynomial: fmpz_poly, near: str) -> str:
-    plain = polynomial_text(
-        Polynomial.from_flint(fmpq_poly(polynomial)), "x"
-    ).replace("^", "**")
+    plain = polynomial_text(Polynomial.from_flint(fmpq_poly(polynomial)), "x").replace("^", "**")
     return f"root_of({plain}, {near})"

@@ -100,7 +100,5 @@ def bridge_named(name: str) -> Bridge:
     """
     known = bridges()
     if name not in known:
-        raise UsageProblem(
-            f"no target {name!r}", did_you_mean(name, list(known))
-        )
+        raise UsageProblem(f"no target {name!r}", did_you_mean(name, list(known)))
     return known[name]

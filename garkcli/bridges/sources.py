@@ -21,9 +21,7 @@ def _no_one(text: str) -> None:
     del text
 
 
-def source_files(
-    paths: Iterable[str], told: Callable[[str], None] = _no_one
-) -> Iterator[str]:
+def source_files(paths: Iterable[str], told: Callable[[str], None] = _no_one) -> Iterator[str]:
     """The files meant by ``paths``: of a folder all that some reader reads, in order.
 
     Hidden files and folders are left out, and links to folders are not followed. A file of a folder

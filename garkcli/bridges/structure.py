@@ -143,9 +143,7 @@ def _rows_at(payload: Payload, l: int, i: int) -> Iterator[Row]:
             yield block[i]
 
 
-def _same(
-    found: Sequence[_Stage], rows: tuple[Row, ...], l: int
-) -> _Stage | None:
+def _same(found: Sequence[_Stage], rows: tuple[Row, ...], l: int) -> _Stage | None:
     """A stage with these rows that has no stage of colour l yet."""
     for stage in found:
         if l not in stage.place_of and stage.rows == rows:
@@ -156,11 +154,7 @@ def _same(
 def _sorted(stages: Sequence[_Stage]) -> list[int]:
     """An order in which no stage needs a later one, the given one as far as possible."""
     seen: dict[int, list[int]] = {}
-    at = {
-        (m, j): k
-        for k, stage in enumerate(stages)
-        for m, j in stage.place_of.items()
-    }
+    at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
     for k, stage in enumerate(stages):
         needed = []
         for m, row in enumerate(stage.rows):
@@ -176,9 +170,7 @@ def _sorted(stages: Sequence[_Stage]) -> list[int]:
     return order
 
 
-def _is_ready(
-    component: Sequence[int], seen: Mapping[int, Sequence[int]], done: set[int]
-) -> bool:
+def _is_ready(component: Sequence[int], seen: Mapping[int, Sequence[int]], done: set[int]) -> bool:
     """Whether all that some stages need is computed, or among themselves."""
     needed = {j for k in component for j in seen[k]}
     return needed <= done | {*component}
@@ -270,18 +262,12 @@ def _taken(row: Row, weights: Row) -> frozenset[int] | None:
 def _later(at_forces: Rows, kicks: Row, j: int) -> frozenset[int]:
     """The kicks at positions that do not have drift j in them."""
     numbered = enumerate(zip(at_forces, kicks, strict=True))
-    return frozenset(
-        i for i, (row, kick) in numbered if kick and vanishes(row[j])
-    )
+    return frozenset(i for i, (row, kick) in numbered if kick and vanishes(row[j]))
 
 
-def _by_turns(
-    before: Sequence[tuple[Cell, frozenset[int]]], drifts: Row
-) -> Composition | None:
+def _by_turns(before: Sequence[tuple[Cell, frozenset[int]]], drifts: Row) -> Composition | None:
     """Kicks with the drifts that lie before each, put in order; None where there is none."""
-    everything = frozenset(
-        j for j, drift in enumerate(drifts) if not vanishes(drift)
-    )
+    everything = frozenset(j for j, drift in enumerate(drifts) if not vanishes(drift))
     steps = sorted({taken for _, taken in before} | {frozenset()}, key=len)
     found_kicks: list[Cell] = []
     found_drifts: list[Cell] = []

@@ -5,11 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import PurePath
 
-from garkcli.bridges.c_text import (
-    error_function,
-    main_function,
-    side_functions,
-)
+from garkcli.bridges.c_text import error_function, main_function, side_functions
 from garkcli.bridges.comments import C
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Written
@@ -68,17 +64,8 @@ def driver(
         lines += [x for k in range(len(sides)) for x in _wrapped(k + 1)]
     lines += error_function(trial)
     lines += _run(trial, name, kind)
-    lines += [
-        "int main(void)",
-        "{",
-        *main_function("run(n, y)"),
-        "  return 0;",
-        "}",
-    ]
-    return [
-        Written("_test.c", "\n".join(lines) + "\n"),
-        Written("_problem.yaml", trial.file),
-    ]
+    lines += ["int main(void)", "{", *main_function("run(n, y)"), "  return 0;", "}"]
+    return [Written("_test.c", "\n".join(lines) + "\n"), Written("_problem.yaml", trial.file)]
 
 
 def _includes(kind: str, stepper: str) -> list[str]:
@@ -194,11 +181,4 @@ def _run(trial: Trial, name: str, kind: str) -> list[str]:
         lines += ["  SUNLinSolFree(solver);", "  SUNMatDestroy(J);"]
     if kind == "sprk":
         lines.append("  ARKodeSPRKTable_Free(table);")
-    return [
-        *lines,
-        "  N_VDestroy(u);",
-        "  SUNContext_Free(&ctx);",
-        "  return bad;",
-        "}",
-        "",
-    ]
+    return [*lines, "  N_VDestroy(u);", "  SUNContext_Free(&ctx);", "  return bad;", "}", ""]

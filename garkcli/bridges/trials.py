@@ -46,13 +46,7 @@ class Trial:
         return ",".join(f"{self.t_end}/{n}" for n in STEPS)
 
 
-WORDS = {
-    "y1": "y[0]",
-    "y2": "y[1]",
-    "t": "t",
-    "sin": "sin",
-    "cos": "cos",
-}
+WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos"}
 """As C, Python and others with arrays from 0 have them."""
 _START = "initial: {y1: 6/5, y2: 2/5}"
 WHOLE = Trial(
@@ -67,17 +61,11 @@ rhs:
 t_end: 2
 """,
     t_end=2,
-    final=(
-        "1.17800823846054054133145213501406815",
-        "-1.43877953451330962805445307202278551",
-    ),
+    final=("1.17800823846054054133145213501406815", "-1.43877953451330962805445307202278551"),
 )
 SPLIT = Trial(
     name="split",
-    sides=(
-        ("{y2}", "0.3*{sin}({y1})*{y2}"),
-        ("-0.5*{y1}*{y2}", "(1.0 - {y1}*{y1})*{y2} - {y1}"),
-    ),
+    sides=(("{y2}", "0.3*{sin}({y1})*{y2}"), ("-0.5*{y1}*{y2}", "(1.0 - {y1}*{y1})*{y2} - {y1}")),
     file=f"""\
 name: two right-hand sides
 variables: [y1, y2]
@@ -88,10 +76,7 @@ rhs:
 t_end: 1
 """,
     t_end=1,
-    final=(
-        "1.11251631371073201960701475776329010",
-        "-0.78381339848673613949632823473644073",
-    ),
+    final=("1.11251631371073201960701475776329010", "-0.78381339848673613949632823473644073"),
 )
 SEPARABLE = Trial(
     name="separable",
@@ -106,10 +91,7 @@ initial: {x: 6/5, px: 2/5}
 t_end: 2
 """,
     t_end=2,
-    final=(
-        "0.20358087395061007056665965504276729",
-        "-1.18067026009027434070547740953813522",
-    ),
+    final=("0.20358087395061007056665965504276729", "-1.18067026009027434070547740953813522"),
 )
 TRIALS = (WHOLE, SPLIT, SEPARABLE)
 
@@ -126,10 +108,7 @@ def trial_of(payload: Payload) -> Trial:
         return SEPARABLE
     if payload.size == 2 and not payload.tableau.is_partitioned:
         return SPLIT
-    raise CannotExport(
-        f"no problem to test {payload.size} vector fields with",
-        "leave out --test",
-    )
+    raise CannotExport(f"no problem to test {payload.size} vector fields with", "leave out --test")
 
 
 def command_of(payload: Payload, problem_file: str) -> str:

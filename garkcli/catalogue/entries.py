@@ -74,9 +74,7 @@ def _judged(read: MethodFile, name: str, file: str) -> Entry:
     from garkcli.check.deciding import analyse
     from garkcli.order.certificate import DEFAULT_LIMIT
 
-    analysis = analyse(
-        read.tableau, DEFAULT_LIMIT, read.tolerance, further=read.further
-    )
+    analysis = analyse(read.tableau, DEFAULT_LIMIT, read.tolerance, further=read.further)
     return found_of(read, analysis, name, file)
 
 
@@ -106,11 +104,7 @@ def _claimed(read: MethodFile, method: Shelved) -> Entry:
     from garkcli.catalogue.facts import blank, head, shape
     from garkcli.methodfile.expectations import AtLeast
 
-    entry = {
-        **blank(),
-        **head(read, method.name, method.place),
-        **shape(read),
-    }
+    entry = {**blank(), **head(read, method.name, method.place), **shape(read)}
     for claim in read.claims:
         key = claim.key.replace("-", "_")
         if key not in entry:

@@ -98,15 +98,10 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
     if outcome.analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}")
     method = loads(text, path)
-    return {
-        **found_of(method, outcome.analysis, name, file),
-        "digest": digest(text),
-    }
+    return {**found_of(method, outcome.analysis, name, file), "digest": digest(text)}
 
 
-def found_of(
-    method: MethodFile, analysis: Analysis, name: str, file: str
-) -> Entry:
+def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> Entry:
     """What was found of a method, and what its file says of itself."""
     return {
         **head(method, name, file),
@@ -124,9 +119,7 @@ def _what_fails(outcome: Outcome) -> str:
     if outcome.analysis is None:
         return "it has free parameters"
     failing = [claim for claim in outcome.claims if not claim.holds]
-    told = [
-        f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing
-    ]
+    told = [f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing]
     return "; ".join(told)
 
 

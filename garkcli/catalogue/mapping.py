@@ -6,23 +6,11 @@ The room itself is this mapping, so that whoever imports it in whatever way has 
 
 from __future__ import annotations
 
-from collections.abc import (
-    ItemsView,
-    Iterator,
-    KeysView,
-    Mapping,
-    Sequence,
-    ValuesView,
-)
+from collections.abc import ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
 
-from garkcli.errors import (
-    GarkError,
-    MethodFileError,
-    UsageProblem,
-    did_you_mean,
-)
+from garkcli.errors import GarkError, MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from garkcli.catalogue.facts import Entry
@@ -94,9 +82,7 @@ class Catalogue(ModuleType):
         """Names and methods."""
         return ItemsView(_mapping(self))
 
-    def search(
-        self, *words: str, folder: str = "", **wanted: bool | int | str
-    ) -> list[str]:
+    def search(self, *words: str, folder: str = "", **wanted: bool | int | str) -> list[str]:
         """The names of methods, as ``gark list methods`` chooses them; those of highest order
         first.
 
@@ -135,10 +121,7 @@ def _mapping(catalogue: Catalogue) -> Mapping[str, MethodFile]:
 
 
 def _wanted(
-    given: Mapping[str, bool | int | str],
-    words: Sequence[str],
-    folder: str,
-    known: Entry,
+    given: Mapping[str, bool | int | str], words: Sequence[str], folder: str, known: Entry
 ) -> Wanted:
     """What is wanted of an entry.
 

@@ -7,9 +7,7 @@ from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
 
 
-def claim_of(
-    claim: ClaimText, found: str, holds: bool, why: str = ""
-) -> Claim:
+def claim_of(claim: ClaimText, found: str, holds: bool, why: str = "") -> Claim:
     """A claim with what was found."""
     mark = claim.node.start_mark
     return Claim(

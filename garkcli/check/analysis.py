@@ -100,13 +100,7 @@ class Analysis:
         from garkcli.properties.subject import Subject
 
         tolerance = ZERO if self.tolerance is None else self.tolerance
-        return Subject(
-            self.tableau,
-            self.order.order,
-            self.simplifying,
-            self.limit,
-            tolerance,
-        )
+        return Subject(self.tableau, self.order.order, self.simplifying, self.limit, tolerance)
 
     def _repr_html_(self) -> str:
         html: str = found("report.notebook", "analysis_html")(self)
@@ -121,9 +115,7 @@ class Analysis:
         return f"<Analysis {', '.join(orders)}>"
 
 
-def conjugate_and_pair(
-    tableau: Tableau,
-) -> tuple[Tableau | None, Tableau | None, str]:
+def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""
     try:

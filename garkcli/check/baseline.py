@@ -111,9 +111,7 @@ def _is_whole_claim(claim: object) -> bool:
     return has_name and has_verdict
 
 
-def regressions(
-    report: Mapping[str, Any], baseline: Earlier
-) -> list[Regression]:
+def regressions(report: Mapping[str, Any], baseline: Earlier) -> list[Regression]:
     """Everything in a JSON report that is worse than in ``baseline``; a file that is new must be
     right.
     """

@@ -56,16 +56,12 @@ def check_file(
 
         return check_every(error, limit, want_constants, settings)
     except MethodFileError as error:
-        return Outcome(
-            error.source, error.source, faults=error.faults, text=error.text
-        )
+        return Outcome(error.source, error.source, faults=error.faults, text=error.text)
     return check_method(method, limit, want_constants)
 
 
 def check_method(
-    method: MethodFile,
-    limit: int = DEFAULT_LIMIT,
-    want_constants: bool = False,
+    method: MethodFile, limit: int = DEFAULT_LIMIT, want_constants: bool = False
 ) -> Outcome:
     """Check a method that was read.
 
@@ -82,12 +78,8 @@ def check_method(
         return printed_units(method.printed)
 
     reach = max(limit, highest_order(method.claims) + 1)
-    analysis = analyse(
-        method.tableau, reach, method.tolerance, units, method.further
-    )
-    first_failing = (
-        None if analysis.order.is_lower_bound else analysis.order.order + 1
-    )
+    analysis = analyse(method.tableau, reach, method.tolerance, units, method.further)
+    first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
     if want_constants and first_failing is not None:
         from garkcli.order.constants import error_constants
@@ -101,9 +93,7 @@ def check_method(
         analysis=analysis,
         claims=claims,
         text=method.text,
-        blame=_with_consequences(
-            method, claims, _blame(method, analysis), reach
-        ),
+        blame=_with_consequences(method, claims, _blame(method, analysis), reach),
         constants=constants,
         left_behind=method.left_behind,
     )
@@ -123,9 +113,7 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         claimed = _claimed(method, key)
         if found is None or found.order >= claimed:
             continue
-        is_explained = (
-            method.tolerance is not None and analysis.suggestion is not None
-        )
+        is_explained = method.tolerance is not None and analysis.suggestion is not None
         if found.is_lower_bound or is_explained:
             return None
         return _blame_for(method.tableau, found, claimed, key, derive)
@@ -139,11 +127,7 @@ def _claimed(method: MethodFile, key: str) -> int:
 
 
 def _blame_for(
-    tableau: Tableau,
-    found: AnyOrder,
-    claimed: int,
-    key: str,
-    derive: Derive,
+    tableau: Tableau, found: AnyOrder, claimed: int, key: str, derive: Derive
 ) -> Blame | None:
     """What is to blame for an order that is smaller than claimed."""
     from garkcli.order.blame import blame_of  # paid for by failures alone
@@ -172,36 +156,25 @@ def _blame_of_embedded(method: MethodFile, analysis: Analysis) -> Blame | None:
         return None
     of_weights = [x for x in found.repairs if x.m is None]
     repairs = tuple(replace(x, is_embedded=True) for x in of_weights)
-    return replace(
-        found, repairs=repairs, culprit=None, in_every=(), in_none=()
-    )
+    return replace(found, repairs=repairs, culprit=None, in_every=(), in_none=())
 
 
 def _with_consequences(
-    method: MethodFile,
-    claims: tuple[Claim, ...],
-    blame: Blame | None,
-    limit: int,
+    method: MethodFile, claims: tuple[Claim, ...], blame: Blame | None, limit: int
 ) -> Blame | None:
     """The same, with the other claims that fail for the reason that its first repair removes."""
     if blame is None or not blame.repairs or blame.repairs[0].is_embedded:
         return blame
     others = set()
     for claim in claims:
-        if (
-            not claim.holds
-            and claim.claim in WITHOUT_NODES
-            and claim.claim != blame.of
-        ):
+        if not claim.holds and claim.claim in WITHOUT_NODES and claim.claim != blame.of:
             others.add(claim.claim)
     if not others:
         return blame
     changed = blame.repairs[0].carried_out(method.tableau)
     analysis = analyse(changed, limit, method.tolerance)
     texts = tuple(claim for claim in method.claims if claim.key in others)
-    restored = [
-        claim.claim for claim in verify(texts, analysis) if claim.holds
-    ]
+    restored = [claim.claim for claim in verify(texts, analysis) if claim.holds]
     return replace(blame, restores=tuple(restored))
 
 

@@ -14,9 +14,7 @@ from garkcli.properties.subject import Subject
 def verify_property(claim: ClaimText, subject: Subject) -> Claim:
     """Hold a claim on a property against the truth."""
     verdict = subject.verdict(claim.key)
-    return claim_of(
-        claim, _found(verdict), _holds(claim, verdict, subject), verdict.why
-    )
+    return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.why)
 
 
 def _found(verdict: Verdict) -> str:
@@ -30,9 +28,7 @@ def _found(verdict: Verdict) -> str:
 def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool:
     value, wanted = verdict.value, claim.value
     if isinstance(value, Size):
-        return isinstance(wanted, Measure) and wanted.agrees(
-            value.root, subject.tolerance
-        )
+        return isinstance(wanted, Measure) and wanted.agrees(value.root, subject.tolerance)
     if verdict.is_at_least and isinstance(value, int):
         return agrees(wanted, AtLeast(value))
     return agrees(wanted, value)

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
     from garkcli.order.dense import DenseOrder
 
 
-def verify(
-    claims: tuple[ClaimText, ...], analysis: Analysis
-) -> tuple[Claim, ...]:
+def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:
     """Hold each claim against the truth."""
     return tuple(_held_against(claim, analysis) for claim in claims)
 

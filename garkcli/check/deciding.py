@@ -15,12 +15,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
-from garkcli.order.certificate import (
-    DEFAULT_LIMIT,
-    Order,
-    StageSpans,
-    find_order,
-)
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.conjugate import is_symplectic
@@ -62,29 +57,18 @@ def analyse(
     from garkcli.check.further import further_facts  # few files have them
 
     facts = further_facts(
-        tableau,
-        further,
-        found.order,
-        found.inconsistent,
-        limit,
-        tolerance,
-        spans,
+        tableau, further, found.order, found.inconsistent, limit, tolerance, spans
     )
     return replace(found, embedded=facts.embedded, dense=facts.dense)
 
 
 def _analyse_exactly(
-    tableau: Tableau,
-    limit: int,
-    units: Units | None,
-    spans: StageSpans | None,
+    tableau: Tableau, limit: int, units: Units | None, spans: StageSpans | None
 ) -> Analysis:
     conjugated, both, obstacle = conjugate_and_pair(tableau)
     order = find_order(tableau, limit, spans)
     conditions = simplifying(tableau, limit)
-    conjugate_order = (
-        None if conjugated is None else find_order(conjugated, limit)
-    )
+    conjugate_order = None if conjugated is None else find_order(conjugated, limit)
     pair_order, pair_conditions = None, None
     pair_bound, pair_sharp_bound = None, None
     if both is not None and is_pair_of_itself(tableau, both):
@@ -126,10 +110,7 @@ def _analyse_exactly(
 
 
 def _misprint(
-    tableau: Tableau,
-    order: Order,
-    suggestion: Suggestion | None,
-    units: Units | None,
+    tableau: Tableau, order: Order, suggestion: Suggestion | None, units: Units | None
 ) -> Misprint | None:
     """The one printed value that does not fit the others, where there is one."""
     if suggestion is None or units is None:
@@ -139,13 +120,9 @@ def _misprint(
     return find_misprint(tableau, order, suggestion, units())
 
 
-def _suggestion(
-    tableau: Tableau, order: Order, limit: int
-) -> Suggestion | None:
+def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
     """What to write into a file that looks rounded; only tiny residuals are looked at further."""
-    spelled_out = any(
-        isinstance(space, PointSpace) for space in tableau.spaces
-    )
+    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
     if not spelled_out or order.witness is None:
         return None
     if not within(order.witness.residual, TINY):

@@ -28,9 +28,7 @@ GROWING = {*NUMBERS, *TABLES, "stage-order"}
 """Claims on how many conditions hold."""
 
 
-def verify_every(
-    claims: Sequence[ClaimText], found: EveryValue
-) -> tuple[Claim, ...]:
+def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim, ...]:
     """Hold each claim against what is true for every value."""
     return tuple(_held_against(claim, found) for claim in claims)
 

@@ -62,13 +62,7 @@ class Fact:
     @property
     def is_everywhere(self) -> bool:
         """Whether the answer is the same for every value."""
-        others = (
-            *self.special,
-            *self.elsewhere,
-            *self.open,
-            *self.zeros,
-            *self.unknown,
-        )
+        others = (*self.special, *self.elsewhere, *self.open, *self.zeros, *self.unknown)
         is_one = self.where is None and not self.is_undecided
         return is_one and not others
 
@@ -105,9 +99,7 @@ class Question:
     """
 
     ask: Callable[[Tableau], Any]
-    _none: tuple[type[Exception], ...] = field(
-        default=(GarkError, ZeroDivisionError), repr=False
-    )
+    _none: tuple[type[Exception], ...] = field(default=(GarkError, ZeroDivisionError), repr=False)
 
     def at(self, tableau: Tableau) -> Any:
         """The answer; None where it has no meaning."""
@@ -175,18 +167,14 @@ def _zero_by_zero(
     return Fact(value, open=tuple(open_), elsewhere=tuple(elsewhere))
 
 
-def _asked(
-    question: Question, tableau: Tableau, ring: Parameters
-) -> tuple[Any, list[fmpq_mpoly]]:
+def _asked(question: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
     """The answer with the parameters as unknowns, and what was taken for different from zero."""
     with ring.telling_apart() as told:
         value = question.at(tableau)
     return value, list(told.values())
 
 
-def _asked_in_points(
-    family: EveryFamily, question: Question
-) -> tuple[Any, list[fmpq_mpoly]]:
+def _asked_in_points(family: EveryFamily, question: Question) -> tuple[Any, list[fmpq_mpoly]]:
     """The same with a coordinate for each stage.
 
     Raises:
@@ -206,10 +194,7 @@ NOT_DECIDED = "gark check --set judges single methods"
 
 
 def _one_by_one(
-    family: EveryFamily,
-    question: Question,
-    value: Any,
-    factors: Sequence[fmpq_mpoly],
+    family: EveryFamily, question: Question, value: Any, factors: Sequence[fmpq_mpoly]
 ) -> Fact:
     """The answer at the values at which a polynomial is zero besides."""
     for _, method in family.samples(factors):
@@ -249,9 +234,7 @@ def told(value: object) -> str:
     return "no meaning" if value is None else str(value)
 
 
-def _factors(
-    family: EveryFamily, polynomials: Sequence[fmpq_mpoly]
-) -> list[fmpq_mpoly]:
+def _factors(family: EveryFamily, polynomials: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """The irreducible factors of all of them but of poles, numbers, and what is zero for no value
     that the file admits, each once.
     """

@@ -90,10 +90,7 @@ class EveryFamily:
     def relations(self) -> list[fmpq_mpoly]:
         """What the roots among the coefficients satisfy: zero."""
         ring = self.ring
-        return [
-            ring.context.gen(rule.index) ** rule.degree - rule.instead
-            for rule in ring.rules
-        ]
+        return [ring.context.gen(rule.index) ** rule.degree - rule.instead for rule in ring.rules]
 
     @cached_property
     def weights(self) -> list[fmpq_mpoly]:
@@ -112,25 +109,16 @@ class EveryFamily:
     def lost(self) -> list[fmpq_mpoly]:
         """Those of the weights that may be zero for values that the file admits."""
         poles = {str(f) for p in self.poles for f, _ in p.factor()[1]}
-        return [
-            p
-            for p in self.weights
-            if str(p) not in poles and self.can_vanish(p)
-        ]
+        return [p for p in self.weights if str(p) not in poles and self.can_vanish(p)]
 
-    def common_zeros(
-        self, polynomials: Sequence[fmpq_mpoly | fmpz_mpoly]
-    ) -> tuple[str, ...]:
+    def common_zeros(self, polynomials: Sequence[fmpq_mpoly | fmpz_mpoly]) -> tuple[str, ...]:
         """Polynomials as text, but for what roots of numbers satisfy; none where one of them is
         zero for no value that the file admits.
         """
         ring = self.ring
         texts = []
         for p in polynomials:
-            terms = {
-                tuple(map(int, e[: len(ring.names)])): fmpq(a)
-                for e, a in p.to_dict().items()
-            }
+            terms = {tuple(map(int, e[: len(ring.names)])): fmpq(a) for e, a in p.to_dict().items()}
             reduced = ring.reduced(ring.context.from_dict(terms))
             if not self.can_vanish(reduced):
                 return ()
@@ -233,8 +221,7 @@ class EveryFamily:
         for offset, _ in enumerate(_SAMPLES):
             # each parameter begins elsewhere: equal values are special
             rows = [
-                [c[(offset + k + i) % len(c)] for i in range(len(c))]
-                for k, c in enumerate(choices)
+                [c[(offset + k + i) % len(c)] for i in range(len(c))] for k, c in enumerate(choices)
             ]
             for values in product(*(row[:2] for row in rows)):
                 count += 1
@@ -298,9 +285,7 @@ def every_family(family: Family) -> EveryFamily:
         values[name] = value_of(fixed[name], family.ring, values)
     followed = {name: values[name] for name in fixed}
     ranges = carried(followed, family.ranges, left)
-    if any(
-        least is not None and least == most for least, most in ranges.values()
-    ):
+    if any(least is not None and least == most for least, most in ranges.values()):
         # ranges that meet in one number fix a parameter
         narrowed = {**family.ranges, **ranges}
         return every_family(replace(family, ranges=narrowed))

@@ -7,12 +7,7 @@ from collections.abc import Mapping
 from garkcli.check.every_claims import verify_every
 from garkcli.check.every_value import every_value
 from garkcli.check.outcome import Outcome
-from garkcli.errors import (
-    Fault,
-    GarkError,
-    HasFreeParameters,
-    MethodFileError,
-)
+from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.family import loads_family
 
@@ -21,10 +16,7 @@ MOST_PARAMETERS = 30
 
 
 def check_every(
-    file: HasFreeParameters,
-    limit: int,
-    want_constants: bool,
-    settings: Mapping[str, str],
+    file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
 ) -> Outcome:
     """Check a file whose parameters are free.
 
@@ -35,15 +27,11 @@ def check_every(
         settings: values of other parameters.
     """
     try:
-        family = loads_family(
-            file.text, file.source, settings, is_design=False
-        )
+        family = loads_family(file.text, file.source, settings, is_design=False)
         count = len(family.parameters)
         if count > MOST_PARAMETERS:
             message = f"{count} free parameters (limit {MOST_PARAMETERS})"
-            cure = (
-                "give values to some by --set; gark design asks for one order"
-            )
+            cure = "give values to some by --set; gark design asks for one order"
             return _refused(file, message, cure)
         of_dense = [x for x in family.claims if x.key.startswith("dense")]
         if of_dense:

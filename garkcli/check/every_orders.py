@@ -100,9 +100,7 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
     return EveryOrder(tableau, fact, None, None, None, poles)
 
 
-def _without(
-    family: EveryFamily, fact: Fact, lost: Sequence[fmpq_mpoly]
-) -> Fact:
+def _without(family: EveryFamily, fact: Fact, lost: Sequence[fmpq_mpoly]) -> Fact:
     """The order where there is no such method with a zero of one of some polynomials."""
     if not family.has_one:
         texts = [family.ring.text(p) for p in lost]
@@ -118,11 +116,7 @@ def _place(special: tuple[RealRoot, object]) -> RealRoot:
 
 
 def _higher(
-    family: EveryFamily,
-    whose: Whose,
-    order: int,
-    start: Ideal,
-    zeros: list[fmpq_mpoly],
+    family: EveryFamily, whose: Whose, order: int, start: Ideal, zeros: list[fmpq_mpoly]
 ) -> tuple[Fact, int | None]:
     """The order with the values that have a higher one, and how many dimensions these have."""
     try:
@@ -140,9 +134,7 @@ def _higher(
     return Fact(order, zeros=common), dimension
 
 
-def _real(
-    family: EveryFamily, whose: Whose, ideal: Ideal
-) -> list[tuple[RealRoot, int | None]]:
+def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoot, int | None]]:
     """The real solutions that the file admits, each with its order.
 
     Each is known by the value of its first parameter.
@@ -152,8 +144,7 @@ def _real(
         order = order_of(family.family, whose, solution)
         for root in solution.real:
             values = {
-                name: value_at(solution.values[name], root)
-                for name in family.family.parameters
+                name: value_at(solution.values[name], root) for name in family.family.parameters
             }
             if is_admissible(family.family, solution, root):
                 least = None if order is None else order.order

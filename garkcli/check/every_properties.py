@@ -43,11 +43,7 @@ COMPARING = (
     "stage-order",
 )
 """Those that ask which coefficients are zero or equal."""
-STABLE: dict[str, Wanted] = {
-    "a-stable": "a-stable",
-    "l-stable": "l-stable",
-    "p-stable": "p-stable",
-}
+STABLE: dict[str, Wanted] = {"a-stable": "a-stable", "l-stable": "l-stable", "p-stable": "p-stable"}
 """Those whose values are found by a decomposition of the plane."""
 
 
@@ -76,9 +72,7 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
 
 def _is_complete(tableau: Tableau) -> bool:
     colours = range(tableau.size)
-    return all(
-        tableau.block(l, m) is not None for l in colours for m in colours
-    )
+    return all(tableau.block(l, m) is not None for l in colours for m in colours)
 
 
 def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
@@ -111,9 +105,7 @@ def _stable(family: EveryFamily, wanted: Wanted) -> Fact:
 
 
 def _of_set(
-    family: EveryFamily,
-    found: tuple[Interval, ...],
-    unknown: tuple[RealRoot, ...] = (),
+    family: EveryFamily, found: tuple[Interval, ...], unknown: tuple[RealRoot, ...] = ()
 ) -> Fact:
     """What holds on a set: for every value that the file admits, for none, or on the set."""
     if not found:
@@ -133,8 +125,7 @@ def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
     is_whole = _same(first.start, least) and _same(last.end, greatest)
     # between two intervals there is nothing but a pole
     are_joined = all(
-        left.end == right.start and left.end in poles
-        for left, right in pairwise(found)
+        left.end == right.start and left.end in poles for left, right in pairwise(found)
     )
     return has_start and has_end and is_whole and are_joined
 
@@ -150,9 +141,7 @@ def _roots(p: fmpq_mpoly) -> Iterator[RealRoot]:
         yield root
 
 
-def _by_signs(
-    family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[object]
-) -> Fact:
+def _by_signs(family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[object]) -> Fact:
     """What hangs on the signs of rational functions of the one parameter."""
     question = Question(ask)
     critical: list[Polynomial] = []
@@ -201,10 +190,7 @@ def _algebraic(tableau: Tableau) -> list[object]:
     colours = range(tableau.size)
     for l in colours:
         blocks = [symplectic_defect(tableau, l, m) for m in colours]
-        rows += [
-            tuple(chain.from_iterable(parts))
-            for parts in zip(*blocks, strict=True)
-        ]
+        rows += [tuple(chain.from_iterable(parts)) for parts in zip(*blocks, strict=True)]
     return [*characteristic_coefficients(tuple(rows)), *_weights(tableau)]
 
 

@@ -31,9 +31,7 @@ MOST_TERMS = 300
 """A polynomial that may become one of more terms in u is taken for one that may be zero."""
 
 
-def can_vanish(
-    p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]
-) -> bool:
+def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
     """Whether a polynomial may have a real zero within the ranges of its parameters.
 
     Args:
@@ -50,9 +48,7 @@ def can_vanish(
     return any(_can_vanish(factor, ring, ranges) for factor, _ in factors)
 
 
-def _can_vanish(
-    p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]
-) -> bool:
+def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
     """The same of an irreducible polynomial."""
     used = _used(p)
     names = [ring.names[k] for k in used]
@@ -111,10 +107,7 @@ def _charts(ends: Range) -> Iterator[_Chart]:
 
 
 def _may_vanish(
-    p: fmpq_mpoly,
-    used: Sequence[int],
-    inside: Sequence[Range],
-    case: Sequence[_Chart],
+    p: fmpq_mpoly, used: Sequence[int], inside: Sequence[Range], case: Sequence[_Chart]
 ) -> bool:
     """Whether coefficients in u leave it open that there is a zero."""
     found = {}
@@ -133,9 +126,7 @@ def _may_vanish(
     return opposes or not are_signed_alike
 
 
-def _rewritten(
-    p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]
-) -> fmpq_mpoly:
+def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fmpq_mpoly:
     """A polynomial in u, without the denominator that is positive."""
     context = p.context()
     u = context.gens()
@@ -154,9 +145,7 @@ def _rewritten(
 
 
 def carried(
-    fixed: Mapping[str, object],
-    ranges: Mapping[str, Range],
-    left: Sequence[str],
+    fixed: Mapping[str, object], ranges: Mapping[str, Range], left: Sequence[str]
 ) -> dict[str, Range]:
     """The ranges of the parameters that are left, with what those of the others make of them.
 
@@ -186,9 +175,7 @@ def carried(
     return found
 
 
-def _affine(
-    name: str, value: object, left: Sequence[str]
-) -> tuple[str | None, fmpq, fmpq]:
+def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, fmpq, fmpq]:
     """The one parameter in a value, its factor, and what is added; None in a number."""
     if isinstance(value, fmpq):
         return None, ZERO, value
@@ -233,7 +220,6 @@ def _common(name: str, one: Range, other: Range) -> Range:
     greatest = min(ends, default=None)
     if least is not None and greatest is not None and greatest < least:
         raise MethodError(
-            f"the ranges leave no value of {name}",
-            "change one of them, or what fixes the others",
+            f"the ranges leave no value of {name}", "change one of them, or what fixes the others"
         )
     return least, greatest

@@ -17,10 +17,7 @@ def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
     """The rules of a ring in one without some parameters."""
     shift = len(old.names) - len(new.names)
     for rule in old.rules:
-        terms = {
-            tuple(map(int, e[shift:])): a
-            for e, a in rule.instead.to_dict().items()
-        }
+        terms = {tuple(map(int, e[shift:])): a for e, a in rule.instead.to_dict().items()}
         instead = new.context.from_dict(terms)
         yield Rule(rule.index - shift, rule.degree, instead)
 
@@ -55,9 +52,7 @@ def is_linear(p: fmpq_mpoly, ring: Parameters, name: str) -> bool:
     return p.degrees()[index] == 1 and p.derivative(index).is_constant()
 
 
-def value_of(
-    p: fmpq_mpoly, ring: Parameters, values: dict[str, object]
-) -> object:
+def value_of(p: fmpq_mpoly, ring: Parameters, values: dict[str, object]) -> object:
     """A polynomial at values of the unknowns that it has."""
     total: object = fmpq(0)
     for exponents, a in p.to_dict().items():
@@ -69,9 +64,7 @@ def value_of(
     return total
 
 
-def moved_nonzero(
-    family: Family, values: dict[str, object]
-) -> tuple[fmpq_mpoly, ...]:
+def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly, ...]:
     """What a family divides by and is not seen in it, at values of its unknowns.
 
     Raises:
@@ -104,8 +97,7 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
         degree = int(radical.relation.degrees()[index])
         if not _is_new(family.radicals[:number], radical):
             raise MethodError(
-                f"{radical.text} is a number of the roots before it",
-                "write it by these",
+                f"{radical.text} is a number of the roots before it", "write it by these"
             )
         yield Rule(
             ring.names.index(radical.name),

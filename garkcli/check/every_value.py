@@ -19,11 +19,7 @@ from garkcli.exact.parametric import Parametric
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.order.nonautonomous import with_time
 from garkcli.order.simplifying import simplifying
-from garkcli.tableau.conjugate import (
-    are_opposite,
-    is_symplectic,
-    symplectic_defect,
-)
+from garkcli.tableau.conjugate import are_opposite, is_symplectic, symplectic_defect
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
@@ -98,9 +94,7 @@ class EveryValue:
         tableau = with_weights(self.file.tableau, rows)
         return self._with_time(self.embedded, tableau)
 
-    def _with_time(
-        self, order: EveryOrder, tableau: Tableau
-    ) -> EveryOrder | None:
+    def _with_time(self, order: EveryOrder, tableau: Tableau) -> EveryOrder | None:
         timed = with_time(tableau)
         if timed is None or self.is_consistent:
             return None if timed is None else order
@@ -121,11 +115,7 @@ class EveryValue:
     def holding(self) -> list[str]:
         """The properties that are told, of those that hold for every value."""
         found = {key: self.verdict(key) for key in TOLD}
-        return [
-            key
-            for key, fact in found.items()
-            if fact.is_everywhere and fact.value is True
-        ]
+        return [key for key, fact in found.items() if fact.is_everywhere and fact.value is True]
 
 
 def every_value(file: FamilyFile, limit: int) -> EveryValue:
@@ -175,9 +165,7 @@ def _embedded(file: FamilyFile, limit: int) -> EveryOrder | None:
     return _order_with(file, with_weights(file.tableau, rows), limit)
 
 
-def _again(
-    text: str, source: str, settings: dict[str, str], limit: int
-) -> EveryValue:
+def _again(text: str, source: str, settings: dict[str, str], limit: int) -> EveryValue:
     file = loads_family(text, source, settings, is_design=False)
     return every_value(file, limit)
 
@@ -187,9 +175,7 @@ def _symplectic(family: EveryFamily) -> Fact:
     found = find(family, is_symplectic)
     if found.value is not False or not found.open:
         return found
-    ideal = Ideal(family.ring, family.poles).with_zeros(
-        [*family.relations, *_defects(family)]
-    )
+    ideal = Ideal(family.ring, family.poles).with_zeros([*family.relations, *_defects(family)])
     if ideal.is_everything:
         return Fact(False)
     return Fact(False, zeros=family.common_zeros(ideal.polynomials))
@@ -201,10 +187,7 @@ def _defects(family: EveryFamily) -> list[fmpq_mpoly]:
     numbers: list[object] = []
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
-            if one.space == other.space and {one.part, other.part} == {
-                "q",
-                "p",
-            }:
+            if one.space == other.space and {one.part, other.part} == {"q", "p"}:
                 numbers += [x - y for x, y in zip(one.b, other.b, strict=True)]
             if not are_opposite(one, other):
                 continue

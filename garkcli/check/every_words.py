@@ -7,11 +7,7 @@ from collections.abc import Callable, Sequence, Sized
 from garkcli.check.every_facts import Fact, told
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 
 DIGITS = 12
@@ -20,9 +16,7 @@ MOST = 4
 """Most single values and polynomials that are named; the others are counted."""
 
 
-def fact_text(
-    fact: Fact, name: str, text: Callable[[object], str] = told
-) -> str:
+def fact_text(fact: Fact, name: str, text: Callable[[object], str] = told) -> str:
     """An answer with its exceptions.
 
     Args:

@@ -84,9 +84,7 @@ def claim_witness(outcome: Outcome, claim: str) -> str:
     return witness_text(order.witness, tableau.size > 1)
 
 
-def _order_of(
-    analysis: Analysis, claim: str
-) -> tuple[AnyOrder | None, Tableau | None]:
+def _order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau | None]:
     """The order that a claim is on, and the tableau that has it."""
     embedded = analysis.embedded
     if embedded is not None and claim == "embedded-order":

@@ -101,9 +101,7 @@ def _missing_claims(outcome: Outcome) -> Iterator[Part]:
 KINDS = {
     "unreadable": Kind("the file cannot be read as a method", _unreadable),
     "claim": Kind("a claim under expect does not hold", _failed_claims),
-    "no-claim": Kind(
-        "the file lacks a claim that is required", _missing_claims
-    ),
+    "no-claim": Kind("the file lacks a claim that is required", _missing_claims),
 }
 """Every kind of finding; formats and their documentation are made from it."""
 
@@ -115,14 +113,7 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
         for part in kind.find(outcome):
             digest = fingerprint(f"{file}\0{rule}\0{part.key}")
             yield Finding(
-                rule,
-                file,
-                part.line,
-                part.column,
-                part.message,
-                part.help,
-                digest,
-                code=part.code,
+                rule, file, part.line, part.column, part.message, part.help, digest, code=part.code
             )
 
 

@@ -10,21 +10,10 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import StageSpans, find_order
-from garkcli.order.dense import (
-    DenseOrder,
-    Slopes,
-    dense_order,
-    ends_at_step,
-    slopes,
-)
+from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.estimator import Estimator, Orders, estimator
 from garkcli.order.nonautonomous import with_time
-from garkcli.tableau.embedded import (
-    DenseOutput,
-    Further,
-    Weights,
-    with_weights,
-)
+from garkcli.tableau.embedded import DenseOutput, Further, Weights, with_weights
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -92,9 +81,7 @@ class _Method:
     tolerance: fmpq | None
     spans: StageSpans | None
 
-    def find(
-        self, tableau: Tableau, spans: StageSpans | None = None
-    ) -> AnyOrder:
+    def find(self, tableau: Tableau, spans: StageSpans | None = None) -> AnyOrder:
         """The order of another tableau with the same coefficients."""
         if self.tolerance is None:
             return find_order(tableau, self.limit, spans)
@@ -142,9 +129,7 @@ def _embedded(method: _Method, weights: Weights) -> EmbeddedFacts:
     elif method.inconsistent:
         timed_order = method.find(timed)
     orders = _orders(order, method.order, method.limit)
-    found = estimator(
-        method.tableau, weights, orders, method.tolerance, method.spans
-    )
+    found = estimator(method.tableau, weights, orders, method.tolerance, method.spans)
     return EmbeddedFacts(tableau, order, timed_order, found)
 
 
@@ -158,9 +143,7 @@ def _orders(one: AnyOrder, other: AnyOrder, limit: int) -> Orders:
 def _dense(method: _Method, dense: DenseOutput) -> DenseFacts:
     tableau, tolerance = method.tableau, method.tolerance
     return DenseFacts(
-        order=dense_order(
-            tableau, dense, method.limit, tolerance, method.spans
-        ),
+        order=dense_order(tableau, dense, method.limit, tolerance, method.spans),
         degree=dense.degree,
         ends_at_step=ends_at_step(tableau, dense, tolerance or ZERO),
         slopes=slopes(tableau, dense, tolerance),

@@ -19,13 +19,7 @@ from garkcli.glossary.faults import UNKNOWN, code_of
 from garkcli.glossary.fields import field_entries
 from garkcli.glossary.registry import plain
 
-__all__ = [
-    "Meaning",
-    "claim_meaning",
-    "known_words",
-    "meanings",
-    "term_meaning",
-]
+__all__ = ["Meaning", "claim_meaning", "known_words", "meanings", "term_meaning"]
 _FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")
 """Where the label of a line ends: a number or a tree follows."""
 _SURELY = 8

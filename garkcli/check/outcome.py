@@ -100,11 +100,7 @@ class Outcome:
         if self.needs_claims and not self.claims:
             return ("the file makes no claim",)
         made = {claim.claim for claim in self.claims}
-        return tuple(
-            f"the file does not claim {key}"
-            for key in self.needed
-            if key not in made
-        )
+        return tuple(f"the file does not claim {key}" for key in self.needed if key not in made)
 
     @property
     def ok(self) -> bool:

@@ -33,9 +33,7 @@ class MethodProof:
     def is_own_pair(self) -> bool:
         """Whether the method is partitioned and the pair that is made of it."""
         both = self.pair
-        return both is not None and is_pair_of_itself(
-            self.method.tableau, both.tableau
-        )
+        return both is not None and is_pair_of_itself(self.method.tableau, both.tableau)
 
     def __repr__(self) -> str:
         proofs = {"conjugate": self.conjugate, "pair": self.pair}
@@ -46,9 +44,7 @@ class MethodProof:
         return f"<MethodProof {', '.join(orders)}>"
 
 
-def prove_method(
-    method: GarkMethod, limit: int = DEFAULT_LIMIT
-) -> MethodProof:
+def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
     """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
 
     Args:

@@ -84,12 +84,7 @@ def _term(word: str) -> Meaning:
 def term_meaning(term: Term) -> Meaning:
     """A term of the glossary as the meaning of a word."""
     return Meaning(
-        "term",
-        term.name,
-        term.text,
-        formula=term.formula,
-        source=term.source,
-        see=term.see,
+        "term", term.name, term.text, formula=term.formula, source=term.source, see=term.see
     )
 
 
@@ -139,12 +134,7 @@ def _key(kind: str, keys: Mapping[str, Key], path: str) -> Meaning:
     if isinstance(key.default, bool):
         default = default.lower()
     return Meaning(
-        f"key of {files}",
-        path,
-        key.text,
-        default=default,
-        example=key.example,
-        source=key.page,
+        f"key of {files}", path, key.text, default=default, example=key.example, source=key.page
     )
 
 
@@ -157,17 +147,11 @@ def _choices() -> Iterator[Sense]:
     from garkcli.problems.builtin import PROBLEMS
     from garkcli.transfer import SUMMARIES
 
-    families = {
-        name: f"{sentence(x.summary)} Order {x.order}."
-        for name, x in FAMILIES.items()
-    }
+    families = {name: f"{sentence(x.summary)} Order {x.order}." for name, x in FAMILIES.items()}
     yield _listed("family of methods", families)
     yield _listed("transfer rule", SUMMARIES)
     for kind, schemes in (("compose", SCHEMES), ("splitting", SPLITTINGS)):
-        texts = {
-            name: f"{sentence(x.summary)} Order {x.order}."
-            for name, x in schemes.items()
-        }
+        texts = {name: f"{sentence(x.summary)} Order {x.order}." for name, x in schemes.items()}
         sources = {name: x.reference for name, x in schemes.items()}
         yield _listed(f"scheme of {kind}", texts, sources)
     shapes = {name: find_shape(name).summary for name in SHAPES}
@@ -177,11 +161,7 @@ def _choices() -> Iterator[Sense]:
     yield _listed("problem", problems)
 
 
-def _listed(
-    kind: str,
-    texts: Mapping[str, str],
-    sources: Mapping[str, str] | None = None,
-) -> Sense:
+def _listed(kind: str, texts: Mapping[str, str], sources: Mapping[str, str] | None = None) -> Sense:
     """Words that ``gark list`` shows with their texts."""
 
     def mean(name: str) -> Meaning:
@@ -211,12 +191,7 @@ def fault_meaning(code: str) -> Meaning:
     """What an error means."""
     kind = by_code()[code]
     return Meaning(
-        "error",
-        code,
-        kind.text,
-        example=kind.example,
-        cure=kind.cure,
-        source="docs/bad-input.md",
+        "error", code, kind.text, example=kind.example, cure=kind.cure, source="docs/bad-input.md"
     )
 
 

@@ -14,14 +14,7 @@ from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import find
 
-ORDERS = (
-    "order",
-    "conjugate-order",
-    "pair-order",
-    "symplectic",
-    "embedded-order",
-    "dense-order",
-)
+ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
 """What is always worth claiming."""
 OF_BLOCKS = ("B", "C", "D")
 DIGITS = 12

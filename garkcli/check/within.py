@@ -29,11 +29,7 @@ from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight, is_admissible
 from garkcli.order.defects import Defects, is_symplectic_within
-from garkcli.order.propagation import (
-    ConjugateRounding,
-    Propagation,
-    conjugate_rounding,
-)
+from garkcli.order.propagation import ConjugateRounding, Propagation, conjugate_rounding
 from garkcli.order.rounded import Effect, RoundedOrder, find_order_within
 from garkcli.order.simplifying import Simplifying, Table, simplifying
 from garkcli.order.suggestion import suggest_wider
@@ -113,9 +109,7 @@ class _Derived:
     tolerance: fmpq
 
     @staticmethod
-    def of(
-        tableau: Tableau, made: Propagation | None, tolerance: fmpq, limit: int
-    ) -> _Derived:
+    def of(tableau: Tableau, made: Propagation | None, tolerance: fmpq, limit: int) -> _Derived:
         """Its order within what rounding explains; ``made`` is None where nothing is known."""
         effect: Effect = made.effect if made else _unknown
         order = find_order_within(tableau, tolerance, limit, effect)
@@ -126,10 +120,7 @@ class _Derived:
 
 
 def _conjugate_part(
-    conjugated: Tableau | None,
-    rounding: ConjugateRounding | None,
-    tolerance: fmpq,
-    limit: int,
+    conjugated: Tableau | None, rounding: ConjugateRounding | None, tolerance: fmpq, limit: int
 ) -> _Derived | None:
     if conjugated is None:
         return None
@@ -179,9 +170,7 @@ def _agreeing(
     if both is not None and not tableau.is_partitioned:
         both = replace(both, order=_at_most(both.order, order, 0))
         if hat is not None:
-            both = replace(
-                both, order=_at_most(both.order, hat.order, tableau.size)
-            )
+            both = replace(both, order=_at_most(both.order, hat.order, tableau.size))
     return hat, both
 
 
@@ -211,15 +200,11 @@ def _like(derived: _Derived | None, own: RoundedOrder) -> _Derived | None:
     if derived is None:
         return None
     found = derived.order
-    is_same = (
-        found.order == own.order and found.is_lower_bound == own.is_lower_bound
-    )
+    is_same = found.order == own.order and found.is_lower_bound == own.is_lower_bound
     return derived if is_same else replace(derived, order=own)
 
 
-def _at_most(
-    pair_order: RoundedOrder, part: RoundedOrder, shift: int
-) -> RoundedOrder:
+def _at_most(pair_order: RoundedOrder, part: RoundedOrder, shift: int) -> RoundedOrder:
     """The order of the pair, no more than that of a part whose colours begin at ``shift``."""
     if part.order > pair_order.order:
         return pair_order
@@ -234,19 +219,11 @@ def _at_most(
         sizes = (*sizes, abs(to_ball(witness.residual)))
         means = (*means, part.means[-1])
     return RoundedOrder(
-        part.order,
-        pair_order.tolerance,
-        witness,
-        part.undecided,
-        sizes,
-        means,
-        part.doubt,
+        part.order, pair_order.tolerance, witness, part.undecided, sizes, means, part.doubt
     )
 
 
-def _no_earlier(
-    found: RoundedOrder, own: RoundedOrder, conjugated: Tableau
-) -> RoundedOrder:
+def _no_earlier(found: RoundedOrder, own: RoundedOrder, conjugated: Tableau) -> RoundedOrder:
     """The order of the conjugate: below 2 it is that of the method.
 
     Both have the weights b, and b_lᵀ Â^{l,m} 𝟙 = (b_lᵀ𝟙)(b_mᵀ𝟙) − b_mᵀ A^{m,l} 𝟙.
@@ -258,14 +235,10 @@ def _no_earlier(
         tree = Tree(tree.branches[0].root, (Tree(tree.root),))
     if not is_admissible(conjugated, tree):
         return found
-    witness = Witness(
-        tree, elementary_weight(conjugated, tree), own.witness.required
-    )
+    witness = Witness(tree, elementary_weight(conjugated, tree), own.witness.required)
     sizes = (*found.sizes[: own.order], abs(to_ball(witness.residual)))
     means = (*found.means[: own.order], own.means[-1])
-    return RoundedOrder(
-        own.order, found.tolerance, witness, False, sizes, means
-    )
+    return RoundedOrder(own.order, found.tolerance, witness, False, sizes, means)
 
 
 def _shifted(tree: Tree, shift: int) -> Tree:
@@ -284,9 +257,7 @@ def _with_own(both: Simplifying, own: Simplifying) -> Simplifying:
 
 
 def _conjugate_nodes(
-    derived: _Derived | None,
-    symplectic: bool,
-    inconsistent: tuple[tuple[int, int], ...],
+    derived: _Derived | None, symplectic: bool, inconsistent: tuple[tuple[int, int], ...]
 ) -> tuple[tuple[int, int], ...]:
     """The blocks with Â^{l,m} 𝟙 ≠ c^{l}."""
     if derived is None:
@@ -296,9 +267,7 @@ def _conjugate_nodes(
     return inconsistent_blocks(derived.tableau, derived.tolerance)
 
 
-def _implied(
-    tableau: Tableau, B: tuple[int, ...], order: int, tolerance: fmpq
-) -> tuple[int, ...]:
+def _implied(tableau: Tableau, B: tuple[int, ...], order: int, tolerance: fmpq) -> tuple[int, ...]:
     """B as far as the order implies it: b c^(k−1) is off by what the rounding of c adds.
 
     That is at most t (k−1) Σ |b_i| (|c_i| + t)^(k−2).

@@ -5,12 +5,7 @@ from __future__ import annotations
 import click
 
 from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, Output, common, settings_option
 
 
 @click.command("certificate", context_settings=CONTEXT)

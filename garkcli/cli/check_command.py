@@ -49,9 +49,7 @@ if TYPE_CHECKING:
     help="Every property that a file may claim, with what decides it.",
 )
 @click.option(
-    "--explain",
-    metavar="KEY",
-    help="What a claim means, with its source; no FILE is needed.",
+    "--explain", metavar="KEY", help="What a claim means, with its source; no FILE is needed."
 )
 @click.option(
     "--baseline",
@@ -60,9 +58,7 @@ if TYPE_CHECKING:
     help="Fail only on what is worse than in an earlier JSON report.",
 )
 @click.option(
-    "--require-claims",
-    is_flag=True,
-    help="A file that makes no claim under `expect` fails.",
+    "--require-claims", is_flag=True, help="A file that makes no claim under `expect` fails."
 )
 @click.option(
     "-j",
@@ -73,9 +69,7 @@ if TYPE_CHECKING:
     metavar="N",
     help="Check N files at a time; 0 for as many as there are processors.",
 )
-@digits_option(
-    "In the text N significant digits instead of exact values and residuals."
-)
+@digits_option("In the text N significant digits instead of exact values and residuals.")
 @settings_option
 @common(["auto", *FORMATS])
 def command(
@@ -146,9 +140,7 @@ class Wanted:
     needed: tuple[str, ...] = ()
 
 
-def _take_defaults(
-    project: Project, options: dict[str, Any], output: Output
-) -> None:
+def _take_defaults(project: Project, options: dict[str, Any], output: Output) -> None:
     """What the project says in place of options that are not given."""
     source = click.get_current_context().get_parameter_source
     for name, value in project.defaults.items():
@@ -162,10 +154,7 @@ def _take_defaults(
 
 
 def _outcomes(
-    files: tuple[str, ...],
-    settings: Mapping[str, str],
-    wanted: Wanted,
-    output: Output,
+    files: tuple[str, ...], settings: Mapping[str, str], wanted: Wanted, output: Output
 ) -> list[Outcome]:
     """The outcome of each file that is meant, in order."""
     from garkcli.cli.parallel import check_files
@@ -175,9 +164,7 @@ def _outcomes(
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
     jobs = wanted.jobs or os.cpu_count() or 1
-    running = check_files(
-        paths, wanted.max_order, wanted.error_constants, jobs, settings
-    )
+    running = check_files(paths, wanted.max_order, wanted.error_constants, jobs, settings)
     shows_bar = output.verbosity >= 0
     outcomes = tracked(running, len(paths), "checking", shows_bar)
     return [_as_wanted(outcome, wanted) for outcome in outcomes]
@@ -193,9 +180,7 @@ def _as_wanted(outcome: Outcome, wanted: Wanted) -> Outcome:
     )
 
 
-def _compare(
-    outcomes: Sequence[Outcome], earlier: Earlier, output: Output
-) -> int:
+def _compare(outcomes: Sequence[Outcome], earlier: Earlier, output: Output) -> int:
     """Write what is worse than in an earlier report."""
     from garkcli.check.baseline import regressions
     from garkcli.report import check_baseline
@@ -209,9 +194,7 @@ def _compare(
 def _no_file() -> click.MissingParameter:
     """What click says where a required argument is missing."""
     return click.MissingParameter(
-        ctx=click.get_current_context(),
-        param_hint="'FILE...'",
-        param_type="argument",
+        ctx=click.get_current_context(), param_hint="'FILE...'", param_type="argument"
     )
 
 

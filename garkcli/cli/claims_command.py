@@ -25,10 +25,7 @@ if TYPE_CHECKING:
     help="Put the claims into the files; nothing else of their text is touched.",
 )
 @click.option(
-    "--all",
-    "wants_all",
-    is_flag=True,
-    help="Everything that a file may claim and that is decided.",
+    "--all", "wants_all", is_flag=True, help="Everything that a file may claim and that is decided."
 )
 @click.option(
     "--key",
@@ -39,11 +36,7 @@ if TYPE_CHECKING:
 )
 @common(["text", "json"])
 def command(
-    files: tuple[str, ...],
-    is_written: bool,
-    wants_all: bool,
-    keys: tuple[str, ...],
-    output: Output,
+    files: tuple[str, ...], is_written: bool, wants_all: bool, keys: tuple[str, ...], output: Output
 ) -> int:
     """What is true of a method, as a file claims it under `expect`.
 
@@ -80,9 +73,7 @@ def _refuse_names(paths: list[str]) -> None:
 
     for path in paths:
         if find_named(path) is not None:
-            message = (
-                f"--write needs a file, and {path} is a name of the catalogue"
-            )
+            message = f"--write needs a file, and {path} is a name of the catalogue"
             raise UsageProblem(message, "give the path of the file")
 
 
@@ -95,9 +86,7 @@ def _refuse_unknown(keys: tuple[str, ...]) -> None:
             raise UsageProblem(f"no claim {key!r}", cure)
 
 
-def _claims(
-    outcome: Outcome, wants_all: bool, keys: tuple[str, ...]
-) -> TrueClaims:
+def _claims(outcome: Outcome, wants_all: bool, keys: tuple[str, ...]) -> TrueClaims:
     """What is true of a method, of that what is asked for.
 
     Raises:
@@ -120,10 +109,7 @@ def _claims(
 
 
 def _wanted(
-    outcome: Outcome,
-    analysis: Analysis,
-    wants_all: bool,
-    keys: tuple[str, ...],
+    outcome: Outcome, analysis: Analysis, wants_all: bool, keys: tuple[str, ...]
 ) -> list[str]:
     """The claims that are asked for."""
     from garkcli.check.true_claims import usual_keys

@@ -14,17 +14,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 _OPTIONS = (
     click.option(
-        "--conjugate",
-        "which",
-        flag_value="conjugate",
-        help="Of the symplectic conjugate of FILE.",
+        "--conjugate", "which", flag_value="conjugate", help="Of the symplectic conjugate of FILE."
     ),
-    click.option(
-        "--pair",
-        "which",
-        flag_value="pair",
-        help="Of the symplectic pair of FILE.",
-    ),
+    click.option("--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE."),
 )
 
 

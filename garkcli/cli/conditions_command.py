@@ -18,11 +18,7 @@ from garkcli.cli.options import (
     document_option,
     settings_option,
 )
-from garkcli.cli.tree_options import (
-    colours_option,
-    kind_asked,
-    symplectic_options,
-)
+from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
 from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
@@ -53,9 +49,7 @@ if TYPE_CHECKING:
     help="A row for each colouring, or a row for all of them (without FILE).",
 )
 @companion_options
-@click.option(
-    "--failing", is_flag=True, help="Only conditions of FILE that do not hold."
-)
+@click.option("--failing", is_flag=True, help="Only conditions of FILE that do not hold.")
 @click.option(
     "--sort",
     type=click.Choice(["tree", "worst"]),
@@ -63,9 +57,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Order of the rows; worst: the largest residual first.",
 )
-@digits_option(
-    "Values and residuals in decimals of N digits; by default exact."
-)
+@digits_option("Values and residuals in decimals of N digits; by default exact.")
 @document_option
 @symplectic_options
 @settings_option
@@ -86,25 +78,17 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     from garkcli.report import conditions as report
 
     wanted = Wanted(**options)
-    asked = kind_asked(
-        wanted.symplectic, wanted.kind, wanted.members, output.format
-    )
+    asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
     _check(wanted, asked)
     if settings and wanted.file is None:
-        raise UsageProblem(
-            "--set is for the parameters of FILE", "name a file"
-        )
+        raise UsageProblem("--set is for the parameters of FILE", "name a file")
     valued = None
     if wanted.file is not None:
         valued = _chosen(wanted.file, settings, wanted)
     subject = None
     if asked is not None:
         subject = _subject(asked, wanted, valued)
-    if (
-        valued is not None
-        and subject is not None
-        and subject.tableau is not None
-    ):
+    if valued is not None and subject is not None and subject.tableau is not None:
         valued = replace(valued, tableau=subject.tableau)
     if subject is not None:
         rows = _independent(subject, wanted.members, valued)
@@ -115,13 +99,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     rows = _arranged(rows, wanted.sort, wanted.digits)
     rows = tracked(rows, None, "conditions", output.may_show_progress)
     pieces = report.render(
-        rows,
-        output.format,
-        output.paint,
-        output.width,
-        wanted.document,
-        subject,
-        valued,
+        rows, output.format, output.paint, output.width, wanted.document, subject, valued
     )
     output.write(pieces)
     return 0
@@ -196,9 +174,7 @@ def _refuse(given: Mapping[str, object]) -> None:
     """
     for option, value in given.items():
         if value:
-            raise UsageProblem(
-                f"{option}: values are those of a method", "give a FILE"
-            )
+            raise UsageProblem(f"{option}: values are those of a method", "give a FILE")
 
 
 def _arranged(
@@ -211,11 +187,7 @@ def _arranged(
         yield row if digits is None else replace(row, digits=digits)
 
 
-def _chosen(
-    file: str,
-    settings: Mapping[str, str],
-    wanted: Wanted,
-) -> Valued:
+def _chosen(file: str, settings: Mapping[str, str], wanted: Wanted) -> Valued:
     from garkcli.methodfile.load import load
     from garkcli.report.conditions_data import Valued
 
@@ -244,10 +216,7 @@ def _for_every_value(
 
 def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
     """What the conditions are independent for: a kind of methods, or the one of a file."""
-    from garkcli.report.symplectic_subject import (
-        subject_of_kind,
-        subject_of_method,
-    )
+    from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
 
     if valued is None:
         return subject_of_kind(asked, wanted.colours, wanted.orders)
@@ -257,9 +226,7 @@ def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
     return subject_of_method(valued.tableau, wanted.orders)
 
 
-def _independent(
-    subject: Subject, members: bool, valued: Valued | None
-) -> Iterator[ConditionRow]:
+def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
     """A row for each class, with its value where there is a method."""
     from itertools import tee
 
@@ -270,13 +237,7 @@ def _independent(
     values = _values_at(trees, valued)
     for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
-        yield ConditionRow(
-            tree,
-            False,
-            condition,
-            stands_for=len(found.members),
-            members=shown,
-        )
+        yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
 
 
 def _values_at(

@@ -19,12 +19,7 @@ from garkcli.errors import HasFreeParameters, UsageProblem
 
 @click.command("conjugate", context_settings=CONTEXT)
 @file_argument()
-@click.option(
-    "--pair",
-    "is_pair",
-    is_flag=True,
-    help="The symplectic pair, 2N colours, instead.",
-)
+@click.option("--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead.")
 @digits_option("Decimals of N digits; by default exact, or 17 digits.")
 @document_option
 @settings_option
@@ -58,9 +53,7 @@ def command(
     from garkcli.cli.rendering import write_tableau
 
     if method.further:
-        output.note(
-            f"the embedded weights and the dense output are left out: the {which} has none"
-        )
+        output.note(f"the embedded weights and the dense output are left out: the {which} has none")
     if output.format != "yaml" or digits is not None or document:
         write_tableau(made, name, digits, output, method.tolerance, document)
         return 0

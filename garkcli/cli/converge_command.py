@@ -8,33 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.converging import (
-    Problems,
-    Wanted,
-    compared,
-    hint_rounding,
-    tested,
-)
+from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
 from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    refuse_settings_of_several,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, Output, common, refuse_settings_of_several, settings_option
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
-from garkcli.cli.problems import (
-    ProblemType,
-    note_changing,
-    problem_options,
-)
-from garkcli.cli.stepping import (
-    given_positive,
-    positive,
-    refuse_misplaced,
-    stepped_tableau,
-)
+from garkcli.cli.problems import ProblemType, note_changing, problem_options
+from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, stepped_tableau
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
 
@@ -81,18 +60,13 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
     type=click.Choice(AXES),
     help="What plots have below: h, or evaluations with --work; seconds depend on the machine.",
 )
-@click.option(
-    "--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved
-)
+@click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
 @plot_option("Draw into FILE: .png, .svg or .pdf.")
 @settings_option
 @common(["text", "json", "csv"])
 def command(
-    files: tuple[str, ...],
-    settings: dict[str, str],
-    output: Output,
-    **options: Any,
+    files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
 ) -> int:
     """The convergence test: errors over step sizes, observed against predicted order, energy error.
 
@@ -154,9 +128,7 @@ def _check(asked: Asked) -> None:
     """
     if asked.named is not None:
         of_oscillator = {"--omega": asked.omega, "--split": asked.split}
-        refuse_misplaced(
-            asked.named, asked.seed, asked.stiffness, of_oscillator
-        )
+        refuse_misplaced(asked.named, asked.seed, asked.stiffness, of_oscillator)
     elif asked.stiffness is not None:
         raise UsageProblem(
             "--stiffness is for a problem that has one",
@@ -205,11 +177,7 @@ class Shown:
 
 
 def _one(
-    path: str,
-    settings: Mapping[str, str],
-    wanted: Wanted,
-    shown: Shown,
-    output: Output,
+    path: str, settings: Mapping[str, str], wanted: Wanted, shown: Shown, output: Output
 ) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
@@ -219,9 +187,7 @@ def _one(
 
     problems = Problems(wanted)
     method = load(path, settings)
-    tableau = stepped_tableau(
-        method, output, has_momenta=problems.is_hamiltonian
-    )
+    tableau = stepped_tableau(method, output, has_momenta=problems.is_hamiltonian)
     problems.prepare([tableau])
     if problems.read is not None:
         note_changing(problems.read, output)
@@ -232,14 +198,7 @@ def _one(
         say_problem(error)
         return 1
     says_all = output.verbosity >= 0
-    text = report.render(
-        result,
-        method.name,
-        output.format,
-        output.paint,
-        shown.work,
-        says_all,
-    )
+    text = report.render(result, method.name, output.format, output.paint, shown.work, says_all)
     output.write(text)
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
@@ -250,41 +209,27 @@ def _one(
 
 def _figure(result: Convergence, name: str, shown: Shown) -> Figure:
     """The errors of one method: over step sizes with their slopes, or over their costs."""
-    from garkcli.plots.convergence_plot import (
-        comparison_figure,
-        convergence_figure,
-    )
+    from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
 
     if shown.against == "h" and not shown.work:
         return convergence_figure(result, name)
     return comparison_figure([(name, result)], shown.against)
 
 
-def _several(
-    paths: list[str], wanted: Wanted, shown: Shown, output: Output
-) -> int:
+def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> int:
     """The comparison; what fails is told, and stops nothing."""
     from garkcli.report import comparison as report
 
     entries = compared(paths, wanted, output)
     says_all = output.verbosity >= 0
-    text = report.render(
-        entries,
-        output.format,
-        output.paint,
-        shown.work,
-        shown.against,
-        says_all,
-    )
+    text = report.render(entries, output.format, output.paint, shown.work, shown.against, says_all)
     output.write(text)
     if shown.plot is not None:
         _draw(entries, shown.plot, shown.against, output)
     return max(entry.exit_code for entry in entries)
 
 
-def _draw(
-    entries: list[Entry], path: str, against: str, output: Output
-) -> None:
+def _draw(entries: list[Entry], path: str, against: str, output: Output) -> None:
     """The results in one figure, unless every test failed."""
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if not results:

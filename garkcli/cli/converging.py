@@ -7,12 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.cli.options import Output
-from garkcli.cli.problems import (
-    find_problem,
-    is_hamiltonian,
-    is_path,
-    note_changing,
-)
+from garkcli.cli.problems import find_problem, is_hamiltonian, is_path, note_changing
 from garkcli.cli.stepping import oscillator, rational, stepped_tableau
 from garkcli.cli.streams import say_faults
 from garkcli.errors import Fault, GarkError, MethodFileError
@@ -99,12 +94,8 @@ class Problems:
         if self.read is not None:
             return self.read
         if self._name == "oscillator":
-            return Oscillator.default(
-                1, rational("--omega", self._wanted.omega or "1")
-            )
-        return problem(
-            self._name or GENERIC[0], 1, stiffness=self._wanted.stiffness
-        )
+            return Oscillator.default(1, rational("--omega", self._wanted.omega or "1"))
+        return problem(self._name or GENERIC[0], 1, stiffness=self._wanted.stiffness)
 
     def prepare(self, tableaux: Sequence[Tableau]) -> None:
         """Make the problem one for all of these methods.
@@ -149,21 +140,13 @@ class Problems:
             return split_into(self.read, terms_of(with_joined_terms(tableau)))
         assert self._name is not None
         if not built_in(self._name).takes_seed:
-            return find_problem(
-                self._name, tableau, stiffness=self._wanted.stiffness
-            )
-        first, *_ = in_common(
-            self._name, [tableau, *self._tableaux], self._seed
-        )
+            return find_problem(self._name, tableau, stiffness=self._wanted.stiffness)
+        first, *_ = in_common(self._name, [tableau, *self._tableaux], self._seed)
         return first
 
 
 def tested(
-    method: MethodFile,
-    tableau: Tableau,
-    wanted: Wanted,
-    problems: Problems,
-    watch: Watch,
+    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
 ) -> Convergence:
     """The convergence test of one method.
 
@@ -184,11 +167,7 @@ def tested(
 
 
 def hint_rounding(
-    method: MethodFile,
-    tableau: Tableau,
-    result: Convergence,
-    output: Output,
-    path: str = "",
+    method: MethodFile, tableau: Tableau, result: Convergence, output: Output, path: str = ""
 ) -> None:
     """Where the exact order shows late or not at all because coefficients look rounded: the line
     that is missing.
@@ -208,9 +187,7 @@ def hint_rounding(
         )
 
 
-def compared(
-    paths: Sequence[str], wanted: Wanted, output: Output
-) -> list[Entry]:
+def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry]:
     """The tests of all files, in order. What fails is told on stderr at once, and stops none of the
     others.
 
@@ -224,16 +201,12 @@ def compared(
     problems = Problems(wanted)
     methods = [_loaded(path, problems, output) for path in paths]
     paths = [called(path) for path in paths]
-    problems.prepare(
-        [found[1] for found in methods if isinstance(found, tuple)]
-    )
+    problems.prepare([found[1] for found in methods if isinstance(found, tuple)])
     if problems.read is not None:
         note_changing(problems.read, output)
     entries = []
     with watching(output.verbosity >= 0) as watch:
-        for k, (path, found) in enumerate(
-            zip(paths, methods, strict=True), start=1
-        ):
+        for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):
             if isinstance(found, tuple):
                 prefixed = _prefixed(watch, f"{k}/{len(paths)}")
                 entries.append(_entry(path, found, wanted, problems, prefixed))
@@ -251,9 +224,7 @@ def _loaded(path: str, problems: Problems, output: Output) -> Loaded | Entry:
 
     try:
         method = load(path)
-        tableau = stepped_tableau(
-            method, output, path, problems.is_hamiltonian
-        )
+        tableau = stepped_tableau(method, output, path, problems.is_hamiltonian)
         return method, tableau
     except GarkError as error:
         return _failed(path, path, error)
@@ -263,9 +234,7 @@ def _prefixed(watch: Watch, prefix: str) -> Watch:
     return lambda what, done, total: watch(f"{prefix} {what}", done, total)
 
 
-def _entry(
-    path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch
-) -> Entry:
+def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch) -> Entry:
     from garkcli.report.convergence_data import Entry
 
     method, tableau = loaded
@@ -273,9 +242,7 @@ def _entry(
         result = tested(method, tableau, wanted, problems, watch)
     except GarkError as error:
         return _failed(path, method.name, error)
-    return Entry(
-        path, method.name, result, (), int(result.verdict == "disagree")
-    )
+    return Entry(path, method.name, result, (), int(result.verdict == "disagree"))
 
 
 def _failed(path: str, name: str, error: GarkError) -> Entry:
@@ -289,6 +256,4 @@ def _failed(path: str, name: str, error: GarkError) -> Entry:
     else:
         faults, text = (Fault(error.message, error.help),), ""
     say_faults(Outcome(path, name, faults=faults, text=text))
-    return Entry(
-        path, name, None, faults, 1 if isinstance(error, StepFailed) else 2
-    )
+    return Entry(path, name, None, faults, 1 if isinstance(error, StepFailed) else 2)

@@ -7,12 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, Output, common, settings_option
 from garkcli.conversion.registry import TARGETS
 
 if TYPE_CHECKING:
@@ -37,11 +32,7 @@ if TYPE_CHECKING:
 @settings_option
 @common(["yaml", "text", "json", "latex"])
 def command(
-    file: str,
-    to: str,
-    stages: int | None,
-    settings: dict[str, str],
-    output: Output,
+    file: str, to: str, stages: int | None, settings: dict[str, str], output: Output
 ) -> int:
     """The same method in another form, as a method file.
 

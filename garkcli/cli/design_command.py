@@ -11,13 +11,7 @@ import click
 
 from garkcli.cli.design_options import Wanted, design_options
 from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    choices_option,
-    common,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, Output, choices_option, common, settings_option
 from garkcli.errors import ExpressionError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -39,11 +33,7 @@ if TYPE_CHECKING:
 @choices_option
 @common(["text", "json"])
 def command(
-    file: str,
-    settings: dict[str, str],
-    choices: dict[str, str],
-    output: Output,
-    **options: Any,
+    file: str, settings: dict[str, str], choices: dict[str, str], output: Output, **options: Any
 ) -> int:
     """For which values of its free parameters a method has an order, exactly.
 
@@ -83,9 +73,7 @@ def command(
     return _told(file, family, chosen, wanted, output)
 
 
-def _within_time(
-    file: str, settings: dict[str, str], wanted: Wanted
-) -> tuple[FamilyFile, Wanted]:
+def _within_time(file: str, settings: dict[str, str], wanted: Wanted) -> tuple[FamilyFile, Wanted]:
     """The family, what it wants worked out in the time that there is; with what is left of it."""
     from garkcli.methodfile.family import load_family
 
@@ -119,9 +107,7 @@ def _prepare_places(wanted: Wanted) -> None:
         make_folder(wanted.emit_all)
 
 
-def _refuse_other_wishes(
-    family: FamilyFile, kind: Kind, is_of_springs: bool
-) -> None:
+def _refuse_other_wishes(family: FamilyFile, kind: Kind, is_of_springs: bool) -> None:
     """Refuse what a file wants that a set of values with one kind of stability leaves out.
 
     Raises:
@@ -155,11 +141,7 @@ def _as_stable(family: FamilyFile, kind: Kind | None) -> FamilyFile:
 
 
 def _told(
-    file: str,
-    family: FamilyFile,
-    chosen: list[Choice],
-    wanted: Wanted,
-    output: Output,
+    file: str, family: FamilyFile, chosen: list[Choice], wanted: Wanted, output: Output
 ) -> int:
     """Find the values, write the report and the files, and return the exit code."""
     from garkcli.design.stable_values import stable_sets
@@ -273,9 +255,7 @@ def _chosen_value(name: str, text: str) -> fmpq:
     return value
 
 
-def _stable_values(
-    family: FamilyFile, wanted: Wanted, kind: Kind, output: Output
-) -> int:
+def _stable_values(family: FamilyFile, wanted: Wanted, kind: Kind, output: Output) -> int:
     """The set of values with a kind of stability."""
     from garkcli.design.stable_values import stable_values
     from garkcli.report import stable_values as report
@@ -313,11 +293,7 @@ def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
 
 
 def _emit(
-    family: FamilyFile,
-    found: Design,
-    minimum: Minimum | None,
-    wanted: Wanted,
-    output: Output,
+    family: FamilyFile, found: Design, minimum: Minimum | None, wanted: Wanted, output: Output
 ) -> None:
     """Write the best method, or those among the solutions."""
     if wanted.emit is not None and minimum is not None:

@@ -19,9 +19,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def _finite(
-    _context: click.Context, _parameter: click.Parameter, seconds: float
-) -> float:
+def _finite(_context: click.Context, _parameter: click.Parameter, seconds: float) -> float:
     """A number of seconds; nan, which no limit of a range holds off, is none."""
     if seconds != seconds:
         raise click.BadParameter("nan is no number of seconds")
@@ -35,18 +33,8 @@ _OF_THE_ORDER = (
         metavar="P",
         help="The order wanted; by default as far as some value reaches.",
     ),
-    click.option(
-        "--pair",
-        "is_pair",
-        is_flag=True,
-        help="The order of the symplectic pair.",
-    ),
-    click.option(
-        "--conjugate",
-        "is_conjugate",
-        is_flag=True,
-        help="The order of the conjugate.",
-    ),
+    click.option("--pair", "is_pair", is_flag=True, help="The order of the symplectic pair."),
+    click.option("--conjugate", "is_conjugate", is_flag=True, help="The order of the conjugate."),
     click.option(
         "--seconds",
         type=click.FloatRange(min=0, min_open=True),
@@ -81,32 +69,18 @@ _OF_STABILITY = (
         help="The exact set of values of one parameter for which the method is P-stable.",
     ),
     click.option(
-        "--a-stable",
-        "stability",
-        flag_value="a-stable",
-        help="The same for A-stability.",
+        "--a-stable", "stability", flag_value="a-stable", help="The same for A-stability."
     ),
     click.option(
-        "--l-stable",
-        "stability",
-        flag_value="l-stable",
-        help="The same for L-stability.",
+        "--l-stable", "stability", flag_value="l-stable", help="The same for L-stability."
     ),
     click.option(
         "--slow",
         metavar="A",
         help="With --p-stable: a slow and a fast spring, the slow one of (hω)² = A.",
     ),
-    click.option(
-        "--fast",
-        metavar="COLOUR",
-        help="With --slow: the colour of the fast spring.",
-    ),
-    click.option(
-        "--up-to",
-        metavar="X",
-        help="With --slow: fast springs of (hω)² up to X only.",
-    ),
+    click.option("--fast", metavar="COLOUR", help="With --slow: the colour of the fast spring."),
+    click.option("--up-to", metavar="X", help="With --slow: fast springs of (hω)² up to X only."),
 )
 _OF_THE_SEARCH = (
     click.option(
@@ -117,10 +91,7 @@ _OF_THE_SEARCH = (
         help="Search from N random starts instead, and prove what is found.",
     ),
     click.option(
-        "--seed",
-        type=int,
-        metavar="S",
-        help="With --search: of the starts; 0 by default.",
+        "--seed", type=int, metavar="S", help="With --search: of the starts; 0 by default."
     ),
     click.option(
         "--most",
@@ -129,11 +100,7 @@ _OF_THE_SEARCH = (
         help="With --search: methods to find at most; 5 by default.",
     ),
     click.option(
-        "-j",
-        "--jobs",
-        type=click.IntRange(1, 1000),
-        metavar="N",
-        help="With --search: processes.",
+        "-j", "--jobs", type=click.IntRange(1, 1000), metavar="N", help="With --search: processes."
     ),
     click.option(
         "--scheduler",
@@ -141,10 +108,7 @@ _OF_THE_SEARCH = (
         help="With --search: work on the Dask cluster there; needs garkcli[cluster].",
     ),
     click.option(
-        "--emit-all",
-        type=PATH,
-        metavar="DIR",
-        help="Write every method found into a folder.",
+        "--emit-all", type=PATH, metavar="DIR", help="Write every method found into a folder."
     ),
 )
 
@@ -232,9 +196,7 @@ class Wanted:
 
     def _check_springs(self) -> None:
         if (self.slow is None) != (self.fast is None):
-            raise UsageProblem(
-                "--slow and --fast belong together", "give both"
-            )
+            raise UsageProblem("--slow and --fast belong together", "give both")
         if self.up_to is not None and self.slow is None:
             message = "--up-to is a bound for the fast one of two springs"
             raise UsageProblem(message, "give --slow and --fast too")
@@ -251,10 +213,7 @@ class Wanted:
         Raises:
             UsageProblem: a search or a minimum is asked for.
         """
-        options = {
-            "--search": self.starts,
-            "--minimise": self.objective,
-        }
+        options = {"--search": self.starts, "--minimise": self.objective}
         for option, value in options.items():
             if stable and value is not None:
                 message = f"{stable[0]} is decided for exact solutions, {option} has others"
@@ -272,7 +231,5 @@ class Wanted:
             return
         message = f"--{self.stability} gives a set of values, "
         message += "--emit, --search, --minimise do not"
-        cure = (
-            "ask for one; with --order solutions of that order are looked at"
-        )
+        cure = "ask for one; with --order solutions of that order are looked at"
         raise UsageProblem(message, cure)

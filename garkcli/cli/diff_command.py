@@ -7,48 +7,27 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.method_argument import two_files
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    settings_named,
-)
+from garkcli.cli.options import CONTEXT, Output, common, settings_named
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
 
-EXIT_CODES = {
-    "identical": 0,
-    "same": 0,
-    "within-rounding": 0,
-    "different": 1,
-    "undecided": 3,
-}
+EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "undecided": 3}
 """By what the methods are to each other."""
 
 
-settings_of_both = settings_named(
-    "A value for a parameter of FIRST or SECOND, or of both."
-)
+settings_of_both = settings_named("A value for a parameter of FIRST or SECOND, or of both.")
 
 
 @click.command("diff", context_settings=CONTEXT)
 @two_files("first", "second")
 @click.option(
-    "--strict",
-    is_flag=True,
-    help="Exit with 1 unless every entry is the same as it stands.",
+    "--strict", is_flag=True, help="Exit with 1 unless every entry is the same as it stands."
 )
 @settings_of_both
 @common(["text", "json", "markdown"])
-def command(
-    first: str,
-    second: str,
-    strict: bool,
-    settings: dict[str, str],
-    output: Output,
-) -> int:
+def command(first: str, second: str, strict: bool, settings: dict[str, str], output: Output) -> int:
     """How two methods differ: in entries, orders, conditions and properties; and whether they are
     the same method with its stages numbered otherwise, or in another form.
 
@@ -80,9 +59,7 @@ def command(
     return EXIT_CODES[found.relation]
 
 
-def _loaded(
-    first: str, second: str, settings: dict[str, str]
-) -> tuple[MethodFile, MethodFile]:
+def _loaded(first: str, second: str, settings: dict[str, str]) -> tuple[MethodFile, MethodFile]:
     """Both methods, each with the values of its own parameters.
 
     Raises:

@@ -55,9 +55,7 @@ def emit(family: FamilyFile, found: Design, path: str) -> None:
     write_whole(path, [_text(family, found, chosen)])
 
 
-def emit_all(
-    family: FamilyFile, found: Design, folder: str, output: Output
-) -> None:
+def emit_all(family: FamilyFile, found: Design, folder: str, output: Output) -> None:
     """Write every method among the solutions of the highest order that has any, a file each.
 
     Raises:

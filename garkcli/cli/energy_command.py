@@ -7,13 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.long_runs import (
-    Wanted,
-    check_wanted,
-    followed,
-    put_to_work,
-    symplecticity_of,
-)
+from garkcli.cli.long_runs import Wanted, check_wanted, followed, put_to_work, symplecticity_of
 from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import CONTEXT, Output, common, settings_option
 from garkcli.cli.plotting import plot_option, save_plot
@@ -42,9 +36,7 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
     help="What to follow: a name that gark list shows, or a problem file.",
 )
 @problem_options
-@click.option(
-    "--step", metavar="H", help="The step size; each problem has its own."
-)
+@click.option("--step", metavar="H", help="The step size; each problem has its own.")
 @click.option(
     "--digits",
     type=click.IntRange(1, 200),
@@ -59,21 +51,11 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
     metavar="N",
     help="How many times the plot and --format csv keep, extremes among them.",
 )
+@click.option("--symplecticity", is_flag=True, help="Measure MᵀJM − J of steps, M = ∂y₁/∂y₀.")
 @click.option(
-    "--symplecticity",
-    is_flag=True,
-    help="Measure MᵀJM − J of steps, M = ∂y₁/∂y₀.",
+    "--bounded", is_flag=True, help="Claim that nothing drifts, as far as this run can tell."
 )
-@click.option(
-    "--bounded",
-    is_flag=True,
-    help="Claim that nothing drifts, as far as this run can tell.",
-)
-@click.option(
-    "--max-error",
-    metavar="E",
-    help="Claim that no energy error is larger than E.",
-)
+@click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
 @click.option(
     "--modified",
     type=click.IntRange(1, 100),
@@ -134,9 +116,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     return 0 if is_met and not run.is_unstable else 1
 
 
-def _in_modified(
-    wanted: Wanted, order: int, settings: Mapping[str, str], output: Output
-) -> int:
+def _in_modified(wanted: Wanted, order: int, settings: Mapping[str, str], output: Output) -> int:
     """The energy error in the modified Hamiltonian."""
     from garkcli.cli.modified_energy import measure_modified
     from garkcli.methodfile.load import load
@@ -153,19 +133,11 @@ def _in_modified(
     }
     times = wanted.t_end, wanted.step
     return measure_modified(
-        load(wanted.file, settings),
-        wanted.problem,
-        wanted.seed,
-        times,
-        order,
-        others,
-        output,
+        load(wanted.file, settings), wanted.problem, wanted.seed, times, order, others, output
     )
 
 
-def _claims(
-    run: LongRun, bounded: bool, limit: fmpq | None
-) -> tuple[Claim, ...]:
+def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:
     """What the options claim. What is undecided is not shown to be bounded."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
@@ -181,7 +153,5 @@ def _claims(
         energy = run.energy or max(run.invariants, key=lambda x: x.max_error)
         holds = not run.is_unstable and energy.max_error <= to_float(limit)
         found_error = measured(energy.max_error, energy.round_off)
-        claims.append(
-            Claim(f"max-error: {decimal(limit)}", found_error, holds)
-        )
+        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, holds))
     return tuple(claims)

@@ -7,14 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    PATH,
-    Output,
-    digits_option,
-    help_option,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, PATH, Output, digits_option, help_option, settings_option
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -56,9 +49,7 @@ def _targets(
     "on which gark converge prints the same errors.",
 )
 @settings_option
-@click.option(
-    "-o", "--output", type=PATH, metavar="FILE", help="Write to FILE."
-)
+@click.option("-o", "--output", type=PATH, metavar="FILE", help="Write to FILE.")
 @help_option
 def command(
     file: str,
@@ -103,11 +94,6 @@ def _check_test(bridge: Bridge, output: str | None) -> None:
         UsageProblem: the target runs nothing, or there is no place for it.
     """
     if bridge.test_driver is None:
-        raise UsageProblem(
-            f"{bridge.name} is data, which nothing runs", "leave out --test"
-        )
+        raise UsageProblem(f"{bridge.name} is data, which nothing runs", "leave out --test")
     if output is None:
-        raise UsageProblem(
-            "--test writes further files beside the first",
-            "name it: -o FILE",
-        )
+        raise UsageProblem("--test writes further files beside the first", "name it: -o FILE")

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command("import", context_settings=CONTEXT)
-@click.argument(
-    "sources", nargs=-1, type=PATH, metavar="SOURCE...", required=True
-)
+@click.argument("sources", nargs=-1, type=PATH, metavar="SOURCE...", required=True)
 @click.option(
     "-o",
     "--output",
@@ -50,10 +48,7 @@ if TYPE_CHECKING:
 @click.option("-q", "--quiet", is_flag=True, help="Say less.")
 @click.option("-v", "--verbose", is_flag=True, help="Show the method files.")
 @click.option(
-    "--color",
-    type=click.Choice(["auto", "always", "never"]),
-    default="auto",
-    show_default=True,
+    "--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True
 )
 @help_option
 def command(
@@ -157,9 +152,7 @@ def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
     return files
 
 
-def _report(
-    results: Sequence[Result], files: Mapping[int, str], output: Output
-) -> None:
+def _report(results: Sequence[Result], files: Mapping[int, str], output: Output) -> None:
     from garkcli.report import imported
 
     if output.format == "json":

@@ -6,11 +6,7 @@ from typing import Any
 
 import click
 
-from garkcli.cli.list_methods import (
-    filter_options,
-    list_methods,
-    refuse_filters,
-)
+from garkcli.cli.list_methods import filter_options, list_methods, refuse_filters
 from garkcli.cli.options import CONTEXT, Output, common
 
 WHAT = ("methods", "exports")
@@ -18,9 +14,7 @@ WHAT = ("methods", "exports")
 
 
 @click.command("list", context_settings=CONTEXT)
-@click.argument(
-    "what", required=False, type=click.Choice(WHAT), metavar="[WHAT]"
-)
+@click.argument("what", required=False, type=click.Choice(WHAT), metavar="[WHAT]")
 @click.argument("words", nargs=-1, metavar="[WORD]...")
 @filter_options
 @common(["text", "json", "csv", "markdown"])

@@ -7,13 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
-from garkcli.catalogue.filters import (
-    ORDERS,
-    Range,
-    Wanted,
-    read_range,
-    sorted_by,
-)
+from garkcli.catalogue.filters import ORDERS, Range, Wanted, read_range, sorted_by
 from garkcli.cli.method_argument import catalogue_option
 from garkcli.cli.options import Output
 from garkcli.errors import UsageProblem
@@ -45,10 +39,7 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]
     name = "range"
 
     def convert(
-        self,
-        value: object,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> object:
         """The numbers that are meant."""
         try:
@@ -87,9 +78,7 @@ def _options() -> list[Callable[[Any], Any]]:
             metavar="WORD",
             help="Which vector fields the problem has: general, separable, nystrom ...",
         ),
-        click.option(
-            "--folder", metavar="NAME", help="Of the catalogue, such as erk."
-        ),
+        click.option("--folder", metavar="NAME", help="Of the catalogue, such as erk."),
         click.option(
             "--sort",
             type=click.Choice(ORDERS),

@@ -7,18 +7,8 @@ from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output
 from garkcli.cli.plotting import check_plot
-from garkcli.cli.problems import (
-    find_problem,
-    is_path,
-    note_changing,
-    unsplit_problem,
-)
-from garkcli.cli.stepping import (
-    given_positive,
-    oscillator,
-    refuse_misplaced,
-    stepped_tableau,
-)
+from garkcli.cli.problems import find_problem, is_path, note_changing, unsplit_problem
+from garkcli.cli.stepping import given_positive, oscillator, refuse_misplaced, stepped_tableau
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -74,9 +64,7 @@ def check_wanted(wanted: Wanted) -> None:
         UsageProblem: two of them do not.
     """
     of_oscillator = {"--omega": wanted.omega, "--split": wanted.split}
-    refuse_misplaced(
-        wanted.problem, wanted.seed, wanted.stiffness, of_oscillator
-    )
+    refuse_misplaced(wanted.problem, wanted.seed, wanted.stiffness, of_oscillator)
     if wanted.problem == "oscillator" and wanted.digits is not None:
         message = "--digits is not for the oscillator: its steps are exact"
         raise UsageProblem(message, "leave it out")
@@ -105,9 +93,7 @@ def put_to_work(
         problem = split_into(read, terms_of(tableau))
         note_changing(problem, output)
         return tableau, problem
-    return tableau, find_problem(
-        wanted.problem, tableau, wanted.seed, stiffness
-    )
+    return tableau, find_problem(wanted.problem, tableau, wanted.seed, stiffness)
 
 
 def _check_quantities(problem: Problem, wanted: Wanted) -> None:

@@ -27,12 +27,7 @@ from garkcli.cli.streams import (
     say_problem,
 )
 from garkcli.cli.usage import no_such_command, usage_text
-from garkcli.errors import (
-    GarkError,
-    MethodFileError,
-    UsageProblem,
-    counted,
-)
+from garkcli.errors import GarkError, MethodFileError, UsageProblem, counted
 from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
@@ -78,9 +73,7 @@ class _LazyGroup(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
 
-    def get_command(
-        self, ctx: click.Context, cmd_name: str
-    ) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
         command = import_module(f"garkcli.cli.{cmd_name}_command").command
@@ -96,25 +89,19 @@ class _LazyGroup(click.Group):
             ctx.fail(no_such_command(args[0], COMMANDS))
         return super().resolve_command(ctx, args)
 
-    def shell_complete(
-        self, ctx: click.Context, incomplete: str
-    ) -> list[CompletionItem]:
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Commands, also behind the word that shows their help, and that word."""
         found = super().shell_complete(ctx, incomplete)
         if HELP.startswith(incomplete):
             found.append(CompletionItem(HELP, help="more of one command"))
         return found
 
-    def format_commands(
-        self, ctx: click.Context, formatter: click.HelpFormatter
-    ) -> None:
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
 
 
-def _show_version(
-    context: click.Context, _: click.Parameter, wanted: bool
-) -> None:
+def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not context.resilient_parsing:
         put(f"gark {__version__}\n")
         context.exit()
@@ -138,11 +125,7 @@ def _show_version(
     callback=_show_version,
     help="Show the version and exit.",
 )
-@click.option(
-    "--debug",
-    is_flag=True,
-    help="Show the traceback of a fault of the program.",
-)
+@click.option("--debug", is_flag=True, help="Show the traceback of a fault of the program.")
 @help_option
 @click.pass_context
 def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read where faults are shown
@@ -201,9 +184,7 @@ def _exit_code(arguments: list[str]) -> int:
         drop(sys.stdout)
         return READER_GONE
     except NoStandardOutput:
-        say(
-            "gark: standard output is closed\nhelp: -o FILE writes the report into a file"
-        )
+        say("gark: standard output is closed\nhelp: -o FILE writes the report into a file")
         return 2
     except click.ClickException as error:
         say(usage_text(error))
@@ -263,13 +244,6 @@ def _complain(error: GarkError) -> None:
     if isinstance(error, MethodFileError):
         from garkcli.check.outcome import Outcome
 
-        say_faults(
-            Outcome(
-                error.source,
-                error.source,
-                faults=error.faults,
-                text=error.text,
-            )
-        )
+        say_faults(Outcome(error.source, error.source, faults=error.faults, text=error.text))
         return
     say_problem(error)

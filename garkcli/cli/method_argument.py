@@ -64,9 +64,7 @@ METHOD = MethodType()
 """The type of arguments that are method files or names."""
 
 
-def _add_folders(
-    context: click.Context, _: click.Parameter, folders: Sequence[str]
-) -> None:
+def _add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
     """Put folders before those of ``GARK_PATH``, for this run and the processes that it starts.
 
     Raises:
@@ -147,15 +145,11 @@ def _argument(name: str, **settings: Any) -> Callable[[F], F]:
 
 
 def _one(name: str, **settings: Any) -> Callable[[F], F]:
-    argument: Callable[[F], F] = click.argument(
-        name, type=METHOD, callback=_with_notes, **settings
-    )
+    argument: Callable[[F], F] = click.argument(name, type=METHOD, callback=_with_notes, **settings)
     return argument
 
 
-def _with_catalogue(
-    arguments: Sequence[Callable[[F], F]],
-) -> Callable[[F], F]:
+def _with_catalogue(arguments: Sequence[Callable[[F], F]]) -> Callable[[F], F]:
     """The arguments, the last one applied first, and ``--catalogue``."""
 
     def decorate(function: F) -> F:

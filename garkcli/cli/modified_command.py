@@ -40,9 +40,7 @@ if TYPE_CHECKING:
 )
 @companion_options
 @click.option(
-    "--equation",
-    is_flag=True,
-    help="Rooted trees too, where there is a modified Hamiltonian.",
+    "--equation", is_flag=True, help="Rooted trees too, where there is a modified Hamiltonian."
 )
 @click.option(
     "--problem",
@@ -100,13 +98,7 @@ def command(
         order = possible_order(tableau, order)
     found = backward_analysis(tableau, order, method.tolerance)
     report = ModifiedReport(
-        called(file),
-        method.name,
-        found,
-        which or "",
-        digits,
-        equation,
-        formula,
+        called(file), method.name, found, which or "", digits, equation, formula
     )
     is_long = output.verbosity >= 0
     format, paint = output.format, output.paint
@@ -115,11 +107,7 @@ def command(
 
 
 def _formula(
-    method: MethodFile,
-    tableau: Tableau,
-    problem: str,
-    seed: int | None,
-    order: int,
+    method: MethodFile, tableau: Tableau, problem: str, seed: int | None, order: int
 ) -> ModifiedFormula:
     """The formula on the problem of --problem.
 

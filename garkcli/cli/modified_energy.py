@@ -42,9 +42,7 @@ def measure_modified(
 
     for option, value in others.items():
         if value:
-            raise UsageProblem(
-                f"{option} does not go with --modified", "leave it out"
-            )
+            raise UsageProblem(f"{option} does not go with --modified", "leave it out")
     t_end = given_positive("--t-end", times[0])
     longest = given_positive("--step", times[1])
     if method.tolerance is not None:

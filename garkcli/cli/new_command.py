@@ -93,9 +93,7 @@ def _place(file: str | None, force: bool, output: Output) -> str | None:
 
     refuse_unwritable(place)
     if os.path.exists(place) and not force:
-        raise UsageProblem(
-            f"{place} is there already", "--force writes over it"
-        )
+        raise UsageProblem(f"{place} is there already", "--force writes over it")
     return place
 
 
@@ -190,11 +188,7 @@ def _asked(name: str | None) -> Answers:
         return "\n".join(iter(_typed_line, "")), (), None, name
     members = []
     while True:
-        answer = click.prompt(
-            "family:stages, empty after the last",
-            default="",
-            show_default=False,
-        )
+        answer = click.prompt("family:stages, empty after the last", default="", show_default=False)
         if not answer:
             break
         members.append(str(answer))
@@ -205,6 +199,4 @@ def _asked(name: str | None) -> Answers:
 
 
 def _typed_line() -> str:
-    return str(
-        click.prompt("", default="", show_default=False, prompt_suffix="")
-    )
+    return str(click.prompt("", default="", show_default=False, prompt_suffix=""))

@@ -9,13 +9,7 @@ from typing import Any, TypeVar
 import click
 
 from garkcli.cli.method_argument import notes
-from garkcli.cli.streams import (
-    is_terminal,
-    put,
-    safe_pieces,
-    say,
-    wants_colour,
-)
+from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
 from garkcli.errors import UsageProblem
 from garkcli.page.paint import Paint
 
@@ -26,9 +20,7 @@ PATH = click.Path(readable=False)
 """The type of arguments that are files: shells complete them, whoever reads them checks them."""
 
 
-def _show_help(
-    context: click.Context, _: click.Parameter, wanted: bool
-) -> None:
+def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not context.resilient_parsing:
         put(context.get_help() + "\n")
         context.exit()
@@ -66,13 +58,9 @@ def _settings(
     for text in given:
         name, sign, value = text.partition("=")
         if not sign or not name.strip() or not value.strip():
-            raise click.BadParameter(
-                f"{text!r} is not NAME=VALUE", context, parameter
-            )
+            raise click.BadParameter(f"{text!r} is not NAME=VALUE", context, parameter)
         if name.strip() in settings:
-            raise click.BadParameter(
-                f"{name.strip()!r} is given twice", context, parameter
-            )
+            raise click.BadParameter(f"{name.strip()!r} is given twice", context, parameter)
         settings[name.strip()] = value.strip()
     return settings
 
@@ -91,12 +79,7 @@ choices_option: Callable[[F], F] = click.option(
 def settings_named(help: str) -> Callable[[F], F]:
     """``--set``, with what it is for; it arrives as a mapping."""
     return click.option(
-        "--set",
-        "settings",
-        multiple=True,
-        metavar="NAME=VALUE",
-        callback=_settings,
-        help=help,
+        "--set", "settings", multiple=True, metavar="NAME=VALUE", callback=_settings, help=help
     )
 
 
@@ -106,24 +89,18 @@ settings_option: Callable[[F], F] = settings_named(
 """``--set``; it arrives as a mapping."""
 
 
-def refuse_settings_of_several(
-    settings: Mapping[str, str], paths: Sized
-) -> None:
+def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> None:
     """``--set`` is about the parameters of one file.
 
     Raises:
         UsageProblem: it is given with several.
     """
     if settings and len(paths) > 1:
-        raise UsageProblem(
-            "--set is for one FILE", "give the files one by one"
-        )
+        raise UsageProblem("--set is for one FILE", "give the files one by one")
 
 
 document_option: Callable[[F], F] = click.option(
-    "--document",
-    is_flag=True,
-    help="With --format latex: a document that compiles as it stands.",
+    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
 )
 """The option of commands that write LaTeX."""
 
@@ -144,12 +121,7 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
 
     def decorate(function: F) -> F:
         def run(
-            format: str,
-            output: str | None,
-            quiet: bool,
-            verbose: bool,
-            color: str,
-            **rest: Any,
+            format: str, output: str | None, quiet: bool, verbose: bool, color: str, **rest: Any
         ) -> Any:
             verbosity = verbose - quiet
             chosen = Output(format, output, verbosity, color)
@@ -171,19 +143,8 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
 def _common_options(formats: Sequence[str]) -> list[Callable[[Any], Any]]:
     """The options of every command that writes a report, in the order of the help."""
     return [
-        click.option(
-            "--format",
-            type=click.Choice(formats),
-            default=formats[0],
-            show_default=True,
-        ),
-        click.option(
-            "-o",
-            "--output",
-            type=PATH,
-            metavar="FILE",
-            help="Write the report to FILE.",
-        ),
+        click.option("--format", type=click.Choice(formats), default=formats[0], show_default=True),
+        click.option("-o", "--output", type=PATH, metavar="FILE", help="Write the report to FILE."),
         click.option("-q", "--quiet", is_flag=True, help="Say less."),
         click.option("-v", "--verbose", is_flag=True, help="Say more."),
         click.option(
@@ -208,9 +169,7 @@ class Output:
         UsageProblem: the report will have no place; said before any work is done.
     """
 
-    def __init__(
-        self, format: str, path: str | None, verbosity: int, color: str
-    ) -> None:
+    def __init__(self, format: str, path: str | None, verbosity: int, color: str) -> None:
         self.format = format
         self.path = path
         self.verbosity = verbosity
@@ -257,9 +216,7 @@ class Output:
         """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the
         terminal.
         """
-        return self.verbosity >= 0 and (
-            self.path is not None or not is_terminal(sys.stdout)
-        )
+        return self.verbosity >= 0 and (self.path is not None or not is_terminal(sys.stdout))
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""

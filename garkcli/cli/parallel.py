@@ -30,12 +30,7 @@ def check_files(
     A file that ends its worker, by a lack of memory or a signal, has an outcome that says so, and
     the others are checked as if nothing had been.
     """
-    check = partial(
-        check_file,
-        limit=limit,
-        want_constants=want_constants,
-        settings=settings,
-    )
+    check = partial(check_file, limit=limit, want_constants=want_constants, settings=settings)
     work: Work = partial(_checked, check)
     # standard input is this process's
     jobs = 1 if "-" in paths else min(jobs, len(paths))
@@ -51,9 +46,7 @@ def _checked(check: Work, path: str) -> Outcome:
         if "--debug" in sys.argv:
             raise
         what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
-        return _crashed(
-            path, f"internal fault: {what}", "please report it, with the file"
-        )
+        return _crashed(path, f"internal fault: {what}", "please report it, with the file")
 
 
 def _crashed(path: str, what: str, cure: str) -> Outcome:

@@ -25,12 +25,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 def is_path(text: str) -> bool:
     """Whether this is the path of a problem file rather than the name of a built-in problem."""
-    return (
-        text == "-"
-        or text.endswith((".yaml", ".yml"))
-        or "/" in text
-        or "\\" in text
-    )
+    return text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
 
 
 class ProblemType(click.ParamType):  # type: ignore[type-arg]
@@ -38,35 +33,21 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
     name = "problem"
 
-    def get_metavar(
-        self, param: click.Parameter, ctx: click.Context | None = None
-    ) -> str:
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
         """What help shows."""
         return "NAME|FILE"
 
-    def convert(
-        self,
-        value: str,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> str:
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Refuse what is neither, before anything is read."""
         from garkcli.problems.builtin import PROBLEMS
 
         if value not in PROBLEMS and not is_path(value):
             cure = did_you_mean(value, tuple(PROBLEMS))
-            self.fail(
-                f"no problem {value!r} (a problem file ends in .yaml); {cure}",
-                param,
-                ctx,
-            )
+            self.fail(f"no problem {value!r} (a problem file ends in .yaml); {cure}", param, ctx)
         return value
 
     def shell_complete(
-        self,
-        ctx: click.Context,
-        param: click.Parameter,
-        incomplete: str,
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
         """The names, and problem files; folders are for the shell, which goes on below them."""
         from garkcli.problems.builtin import PROBLEMS
@@ -78,8 +59,7 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
                 found += sorted(
                     os.path.join(folder, name)
                     for name in os.listdir(folder or ".")
-                    if name.startswith(start)
-                    and name.endswith((".yaml", ".yml"))
+                    if name.startswith(start) and name.endswith((".yaml", ".yml"))
                     if name.isprintable()
                 )
             return [CompletionItem(name) for name in found]
@@ -87,14 +67,10 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
 
 omega_option: Callable[[F], F] = click.option(
-    "--omega",
-    metavar="W",
-    help="The frequency of the oscillator; 1 by default.",
+    "--omega", metavar="W", help="The frequency of the oscillator; 1 by default."
 )
 split_option: Callable[[F], F] = click.option(
-    "--split",
-    metavar="K:V,...",
-    help="The oscillator's shares of kinetic and potential energy.",
+    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
 )
 seed_option: Callable[[F], F] = click.option(
     "--seed",
@@ -114,13 +90,7 @@ stiffness_option: Callable[[F], F] = click.option(
 
 def problem_options(function: F) -> F:
     """``--omega``, ``--split``, ``--seed``, ``--stiffness`` and ``--t-end``."""
-    options = (
-        t_end_option,
-        stiffness_option,
-        seed_option,
-        split_option,
-        omega_option,
-    )
+    options = (t_end_option, stiffness_option, seed_option, split_option, omega_option)
     for option in options:
         function = option(function)
     return function
@@ -150,10 +120,7 @@ def unsplit_problem(name_or_path: str, stiffness: fmpq | None) -> Problem:
 
 
 def find_problem(
-    name_or_path: str,
-    tableau: Tableau,
-    seed: int | None = None,
-    stiffness: fmpq | None = None,
+    name_or_path: str, tableau: Tableau, seed: int | None = None, stiffness: fmpq | None = None
 ) -> Problem:
     """The problem called so or described in that file, split into the terms that ``tableau`` is
     for.
@@ -183,9 +150,7 @@ def find_problem(
     return problem(name_or_path, terms, 1 if seed is None else seed, stiffness)
 
 
-def find_hamiltonian(
-    name_or_path: str, tableau: Tableau, seed: int | None = None
-) -> Hamiltonian:
+def find_hamiltonian(name_or_path: str, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
     """The same, where it has to be Hamiltonian.
 
     Raises:

@@ -79,15 +79,11 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
         if name == SHARED and b"gark" not in data:
             return None
         if len(data) > MOST_BYTES:
-            raise UsageProblem(
-                f"{printable(path)}: more than {MOST_BYTES} bytes", "split it"
-            )
+            raise UsageProblem(f"{printable(path)}: more than {MOST_BYTES} bytes", "split it")
         whole = tomllib.loads(data.decode("utf-8"))
     except (OSError, ValueError) as error:
         message = f"{printable(os.path.relpath(path))}: {error}"
-        raise UsageProblem(
-            message, "mend the file, TOML is expected"
-        ) from None
+        raise UsageProblem(message, "mend the file, TOML is expected") from None
     if name == OWN:
         return whole
     tools = whole.get("tool")
@@ -116,10 +112,7 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
             cure = f"write {key} = {example}"
             raise UsageProblem(f"{shown}: {key} is not {wanted}", cure)
     required = table.get("require-claims", False)
-    paths = [
-        _from_here(os.path.join(folder, path))
-        for path in table.get("paths", ())
-    ]
+    paths = [_from_here(os.path.join(folder, path)) for path in table.get("paths", ())]
     names = {"format": "format", "max-order": "max_order", "jobs": "jobs"}
     defaults = {names[key]: table[key] for key in names if key in table}
     return Project(
@@ -166,16 +159,8 @@ def _count(least: int, most: int) -> Callable[[object], bool]:
 
 
 _READERS: dict[str, tuple[str, str, Callable[[object], bool]]] = {
-    "paths": (
-        "a list of files, folders or patterns",
-        '["methods"]',
-        _is_texts,
-    ),
-    "require-claims": (
-        "true, false, or a list of claims",
-        'true or ["order"]',
-        _is_claims,
-    ),
+    "paths": ("a list of files, folders or patterns", '["methods"]', _is_texts),
+    "require-claims": ("true, false, or a list of claims", 'true or ["order"]', _is_claims),
     "format": ("a format of gark check", '"github"', _is_format),
     "max-order": ("a number from 1 to 400", "12", _count(1, 400)),
     "jobs": ("a number from 0 to 256", "2", _count(0, 256)),

@@ -7,12 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, Output, common, settings_option
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -47,12 +42,7 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
         from garkcli.cli.rendering import write_tableau
 
         write_tableau(
-            smaller,
-            _name(method, smaller),
-            None,
-            output,
-            method.tolerance,
-            further=further,
+            smaller, _name(method, smaller), None, output, method.tolerance, further=further
         )
         return 0
     output.write(_file(file, method, smaller, further))
@@ -74,9 +64,7 @@ def smallest_of(file: str, method: MethodFile) -> tuple[Tableau, Further]:
     return found
 
 
-def _file(
-    file: str, method: MethodFile, smaller: Tableau, further: Further
-) -> str:
+def _file(file: str, method: MethodFile, smaller: Tableau, further: Further) -> str:
     """The method file of what is left."""
     from garkcli.methodfile.writer import can_spell_out, write_method
 

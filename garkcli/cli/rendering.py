@@ -57,21 +57,15 @@ def write_tableau(
     if output.format == "latex":
         from garkcli.page import tableau_latex
 
-        output.write(
-            tableau_latex.render(tableau, found, printable(name), is_document)
-        )
+        output.write(tableau_latex.render(tableau, found, printable(name), is_document))
     else:
         from garkcli.report import tableau_text
 
-        text = tableau_text.render(
-            tableau, found, printable(name), output.paint, output.width
-        )
+        text = tableau_text.render(tableau, found, printable(name), output.paint, output.width)
         output.write(text)
 
 
-def shown_entries(
-    tableau: Tableau, digits: int | None, further: Further = NOTHING
-) -> Entries:
+def shown_entries(tableau: Tableau, digits: int | None, further: Further = NOTHING) -> Entries:
     """The entries of a tableau and of what is beside it: exact ones, or of so many digits."""
     found = entries(tableau, digits or DEFAULT_DIGITS).beside(further)
     return found if digits is None else found.in_decimals(digits)
@@ -93,11 +87,7 @@ def refuse_partitioned(tableau: Tableau) -> None:
 
 
 def _method_file(
-    tableau: Tableau,
-    name: str,
-    digits: int | None,
-    tolerance: fmpq | None,
-    further: Further,
+    tableau: Tableau, name: str, digits: int | None, tolerance: fmpq | None, further: Further
 ) -> str:
     from garkcli.methodfile.writer import write_rounded, write_tableau_file
 

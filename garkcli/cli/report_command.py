@@ -7,13 +7,7 @@ from typing import Any
 import click
 
 from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    refuse_settings_of_several,
-    settings_option,
-)
+from garkcli.cli.options import CONTEXT, Output, common, refuse_settings_of_several, settings_option
 
 
 @click.command("report", context_settings=CONTEXT)
@@ -34,10 +28,7 @@ from garkcli.cli.options import (
 @settings_option
 @common(["html"])
 def command(
-    files: tuple[str, ...],
-    settings: dict[str, str],
-    output: Output,
-    **options: Any,
+    files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
 ) -> int:
     """All about methods as one HTML page, to be looked at, printed and passed on.
 
@@ -57,10 +48,7 @@ def command(
 
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
-    found = (
-        reported(path, options["order"], options["pictures"], settings)
-        for path in paths
-    )
+    found = (reported(path, options["order"], options["pictures"], settings) for path in paths)
     shows_bar = output.may_show_progress
     methods = list(tracked(found, len(paths), "reporting", shows_bar))
     output.write(render(methods))

@@ -24,9 +24,7 @@ def _reports(
 
 @click.command("schema", context_settings=CONTEXT)
 @click.option("--problem", is_flag=True, help="Of problem files, instead.")
-@click.option(
-    "--sweep", is_flag=True, help="Of spec files of gark sweep, instead."
-)
+@click.option("--sweep", is_flag=True, help="Of spec files of gark sweep, instead.")
 @click.option(
     "--report",
     is_flag=False,
@@ -36,24 +34,17 @@ def _reports(
     help="Of what a command writes with --format json, instead; gark check where none is named.",
 )
 @common(["json"])
-def command(
-    problem: bool, sweep: bool, report: str | None, output: Output
-) -> int:
+def command(problem: bool, sweep: bool, report: str | None, output: Output) -> int:
     """The JSON Schema (draft-07) of method files, for editors; or of problem files, or of reports.
 
     With the YAML extension of an editor, name it in the first line of a method file:
     # yaml-language-server: $schema=gark.schema.json
     """
-    asked = {
-        "--problem": problem,
-        "--sweep": sweep,
-        "--report": report is not None,
-    }
+    asked = {"--problem": problem, "--sweep": sweep, "--report": report is not None}
     named = [name for name, is_asked in asked.items() if is_asked]
     if len(named) > 1:
         raise UsageProblem(
-            f"{' and '.join(named)} are {len(named)} schemas",
-            "ask for one at a time",
+            f"{' and '.join(named)} are {len(named)} schemas", "ask for one at a time"
         )
     schema = _sweep_schema() if sweep else _schema(problem, report)
     output.write(json.dumps(schema, indent=2, ensure_ascii=False) + "\n")

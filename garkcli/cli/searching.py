@@ -32,9 +32,7 @@ HEADS = {
 }
 
 
-def search(
-    family: FamilyFile, wanted: Wanted, starts: int, output: Output
-) -> int:
+def search(family: FamilyFile, wanted: Wanted, starts: int, output: Output) -> int:
     """Search for methods, report them and write their files.
 
     Args:
@@ -86,8 +84,7 @@ def _searched(
 def _lost(_task: Task, why: str) -> Timed:
     """A piece of a search that ended its process; the others' are kept."""
     raise WorkerLost(
-        f"a process of the search was ended {why}",
-        "where memory is short use fewer --jobs",
+        f"a process of the search was ended {why}", "where memory is short use fewer --jobs"
     )
 
 
@@ -107,9 +104,7 @@ def _written(
     return files
 
 
-def _places(
-    family: FamilyFile, count: int, wanted: Wanted
-) -> list[str | None]:
+def _places(family: FamilyFile, count: int, wanted: Wanted) -> list[str | None]:
     """Where the file of each method goes; all into the folder where there is one."""
     if wanted.emit_all is not None:
         return list(islice(file_names(wanted.emit_all, family.source), count))
@@ -118,9 +113,7 @@ def _places(
     return [None] * count
 
 
-def _file_text(
-    family: FamilyFile, looking: Search, method: Method, seed: int
-) -> str:
+def _file_text(family: FamilyFile, looking: Search, method: Method, seed: int) -> str:
     """A method file with its claim and how it was found."""
     claim = f"{CLAIMS[looking.whose]}: {method.order}"
     source = f"gark design {family.source} --order {looking.order}"

@@ -32,14 +32,8 @@ def ending() -> Iterator[None]:
     """
     changed = []
     if threading.current_thread() is threading.main_thread():
-        known = [
-            getattr(signal, name) for name in ENDING if hasattr(signal, name)
-        ]
-        changed = [
-            number
-            for number in known
-            if signal.getsignal(number) is signal.SIG_DFL
-        ]
+        known = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
+        changed = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
     for number in changed:
         signal.signal(number, _end)
     try:

@@ -36,9 +36,7 @@ if TYPE_CHECKING:
     metavar="A",
     help="The slow one of two springs: its (hω)², or A..B for all of them; with --fast.",
 )
-@click.option(
-    "--fast", metavar="COLOUR", help="Two springs: the colour of the fast one."
-)
+@click.option("--fast", metavar="COLOUR", help="Two springs: the colour of the fast one.")
 @click.option(
     "--ratio",
     metavar="Q",
@@ -47,9 +45,7 @@ if TYPE_CHECKING:
 )
 @digits_option("Digits of numbers that have no simple radicals.", default=12)
 @plot_option("Draw regions or traces into FILE: .png, .svg, .pdf.")
-@click.option(
-    "--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead."
-)
+@click.option("--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead.")
 @settings_option
 @common(["text", "json", "latex"])
 def command(
@@ -84,21 +80,13 @@ def command(
         except HasFreeParameters as error:
             if len(paths) > 1:
                 raise
-            wants_numbers = {
-                "--slow": slow,
-                "--ratio": ratio,
-                "--plot": plot,
-            }
+            wants_numbers = {"--slow": slow, "--ratio": ratio, "--plot": plot}
             return _for_every_value(error, settings, wants_numbers, output)
         if slow is None or fast is None:
-            reports.append(
-                _whole_report(method.source, method, digits, ratios)
-            )
+            reports.append(_whole_report(method.source, method, digits, ratios))
         else:
             reports.append(
-                _springs_report(
-                    method.source, method, digits, slow, fast, plot is not None
-                )
+                _springs_report(method.source, method, digits, slow, fast, plot is not None)
             )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
@@ -108,9 +96,7 @@ def command(
     return 0
 
 
-def _check_options(
-    slow: str | None, fast: str | None, plot: str | None, order_star: bool
-) -> None:
+def _check_options(slow: str | None, fast: str | None, plot: str | None, order_star: bool) -> None:
     """Whether options that need one another are given together, before any work is done.
 
     Raises:
@@ -119,9 +105,7 @@ def _check_options(
     if (slow is None) != (fast is None):
         raise UsageProblem("--slow and --fast belong together", "give both")
     if order_star and plot is None:
-        raise UsageProblem(
-            "--order-star is for the picture", "give --plot FILE too"
-        )
+        raise UsageProblem("--order-star is for the picture", "give --plot FILE too")
     if plot is not None:
         _check_plot(plot)
 
@@ -147,10 +131,7 @@ def _check_plot(plot: str) -> None:
     """Refuse a picture that could not be written, before the work."""
     check_plot(plot)
     if not Path(plot).parent.is_dir():
-        raise UsageProblem(
-            f"cannot write {plot}: there is no such folder",
-            "choose another place",
-        )
+        raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
 
 
 def _ratio(text: str) -> fmpq:
@@ -159,9 +140,7 @@ def _ratio(text: str) -> fmpq:
 
     ratio = rational("--ratio", text)
     if ratio <= 0:
-        raise UsageProblem(
-            f"--ratio {text}: radii are positive", "the axes are always there"
-        )
+        raise UsageProblem(f"--ratio {text}: radii are positive", "the axes are always there")
     return ratio
 
 
@@ -173,10 +152,7 @@ def _whole_report(
 
     if method.tolerance is None:
         if ratios and method.tableau.size != 2:
-            raise UsageProblem(
-                f"{file}: --ratio is for methods of two colours",
-                "leave it out",
-            )
+            raise UsageProblem(f"{file}: --ratio is for methods of two colours", "leave it out")
         found = stability(method.tableau, ratios=ratios)
     else:
         found = stability_of_rounded(method.tableau, method.tolerance)
@@ -184,12 +160,7 @@ def _whole_report(
 
 
 def _springs_report(
-    file: str,
-    method: MethodFile,
-    digits: int,
-    slow: str,
-    fast: str,
-    with_plane: bool,
+    file: str, method: MethodFile, digits: int, slow: str, fast: str, with_plane: bool
 ) -> StabilityReport:
     """The two springs that the options ask for."""
     from garkcli.cli.stepping import term_of
@@ -231,7 +202,6 @@ def _strengths(slow: str) -> tuple[fmpq, fmpq]:
     high = rational("--slow", last) if dots else low
     if dots and not low < high:
         raise UsageProblem(
-            f"--slow {slow}: the ends are not in ascending order",
-            "give --slow A..B",
+            f"--slow {slow}: the ends are not in ascending order", "give --slow A..B"
         )
     return low, high

@@ -22,10 +22,7 @@ DECADES = 50
 
 
 def stepped_tableau(
-    method: MethodFile,
-    output: Output,
-    path: str = "",
-    has_momenta: bool = True,
+    method: MethodFile, output: Output, path: str = "", has_momenta: bool = True
 ) -> Tableau:
     """The tableau that steps: the symplectic pair of ``methods`` where the problem has positions
     and momenta, else what the file gives.
@@ -35,26 +32,19 @@ def stepped_tableau(
     from garkcli.errors import ZeroWeight
     from garkcli.tableau.forms import pair
 
-    is_diagonal = (
-        method.form == "methods" and not method.tableau.is_partitioned
-    )
+    is_diagonal = method.form == "methods" and not method.tableau.is_partitioned
     if not (is_diagonal and has_momenta):
         return method.tableau
     try:
         return pair(method.tableau)
     except ZeroWeight as error:
         where = f"{path}: " if path else ""
-        output.note(
-            f"{where}no symplectic pair ({error.message}): tested as a GARK method"
-        )
+        output.note(f"{where}no symplectic pair ({error.message}): tested as a GARK method")
         return method.tableau
 
 
 def refuse_misplaced(
-    problem: str,
-    seed: int | None,
-    stiffness: str | None,
-    of_oscillator: Mapping[str, object],
+    problem: str, seed: int | None, stiffness: str | None, of_oscillator: Mapping[str, object]
 ) -> None:
     """Refuse options of another problem: they would change nothing.
 
@@ -83,9 +73,7 @@ def given_positive(option: str, text: str | None) -> fmpq | None:
     return None if text is None else positive(option, text)
 
 
-def oscillator(
-    tableau: Tableau, omega: str | None, split: str | None
-) -> Oscillator:
+def oscillator(tableau: Tableau, omega: str | None, split: str | None) -> Oscillator:
     """The oscillator of ``--omega`` and ``--split``, for one method.
 
     Raises:
@@ -133,13 +121,9 @@ def rational(option: str, text: str) -> fmpq:
         expression = parse(text)
         number = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
-        raise UsageProblem(
-            f"{option} {text}: {error.message}", error.help
-        ) from None
+        raise UsageProblem(f"{option} {text}: {error.message}", error.help) from None
     if isinstance(number, Algebraic):
-        raise UsageProblem(
-            f"{option} {text}: a rational number is expected", "such as 1/2"
-        )
+        raise UsageProblem(f"{option} {text}: a rational number is expected", "such as 1/2")
     return number
 
 
@@ -151,9 +135,7 @@ def square(option: str, text: str) -> fmpq:
     """
     number = rational(option, text)
     if number < 0:
-        raise UsageProblem(
-            f"{option} {text}: a square is not negative", "give 0 or more"
-        )
+        raise UsageProblem(f"{option} {text}: a square is not negative", "give 0 or more")
     return number
 
 
@@ -165,7 +147,5 @@ def term_of(tableau: Tableau, colour: str) -> int:
     """
     names = [x.name for x in tableau.colours]
     if colour not in names:
-        raise UsageProblem(
-            f"--fast: no colour {colour!r}", did_you_mean(colour, names)
-        )
+        raise UsageProblem(f"--fast: no colour {colour!r}", did_you_mean(colour, names))
     return tableau.colours[names.index(colour)].term

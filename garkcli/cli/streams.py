@@ -11,14 +11,7 @@ from typing import TYPE_CHECKING
 from garkcli.errors import GarkError
 from garkcli.page.plain import printable
 from garkcli.page.plaintext import HANDLER, plain_text
-from garkcli.page.safety import (
-    JSON,
-    XML,
-    YAML,
-    escaped,
-    without_commands,
-    written_out,
-)
+from garkcli.page.safety import JSON, XML, YAML, escaped, without_commands, written_out
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
@@ -56,11 +49,7 @@ def _fill_places() -> None:
     """Open nothing as 0, 1 and 2 where these are closed: the next file would be taken for one of
     them.
     """
-    if (
-        sys.stdin is not None
-        and sys.stdout is not None
-        and sys.stderr is not None
-    ):
+    if sys.stdin is not None and sys.stdout is not None and sys.stderr is not None:
         return
     while True:
         place = os.open(os.devnull, os.O_RDWR)
@@ -143,23 +132,15 @@ def safe(text: str, format: str = "text", coloured: bool = False) -> str:
     """A text that gives no orders to a terminal or to the runner of a job."""
     text = written_out(text, format, coloured)
     is_job = os.environ.get("GITHUB_ACTIONS") == "true"
-    return (
-        without_commands(text, format)
-        if is_job and format != "github"
-        else text
-    )
+    return without_commands(text, format) if is_job and format != "github" else text
 
 
-def safe_pieces(
-    pieces: Iterable[str], format: str, coloured: bool
-) -> Iterable[str]:
+def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[str]:
     """The same for a report in pieces."""
     return (safe(piece, format, coloured) for piece in pieces)
 
 
-def _for(
-    encoding: str | None, text: str, format: str, width: int | None = None
-) -> str:
+def _for(encoding: str | None, text: str, format: str, width: int | None = None) -> str:
     """A text for a stream of this encoding: in formats that have escapes nothing is lost."""
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):

@@ -115,8 +115,7 @@ def _refuse_plot(plan: Plan, path: str) -> None:
 
     if len(plan.pareto) < 2:
         raise UsageProblem(
-            "--plot needs two columns",
-            "write pareto: [error, stages] into the spec",
+            "--plot needs two columns", "write pareto: [error, stages] into the spec"
         )
     check_suffix(Path(path))
 
@@ -129,12 +128,7 @@ def _tell(progress: Progress, path: str, output: Output) -> None:
 
 
 def _rendered(report: SweepReport, output: Output) -> str:
-    from garkcli.report.sweep import (
-        render_csv,
-        render_json,
-        render_lines,
-        render_text,
-    )
+    from garkcli.report.sweep import render_csv, render_json, render_lines, render_text
 
     match output.format:
         case "json":

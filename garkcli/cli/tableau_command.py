@@ -23,11 +23,7 @@ from garkcli.errors import HasFreeParameters
 @settings_option
 @common(["text", "yaml", "json", "latex"])
 def command(
-    file: str,
-    digits: int | None,
-    document: bool,
-    settings: dict[str, str],
-    output: Output,
+    file: str, digits: int | None, document: bool, settings: dict[str, str], output: Output
 ) -> int:
     """The assembled tableau, all blocks.
 
@@ -47,12 +43,6 @@ def command(
         write_family(error, settings, None, digits, output, document)
         return 0
     write_tableau(
-        method.tableau,
-        method.name,
-        digits,
-        output,
-        method.tolerance,
-        document,
-        method.further,
+        method.tableau, method.name, digits, output, method.tolerance, document, method.further
     )
     return 0

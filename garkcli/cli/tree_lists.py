@@ -37,9 +37,7 @@ def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
     root = None if query.root is None else query.root - 1
     colours, used = query.colours, query.used
     for n in orders:
-        blocks = select(
-            colours, n, root=root, using=used, block_size=BLOCK_SIZE
-        )
+        blocks = select(colours, n, root=root, using=used, block_size=BLOCK_SIZE)
         for block in blocks:
             columns = block.columns
             yield from map(
@@ -52,9 +50,7 @@ def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
             )
 
 
-def draw_sheet(
-    path: str, listed: Iterable[Tree], has_colours: bool, output: Output
-) -> None:
+def draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Output) -> None:
     """Draw trees into a file, and say so.
 
     Raises:

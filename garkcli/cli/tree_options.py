@@ -15,9 +15,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 def colours_option(help: str) -> Callable[[F], F]:
     """``--colours``, with what it means to the command."""
-    return click.option(
-        "--colours", "-N", type=click.IntRange(1, 1000), metavar="N", help=help
-    )
+    return click.option("--colours", "-N", type=click.IntRange(1, 1000), metavar="N", help=help)
 
 
 def symplectic_options(function: F) -> F:
@@ -34,9 +32,7 @@ def symplectic_options(function: F) -> F:
             help="With --symplectic: which methods, the pair (A, Â) unless given.",
         ),
         click.option(
-            "--members",
-            is_flag=True,
-            help="With --symplectic: all rooted trees of each free tree.",
+            "--members", is_flag=True, help="With --symplectic: all rooted trees of each free tree."
         ),
     ]
     for option in reversed(options):
@@ -44,9 +40,7 @@ def symplectic_options(function: F) -> F:
     return function
 
 
-def kind_asked(
-    symplectic: bool, kind: str | None, members: bool, format: str
-) -> Kind | None:
+def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -> Kind | None:
     """The kind of symplectic methods; None where all trees are meant.
 
     Raises:

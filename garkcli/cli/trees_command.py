@@ -13,11 +13,7 @@ import click
 from garkcli.cli.options import CONTEXT, PATH, Output, common, document_option
 from garkcli.cli.streams import is_terminal, say
 from garkcli.cli.tree_lists import counts_of, draw_sheet, rows_of
-from garkcli.cli.tree_options import (
-    colours_option,
-    kind_asked,
-    symplectic_options,
-)
+from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -29,46 +25,23 @@ MANY = 1_000_000
 
 
 @click.command("trees", context_settings=CONTEXT)
-@colours_option(
-    "How many colours, 1 unless given; with --symplectic, terms of the split."
-)
+@colours_option("How many colours, 1 unless given; with --symplectic, terms of the split.")
 @click.option(
-    "--order",
-    "-n",
-    type=click.IntRange(1, 10000),
-    metavar="n",
-    help="The number of vertices.",
+    "--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices."
 )
 @click.option("--upto", is_flag=True, help="Every order from 1 to n.")
 @click.option(
-    "--root",
-    type=click.IntRange(1),
-    metavar="L",
-    help="Only trees whose root has colour L.",
+    "--root", type=click.IntRange(1), metavar="L", help="Only trees whose root has colour L."
 )
 @click.option(
-    "--colours-used",
-    metavar="L,M,...",
-    help="Only trees in which each of these colours occurs.",
+    "--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs."
 )
+@click.option("--count", is_flag=True, help="Count without generating, for any order.")
+@click.option("--yes", is_flag=True, help="List them also where they are millions.")
 @click.option(
-    "--count", is_flag=True, help="Count without generating, for any order."
+    "--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order."
 )
-@click.option(
-    "--yes", is_flag=True, help="List them also where they are millions."
-)
-@click.option(
-    "--tree",
-    "one",
-    metavar="TEXT",
-    help="One tree, such as [[]_2,[]_1]_1, instead of an order.",
-)
-@click.option(
-    "--svg",
-    type=PATH,
-    metavar="FILE",
-    help="Draw a sheet of all the trees into FILE.",
-)
+@click.option("--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE.")
 @document_option
 @symplectic_options
 @common(["text", "json", "ndjson", "csv", "latex"])
@@ -81,9 +54,7 @@ def command(output: Output, **options: Any) -> int:
     conditions are equivalent for symplectic methods.
     """
     wanted = Wanted(**options)
-    asked = kind_asked(
-        wanted.symplectic, wanted.kind, wanted.members, output.format
-    )
+    asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
     if asked is not None:
         _free_trees(asked, wanted, output)
     else:
@@ -130,9 +101,7 @@ class Wanted:
             UsageProblem: none is.
         """
         if self.order is None:
-            raise UsageProblem(
-                "which order?", "give --order n, or --tree for one tree"
-            )
+            raise UsageProblem("which order?", "give --order n, or --tree for one tree")
         first = 1 if self.upto else self.order
         return range(first, self.order + 1)
 
@@ -167,9 +136,7 @@ def _count(query: Query, output: Output) -> None:
     from garkcli.report import trees as report
 
     if query.used:
-        raise UsageProblem(
-            "--count knows no --colours-used", "leave one of them out"
-        )
+        raise UsageProblem("--count knows no --colours-used", "leave one of them out")
     counts = counts_of(query)
     format, paint = output.format, output.paint
     with _any_digits():
@@ -188,12 +155,8 @@ def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
         kept = [report.kept(query, by_root) for _, by_root in totals]
         count_all = sum(map(sum, kept))
     _refuse_millions(count_all, wanted.yes)
-    rows = tracked(
-        rows_of(query, orders), count_all, "trees", output.may_show_progress
-    )
-    pieces = report.render(
-        query, rows, totals, output.format, output.paint, wanted.document
-    )
+    rows = tracked(rows_of(query, orders), count_all, "trees", output.may_show_progress)
+    pieces = report.render(query, rows, totals, output.format, output.paint, wanted.document)
     output.write(pieces)
 
 
@@ -209,9 +172,7 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
         say(f"{lines} trees: list them all? [y/N]")
         if sys.stdin.readline().strip().lower() in {"y", "yes"}:
             return
-    raise UsageProblem(
-        f"{lines} trees", "--yes lists them, --count counts them"
-    )
+    raise UsageProblem(f"{lines} trees", "--yes lists them, --count counts them")
 
 
 def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
@@ -235,18 +196,14 @@ def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     else:
         lines = subject.independent
         _refuse_millions(lines, wanted.yes)
-        classes = tracked(
-            subject.classes(), lines, "trees", output.may_show_progress
-        )
+        classes = tracked(subject.classes(), lines, "trees", output.may_show_progress)
         pieces = report.render_classes(
             subject, classes, format, paint, wanted.members, wanted.document
         )
         output.write(pieces)
 
 
-def _single(
-    text: str, svg: str | None, is_document: bool, output: Output
-) -> None:
+def _single(text: str, svg: str | None, is_document: bool, output: Output) -> None:
     """One tree, given in bracket text."""
     from garkcli.report import trees as report
     from garkcli.trees.notation import NotationError, format_tree, parse_tree
@@ -261,15 +218,11 @@ def _single(
     if svg is not None:
         draw_sheet(svg, [tree], colours > 1, output)
         return
-    row = report.TreeRow(
-        written, tree.root, tree.order, tree.symmetry, tree.density
-    )
+    row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
     by_root = tuple(int(l == tree.root) for l in range(colours))
     counts = [(tree.order, by_root)]
     query = report.Query(colours, tree.order, False, tree.root + 1)
-    pieces = report.render(
-        query, [row], counts, output.format, output.paint, is_document
-    )
+    pieces = report.render(query, [row], counts, output.format, output.paint, is_document)
     output.write(pieces)
 
 

@@ -64,31 +64,19 @@ def usage_text(error: click.ClickException) -> str:
     message = _message(error, context)
     lines = []
     if context is not None:
-        lines = [
-            context.get_usage(),
-            f"Try '{context.command_path} --help' for help.",
-            "",
-        ]
+        lines = [context.get_usage(), f"Try '{context.command_path} --help' for help.", ""]
     return "\n".join([*lines, f"Error: {message}"])
 
 
-def _message(
-    error: click.ClickException, context: click.Context | None
-) -> str:
+def _message(error: click.ClickException, context: click.Context | None) -> str:
     message = error.format_message()
-    options = (
-        []
-        if context is None
-        else [x for p in context.command.params for x in p.opts]
-    )
+    options = [] if context is None else [x for p in context.command.params for x in p.opts]
     if isinstance(error, click.NoSuchOption):
         return _no_such_option(error.option_name, options)
     if isinstance(error, click.MissingParameter):
         cures = [cure for word, cure in CURES.items() if word in message]
         return f"{message.rstrip('.')}; {cures[0]}" if cures else message
-    if (extra := _EXTRA.fullmatch(message.rstrip("."))) and (
-        "--order" in options
-    ):
+    if (extra := _EXTRA.fullmatch(message.rstrip("."))) and ("--order" in options):
         return f"{message.rstrip('.')}; an order is --order {extra[1]}"
     if choice := _CHOICE.search(message):
         words = re.findall(r"'([^']*)'", choice[2])

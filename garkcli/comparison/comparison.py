@@ -13,12 +13,7 @@ from garkcli.comparison.differences import BlockGap, block_gaps
 from garkcli.comparison.grid import Grid
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.met import Met, Side, conditions_met
-from garkcli.comparison.sameness import (
-    Answer,
-    Sameness,
-    find_sameness,
-    views_of,
-)
+from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.properties.keys import KEYS
@@ -27,9 +22,7 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
 
-Relation: TypeAlias = Literal[
-    "identical", "same", "within-rounding", "different", "undecided"
-]
+Relation: TypeAlias = Literal["identical", "same", "within-rounding", "different", "undecided"]
 """Entry by entry; as a method; up to the rounding that the files admit; not; not known."""
 
 
@@ -145,9 +138,7 @@ class Comparison:
         return html
 
 
-def compare(
-    one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT
-) -> Comparison:
+def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
     """Hold two methods against each other.
 
     Methods are the same where a renumbering of stages or colours turns one into the other, once
@@ -198,9 +189,7 @@ def _analysed(method: GarkMethod, limit: int) -> Analysis:
     return analyse(method.tableau, limit, method.tolerance, further=further)
 
 
-def _decided(
-    gaps: tuple[BlockGap, ...], answer: Answer
-) -> tuple[BlockGap, ...]:
+def _decided(gaps: tuple[BlockGap, ...], answer: Answer) -> tuple[BlockGap, ...]:
     """The gaps without those that enclosures left open, where the methods are known to agree."""
     same = answer.sameness
     if same is None or same.step_only:
@@ -223,21 +212,9 @@ def form_of(tableau: Tableau) -> str:
 def _orders(one: Analysis, other: Analysis) -> tuple[OrderPair, ...]:
     return (
         OrderPair("order", one.order, other.order),
-        OrderPair(
-            WITH_TIME,
-            one.nonautonomous_order,
-            other.nonautonomous_order,
-        ),
-        OrderPair(
-            "order of the embedded weights",
-            _of_embedded(one),
-            _of_embedded(other),
-        ),
-        OrderPair(
-            "order of the conjugate",
-            one.conjugate_order,
-            other.conjugate_order,
-        ),
+        OrderPair(WITH_TIME, one.nonautonomous_order, other.nonautonomous_order),
+        OrderPair("order of the embedded weights", _of_embedded(one), _of_embedded(other)),
+        OrderPair("order of the conjugate", one.conjugate_order, other.conjugate_order),
         OrderPair("order of the pair", one.pair_order, other.pair_order),
     )
 
@@ -246,9 +223,7 @@ def _of_embedded(found: Analysis) -> AnyOrder | None:
     return None if found.embedded is None else found.embedded.order
 
 
-def _met(
-    one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Grid
-) -> Met | None:
+def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Grid) -> Met | None:
     """The conditions up to the first order at which both fail."""
     if answer.sameness is not None or first.size != second.size:
         return None

@@ -71,9 +71,7 @@ def _size(gap: EntryGap) -> arb:
     return size
 
 
-def block_gaps(
-    one: Grid, other: Grid, likeness: Likeness
-) -> Iterator[BlockGap]:
+def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]:
     """Everything that differs between methods with the same number of colours: blocks, weights,
     nodes, further weights.
     """
@@ -103,11 +101,7 @@ class _Compare:
         self.likeness = likeness
 
     def weights(
-        self,
-        kind: str,
-        power: int,
-        one: CellRows | None,
-        other: CellRows | None,
+        self, kind: str, power: int, one: CellRows | None, other: CellRows | None
     ) -> Iterator[BlockGap]:
         """Weights or nodes of all colours, which one of the methods may lack."""
         if one is None and other is None:
@@ -119,9 +113,7 @@ class _Compare:
             place = BlockGap(kind, l, power=power)
             yield from self.blocks(place, first, second)
 
-    def blocks(
-        self, place: BlockGap, one: Block, other: Block
-    ) -> Iterator[BlockGap]:
+    def blocks(self, place: BlockGap, one: Block, other: Block) -> Iterator[BlockGap]:
         """One block; nothing where it is the same in both."""
         if one is None and other is None:
             return
@@ -150,15 +142,7 @@ def _at(
     gaps: tuple[EntryGap, ...] = (),
     shapes: tuple[str, str] | None = None,
 ) -> BlockGap:
-    return BlockGap(
-        place.kind,
-        place.colour,
-        place.seen,
-        place.power,
-        entries,
-        gaps,
-        shapes,
-    )
+    return BlockGap(place.kind, place.colour, place.seen, place.power, entries, gaps, shapes)
 
 
 def _shape(block: Block, is_row: bool) -> str:

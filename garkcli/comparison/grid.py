@@ -88,9 +88,7 @@ class Grid:
         return replace(self, embedded=None, powers=())
 
 
-def common_sheets(
-    one: GarkMethod, other: GarkMethod
-) -> tuple[Sheet, Sheet] | None:
+def common_sheets(one: GarkMethod, other: GarkMethod) -> tuple[Sheet, Sheet] | None:
     """Both methods with exact entries from one field, each colour with stages of its own; None
     where the nodes of one have no simple radicals.
     """

@@ -21,10 +21,7 @@ MAX_TRIALS = 3000
 
 
 def find_matching(
-    one: Grid,
-    other: Grid,
-    likeness: Likeness,
-    classes: _Classes | None = None,
+    one: Grid, other: Grid, likeness: Likeness, classes: _Classes | None = None
 ) -> Images | None:
     """The stages of ``other`` that the stages of ``one`` are; None where no renumbering does it.
 
@@ -94,8 +91,7 @@ class _Search:
             self.trials += 1
             if self.trials > MAX_TRIALS:
                 raise LimitExceeded(
-                    f"more than {MAX_TRIALS} renumberings of stages",
-                    "compare the canonical forms",
+                    f"more than {MAX_TRIALS} renumberings of stages", "compare the canonical forms"
                 )
             if not self._fits(stage, j, stage, j):
                 continue
@@ -103,9 +99,7 @@ class _Search:
             if all(rest.values()):
                 yield from self.completions(rest, {**chosen, stage: j})
 
-    def _narrowed(
-        self, candidates: _Candidates, stage: Stage, image: int
-    ) -> _Candidates:
+    def _narrowed(self, candidates: _Candidates, stage: Stage, image: int) -> _Candidates:
         """What is left for the other stages."""
         rest: _Candidates = {}
         for other, images in candidates.items():
@@ -121,9 +115,7 @@ class _Search:
 
     def _fits(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:
         """Whether two stages see each other as their images do."""
-        return self._sees(x, image_x, y, image_y) and self._sees(
-            y, image_y, x, image_x
-        )
+        return self._sees(x, image_x, y, image_y) and self._sees(y, image_y, x, image_x)
 
     def _sees(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:
         (l, i), (m, j) = x, y

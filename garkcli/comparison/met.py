@@ -8,12 +8,7 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from garkcli.exact.field import ZERO
-from garkcli.order.conditions import (
-    Condition,
-    conditions,
-    coupling_graph,
-    twin_roots,
-)
+from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import count_by_root
 from garkcli.trees.tree import Tree
@@ -106,14 +101,10 @@ def _common_roots(one: Tableau, other: Tableau) -> list[int]:
     return list(range(one.size))
 
 
-def _trees(
-    colours: int, order: int, graph: _Graph, roots: Sequence[int]
-) -> Iterator[Tree]:
+def _trees(colours: int, order: int, graph: _Graph, roots: Sequence[int]) -> Iterator[Tree]:
     from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
 
     edges, linear = graph
-    blocks = iter_blocks(
-        colours, order, edges=edges, linear=linear, roots=roots
-    )
+    blocks = iter_blocks(colours, order, edges=edges, linear=linear, roots=roots)
     for block in blocks:
         yield from block.trees()

@@ -8,20 +8,10 @@ from itertools import permutations
 
 from flint import fmpq
 
-from garkcli.comparison.grid import (
-    Grid,
-    common_sheets,
-    enclosed_grid,
-    grid_of,
-)
+from garkcli.comparison.grid import Grid, common_sheets, enclosed_grid, grid_of
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.matching import Images, find_matching
-from garkcli.conversion.sheet import (
-    CannotConvert,
-    Rows,
-    Sheet,
-    of_weights,
-)
+from garkcli.conversion.sheet import CannotConvert, Rows, Sheet, of_weights
 from garkcli.conversion.stage_classes import stage_classes
 from garkcli.errors import LimitExceeded
 from garkcli.exact.field import ZERO
@@ -104,9 +94,7 @@ def views_of(one: GarkMethod, other: GarkMethod) -> Views:
     return Views(grid_of(sheets[0]), grid_of(sheets[1]), sheets)
 
 
-def find_sameness(
-    one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq
-) -> Answer:
+def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq) -> Answer:
     """How two methods are the same, if they are: as they stand, with their stages or their colours
     renumbered, or once reduced.
 
@@ -213,10 +201,7 @@ def _grids(sheets: tuple[Sheet, Sheet]) -> tuple[Grid, Grid]:
 
 
 def _matched(
-    one: Grid,
-    other: Grid,
-    allowed: fmpq,
-    sheets: tuple[Sheet, Sheet] | None,
+    one: Grid, other: Grid, allowed: fmpq, sheets: tuple[Sheet, Sheet] | None
 ) -> Sameness | None:
     """The renumbering of colours and stages that makes one of the other."""
     likeness = Likeness(allowed)

@@ -91,9 +91,7 @@ def _check_alike(tableaus: Sequence[Tableau]) -> None:
             message = f"substep {number} has {of_other}, the first {of_first}"
             raise MethodError(message, _CURE)
         if _fields(other) != _fields(first):
-            message = (
-                f"substep {number} is for other vector fields than the first"
-            )
+            message = f"substep {number} is for other vector fields than the first"
             raise MethodError(message, _CURE)
 
 

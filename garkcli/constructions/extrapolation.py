@@ -22,9 +22,7 @@ from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 
-def extrapolated(
-    base: Tableau, parts: Sequence[int], order: int, is_symmetric: bool
-) -> Tableau:
+def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: bool) -> Tableau:
     """The extrapolated method, equal stages once.
 
     Args:
@@ -66,9 +64,7 @@ def side_by_side(tableaus: Sequence[Tableau], weights: Vector) -> Tableau:
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def _side_by_side(
-    tableaus: Sequence[Tableau], weights: Vector, l: int
-) -> Colour:
+def _side_by_side(tableaus: Sequence[Tableau], weights: Vector, l: int) -> Colour:
     b: list[Number] = []
     c: list[Number] = []
     for tableau, weight in zip(tableaus, weights, strict=True):
@@ -79,9 +75,7 @@ def _side_by_side(
     return replace(first, b=tuple(b), c=tuple(c))
 
 
-def _diagonal(
-    blocks: Sequence[Matrix], widths: Sequence[int]
-) -> Iterator[Vector]:
+def _diagonal(blocks: Sequence[Matrix], widths: Sequence[int]) -> Iterator[Vector]:
     """The rows of a block diagonal matrix, whose blocks have so many columns."""
     for k, block in enumerate(blocks):
         before = [ZERO] * sum(widths[:k])

@@ -17,13 +17,7 @@ from flint import fmpq
 
 from garkcli.constructions.composition import Substep, composed, in_turn
 from garkcli.constructions.limits import refuse_large
-from garkcli.constructions.program import (
-    START,
-    Program,
-    Value,
-    of_slopes,
-    summed,
-)
+from garkcli.constructions.program import START, Program, Value, of_slopes, summed
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
@@ -127,9 +121,7 @@ class _Infinitesimal:
             value = self._small_step(i, value, begin, length)
         return value
 
-    def _small_step(
-        self, i: int, value: Value, begin: Number, length: fmpq
-    ) -> Value:
+    def _small_step(self, i: int, value: Value, begin: Number, length: fmpq) -> Value:
         """One step of the fast method from τ = ``begin``."""
         nodes = self.coupling.nodes
         width = nodes[i + 1] - nodes[i]
@@ -144,12 +136,7 @@ class _Infinitesimal:
         return summed(value, step)
 
     def _moved(
-        self,
-        i: int,
-        weights: Vector,
-        times: Sequence[Number],
-        stages: range,
-        length: fmpq,
+        self, i: int, weights: Vector, times: Sequence[Number], stages: range, length: fmpq
     ) -> Value:
         """The fast slopes and the slow ones at their times, with the weights of the fast method."""
         nodes = self.coupling.nodes
@@ -175,9 +162,7 @@ class _Infinitesimal:
         return moved
 
 
-def _polynomial(
-    powers: Sequence[Matrix], i: int, j: int, time: Number
-) -> Number:
+def _polynomial(powers: Sequence[Matrix], i: int, j: int, time: Number) -> Number:
     """Σ γ^k_ij τ^k."""
     total: Number = ZERO
     for matrix in reversed(powers):
@@ -228,9 +213,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     program = Program([FAST, SLOW])
     every = range(slow.stages)
     for row, node in zip(slow.A, slow.c, strict=True):
-        coarse = summed(
-            of_slopes(FAST, every, row), of_slopes(SLOW, every, row)
-        )
+        coarse = summed(of_slopes(FAST, every, row), of_slopes(SLOW, every, row))
         program.add(FAST, coarse, node)
         program.add(SLOW, coarse, node)
     whole = small_steps(fast, steps)
@@ -240,13 +223,9 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     for row, node in zip(whole.A, whole.c, strict=True):
         powers = _powers(node, slow.stages + 1)
         seen = [dot(f, powers) for f in integrals]
-        value = summed(
-            of_slopes(FAST, stages, row), of_slopes(SLOW, every, seen)
-        )
+        value = summed(of_slopes(FAST, stages, row), of_slopes(SLOW, every, seen))
         program.add(FAST, value, node)
-    result = summed(
-        of_slopes(FAST, stages, whole.b), of_slopes(SLOW, every, slow.b)
-    )
+    result = summed(of_slopes(FAST, stages, whole.b), of_slopes(SLOW, every, slow.b))
     return merged(program.tableau(result))
 
 

@@ -31,9 +31,7 @@ def summed(*values: Value) -> Value:
     return total
 
 
-def of_slopes(
-    colour: int, stages: Iterable[int], weights: Iterable[Number]
-) -> Value:
+def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> Value:
     """Weights for stages of one colour."""
     pairs = zip(stages, weights, strict=True)
     return {(colour, i): weight for i, weight in pairs}

@@ -48,9 +48,7 @@ def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     return tuple(found)
 
 
-def _change(
-    made: Any, names: Sequence[Any], problem: Problem, end: Sequence[arb]
-) -> float:
+def _change(made: Any, names: Sequence[Any], problem: Problem, end: Sequence[arb]) -> float:
     """Of one invariant; 0 where it is no more than the errors of the solution."""
     with ctx.workprec(_BITS):
         start = [arb(x) for x in problem.initial]

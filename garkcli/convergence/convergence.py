@@ -121,9 +121,7 @@ def _has_settled(rows: Sequence[Row]) -> bool:
     return len(rows) >= ladder.ROWS and ladder.has_settled(rows)
 
 
-def _rows(
-    solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool
-) -> tuple[list[Row], int]:
+def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple[list[Row], int]:
     """The errors over the given steps or those of the ladder, and how many rows of these end on a
     plateau.
     """
@@ -156,27 +154,20 @@ def _with_time(tableau: Tableau, problem: Oscillator | Problem) -> Tableau:
 
 
 def _stiffness(
-    solver: Solver,
-    tableau: Tableau,
-    rows: Sequence[Row],
-    tolerance: fmpq | None,
+    solver: Solver, tableau: Tableau, rows: Sequence[Row], tolerance: fmpq | None
 ) -> Stiffness | None:
     """Where the steps of all rows are far too large for the problem."""
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
-    found = simplifying(
-        tableau, tolerance=fmpq(0) if tolerance is None else tolerance
-    )
+    found = simplifying(tableau, tolerance=fmpq(0) if tolerance is None else tolerance)
     is_stable = ladder.is_part(rows[-1], solver.size())
     return Stiffness(resolution, found.eta, is_stable)
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:
     """The final time of a test where none is given."""
-    return (
-        4 / problem.omega if isinstance(problem, Oscillator) else problem.t_end
-    )
+    return 4 / problem.omega if isinstance(problem, Oscillator) else problem.t_end
 
 
 def most_steps(problem: Oscillator | Problem) -> int:
@@ -190,9 +181,7 @@ def most_steps(problem: Oscillator | Problem) -> int:
     return stepped_solver.MAX_STEPS
 
 
-def check_steps(
-    problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq]
-) -> None:
+def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq]) -> None:
     """Whether step sizes can be taken, before any work is done.
 
     Raises:
@@ -203,9 +192,7 @@ def check_steps(
         count = whole_steps(t_end, h)
         if count > limit:
             message = f"{count} steps (limit {limit})"
-            raise UsageProblem(
-                message, "choose a shorter time or larger steps"
-            )
+            raise UsageProblem(message, "choose a shorter time or larger steps")
 
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
@@ -258,9 +245,7 @@ def _is_off(solver: Solver, observed: float | None) -> bool:
     return abs(observed - solver.visible.order) > CLOSE
 
 
-def _over_short_times(
-    solver: Solver, usual: fmpq
-) -> tuple[fmpq, float | None]:
+def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
     """A short time, and the order over it: the first that is a whole number.
 
     Where only the visible order can be, shorter times follow while it is larger: a condition that
@@ -273,9 +258,7 @@ def _over_short_times(
         if order is None:
             break
         is_whole = abs(order - round(order)) <= CLOSE
-        may_fall = (
-            solver.visible.is_sharp and order > solver.visible.order + CLOSE
-        )
+        may_fall = solver.visible.is_sharp and order > solver.visible.order + CLOSE
         if is_whole and not may_fall:
             break
     return short, order

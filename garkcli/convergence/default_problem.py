@@ -53,9 +53,7 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
     return most
 
 
-def in_common(
-    name: str, tableaux: Sequence[Tableau], seed: int
-) -> list[Problem]:
+def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem]:
     """The problem called ``name`` for each method, with one sum for all of them.
 
     Its coefficients depend on the number of terms: all methods get that of the method with the
@@ -64,11 +62,7 @@ def in_common(
     terms = [terms_of(with_joined_terms(tableau)) for tableau in tableaux]
     most = max(terms)
     if name == GENERIC_RHS:
-        found = [
-            _linear_terms(x)
-            for x, n in zip(tableaux, terms, strict=True)
-            if n == most
-        ]
+        found = [_linear_terms(x) for x, n in zip(tableaux, terms, strict=True) if n == most]
         widest: Problem = generic_rhs(most, seed, frozenset.union(*found))
     else:
         widest = hamiltonian(name, most, seed)

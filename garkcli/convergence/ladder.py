@@ -166,10 +166,7 @@ def has_settled(rows: Sequence[Row]) -> bool:
 
 
 def trimmed(
-    rows: Sequence[Row],
-    is_small: Sequence[bool],
-    plateau: int = 0,
-    may_be_off: bool = False,
+    rows: Sequence[Row], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
 ) -> list[Row]:
     """The rows without those at the start that are too coarse to belong; ``ROWS`` of them stay at
     least.

@@ -12,13 +12,7 @@ from math import ceil, factorial
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.convergence.result import (
-    Cost,
-    Row,
-    Visible,
-    absolute,
-    slope_between,
-)
+from garkcli.convergence.result import Cost, Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import NoUniqueStep
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.errors import UsageProblem

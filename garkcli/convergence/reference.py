@@ -43,11 +43,7 @@ _REFINED = 64  # times the first number of steps with which they should have
 
 
 def run(
-    made: Integrator,
-    h: fmpq,
-    count: int,
-    watch: Watch | None = None,
-    what: str = "",
+    made: Integrator, h: fmpq, count: int, watch: Watch | None = None, what: str = ""
 ) -> Stepper:
     """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
 
@@ -98,9 +94,7 @@ class Reference:
             first = 2 * self.steps // 3
             if not first:
                 first = ceil(4 * to_float(self.t_end))
-            self.y, self.steps = _solved(
-                self.problem, self.t_end, digits, max(4, first), watch
-            )
+            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first), watch)
             self.digits = digits
         return self.y
 
@@ -187,9 +181,7 @@ class _Runs:
     are, which damp what is off the smooth solution.
     """
 
-    def __init__(
-        self, problem: Problem, t_end: fmpq, digits: int, watch: Watch | None
-    ) -> None:
+    def __init__(self, problem: Problem, t_end: fmpq, digits: int, watch: Watch | None) -> None:
         from garkcli.families.registry import diagonal_method
         from garkcli.tableau.forms import gark
 
@@ -229,9 +221,7 @@ class _Runs:
                 raise _no_solution(self.t_end, failure) from None
             return None
 
-    def change(
-        self, before: Sequence[Any], fewer: int, y: Sequence[Any], steps: int
-    ) -> _Change:
+    def change(self, before: Sequence[Any], fewer: int, y: Sequence[Any], steps: int) -> _Change:
         """What ``steps`` steps, which end at ``y``, change of ``fewer`` ones, which end at
         ``before``.
 

@@ -189,9 +189,7 @@ class Convergence:
         assert self.stiff is not None
         if not self.stiff.is_stable:
             return "disagree"
-        if self.short_order is not None and not self._is_visible(
-            self.short_order
-        ):
+        if self.short_order is not None and not self._is_visible(self.short_order):
             return "disagree"
         is_reached = observed >= self.visible.order - CLOSE
         return "agree" if is_reached else "reduced"
@@ -200,9 +198,7 @@ class Convergence:
         if self.visible.order < self.predicted_order:
             return False
         excess = order - self.visible.order
-        return abs(excess) <= CLOSE or (
-            excess > 0 and not self.visible.is_sharp
-        )
+        return abs(excess) <= CLOSE or (excess > 0 and not self.visible.is_sharp)
 
     @property
     def agrees(self) -> bool:

@@ -16,13 +16,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.convergence.ladder import ROWS
 from garkcli.convergence.reference import Reference, magnitude, reference, run
-from garkcli.convergence.result import (
-    MAX_ORDER,
-    Row,
-    Visible,
-    absolute,
-    slope_between,
-)
+from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import Watch
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
@@ -128,9 +122,7 @@ class SteppedSolver:
         steps = whole_steps(self.t_end, h)
         digits = self._digits(h, before)
         while True:
-            state = run(
-                self._integrator(digits), h, steps, self.watch, f"h = {h}"
-            )
+            state = run(self._integrator(digits), h, steps, self.watch, f"h = {h}")
             error = self._distance(state.y, digits)
             shown = arb(10) ** (_SPARE - 1 - digits) * self._amplified(h)
             if error > self.size() * shown:
@@ -142,9 +134,7 @@ class SteppedSolver:
         error = _with_radius(error, self._round_off(digits, h))
         energy, others = self._invariant_errors(state.y, digits, h)
         slope = slope_between(before, h, error)
-        return Row(
-            h, error, slope, energy, tuple(others), digits, cost_of(state)
-        )
+        return Row(h, error, slope, energy, tuple(others), digits, cost_of(state))
 
     def rounding(self) -> arb:
         """About the error that coefficients rounded to the tolerance make."""
@@ -177,9 +167,7 @@ class SteppedSolver:
 
     def _distance(self, y: Sequence[Any], digits: int) -> arb:
         """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the middle of its ball."""
-        exact = self.reference.to(
-            self._digits_of_reference(digits), self.watch
-        )
+        exact = self.reference.to(self._digits_of_reference(digits), self.watch)
         with ctx.workprec(self._integrator(digits).bits + _GUARD):
             total = arb(0)
             for a, b in zip(y, exact, strict=True):

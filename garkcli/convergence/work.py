@@ -24,14 +24,10 @@ REACHED = 0.1
 def cost_of(state: Stepper, seconds: float | None = None) -> Cost:
     """What the steps of ``state`` so far have cost."""
     work = state.work
-    return Cost(
-        state.done, work.evaluations, work.iterations, work.jacobians, seconds
-    )
+    return Cost(state.done, work.evaluations, work.iterations, work.jacobians, seconds)
 
 
-def work_of(
-    integrator: Integrator, h: fmpq, count: int
-) -> tuple[list[Any], Cost]:
+def work_of(integrator: Integrator, h: fmpq, count: int) -> tuple[list[Any], Cost]:
     """(q, p) after ``count`` steps of size ``h``, shape (2d,), and their cost with the time of the
     fastest run; the mean time where the clock ticks too seldom for single runs.
 

@@ -43,9 +43,7 @@ class Converted:
         return f"<Converted {self.method!r}>"
 
 
-def convert(
-    method: GarkMethod, to: str = "spelled-out", stages: int | None = None
-) -> Converted:
+def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = None) -> Converted:
     """The same method in another form.
 
     Args:
@@ -119,8 +117,6 @@ def _failing(method: MethodFile) -> set[str]:
         return set()
     reach = max(DEFAULT_LIMIT, highest_order(method.claims) + 1)
     further = method.further
-    analysis = analyse(
-        method.tableau, reach, method.tolerance, further=further
-    )
+    analysis = analyse(method.tableau, reach, method.tolerance, further=further)
     claims = verify(method.claims, analysis)
     return {claim.claim for claim in claims if not claim.holds}

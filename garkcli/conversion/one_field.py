@@ -6,13 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 
 from garkcli.exact.domain import Domain
-from garkcli.exact.field import (
-    ONE,
-    ZERO,
-    Algebraic,
-    Number,
-    NumberField,
-)
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
 

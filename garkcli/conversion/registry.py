@@ -6,14 +6,7 @@ from importlib import import_module
 
 from garkcli.conversion.target import Target
 
-TARGETS = (
-    "spelled-out",
-    "gark",
-    "ark",
-    "prk",
-    "pair",
-    "canonical",
-)
+TARGETS = ("spelled-out", "gark", "ark", "prk", "pair", "canonical")
 """Every form; the module of the same name in ``targets`` has it."""
 
 

@@ -72,8 +72,7 @@ def sheet_of(method: GarkMethod) -> Sheet:
     exact = in_points(method.tableau)
     if exact is None:
         raise CannotConvert(
-            "the nodes have no simple radicals, so the method cannot be"
-            " spelled out exactly",
+            "the nodes have no simple radicals, so the method cannot be spelled out exactly",
             "gark tableau --format yaml --digits 17 writes decimals",
         )
     has_embedded = method.embedded is not None
@@ -104,8 +103,7 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
         field = OneField(all_numbers(rows))
     except LimitExceeded as error:
         raise CannotConvert(
-            f"the numbers have no common field: {error.message}",
-            "compare decimals",
+            f"the numbers have no common field: {error.message}", "compare decimals"
         ) from None
     return [_mapped(sheet, field) for sheet in sheets]
 
@@ -137,9 +135,7 @@ def _mapped(sheet: Sheet, field: OneField) -> Sheet:
     return replace(sheet, tableau=tableau, further=further)
 
 
-def regrouped(
-    sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]
-) -> Sheet:
+def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
     """The method with its stages arranged anew.
 
     Args:
@@ -170,9 +166,7 @@ def regrouped(
     return replace(sheet, tableau=tableau, further=tuple(further))
 
 
-def _weights(
-    tableau: Tableau, rows: Rows, places_of: Sequence[Sequence[Place]]
-) -> Rows:
+def _weights(tableau: Tableau, rows: Rows, places_of: Sequence[Sequence[Place]]) -> Rows:
     """Weights at the new stages of each colour."""
     found = []
     for l, colour in enumerate(tableau.colours):
@@ -199,9 +193,7 @@ def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
     return tuple(nodes)
 
 
-def _nodes_of(
-    tableau: Tableau, colour: Colour, places: Sequence[Place]
-) -> Vector:
+def _nodes_of(tableau: Tableau, colour: Colour, places: Sequence[Place]) -> Vector:
     """The same, for the stages of a colour those that the colour has."""
     nodes = list(_nodes(tableau, places))
     for new, place in enumerate(places):
@@ -237,8 +229,7 @@ def _block(
     if blind:
         name = tableau.colours[m].name
         raise CannotConvert(
-            f"some stages do not see colour {name}, and would see it where"
-            " all share their stages",
+            f"some stages do not see colour {name}, and would see it where all share their stages",
             "a null block is kept by --to gark",
         )
     made: list[Vector] = []
@@ -264,9 +255,7 @@ def _places(tableau: Tableau, space: int) -> list[Place]:
     return [(space, i) for i in range(stages)]
 
 
-def of_weights(
-    sheet: Sheet, change: Callable[[Tableau], Tableau | None]
-) -> Sheet:
+def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> Sheet:
     """What a change of the tableau makes of the method and of its further weights.
 
     The change sees each further row of weights as that of one more colour, which no stage sees.

@@ -60,9 +60,7 @@ def _count(classes: Iterable[Classes]) -> int:
     return len(numbers)
 
 
-def _numbered(
-    found: Sequence[Mapping[Stage, _Signature]],
-) -> list[Classes]:
+def _numbered(found: Sequence[Mapping[Stage, _Signature]]) -> list[Classes]:
     """The places of signatures among all signatures in ascending order."""
     different: set[_Signature] = set()
     for signatures in found:
@@ -112,9 +110,7 @@ def _own_rows(sheet: Sheet, space: int) -> list[Vector]:
     return rows
 
 
-def _sights(
-    tableau: Tableau, classes: Classes, ranks: _Ranks
-) -> dict[Stage, _Signature]:
+def _sights(tableau: Tableau, classes: Classes, ranks: _Ranks) -> dict[Stage, _Signature]:
     """The class of a stage with what it sees, and with what sees it, both in ascending order."""
     seen: _Glances = {}
     seeing: _Glances = {}

@@ -56,15 +56,11 @@ class Cluster(Generic[Item, Outcome]):
         try:
             from dask.distributed import Client
         except ImportError:
-            raise UsageProblem(
-                "--scheduler needs Dask", "install garkcli[cluster]"
-            ) from None
+            raise UsageProblem("--scheduler needs Dask", "install garkcli[cluster]") from None
         register()
         self._quiet.enter_context(_without_logs())
         try:
-            self._client = Client(
-                self.scheduler, timeout=TIMEOUT, set_as_default=False
-            )
+            self._client = Client(self.scheduler, timeout=TIMEOUT, set_as_default=False)
         except (AssertionError, OSError, TypeError, ValueError) as error:
             # an address of another kind: what is raised depends on the kind
             self._quiet.close()
@@ -89,9 +85,7 @@ class Cluster(Generic[Item, Outcome]):
         """How many workers there are now, and at least one: workers may come later."""
         return max(1, len(self._client.nthreads()))
 
-    def as_they_come(
-        self, items: Sequence[Item]
-    ) -> Iterator[tuple[int, Outcome]]:
+    def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
         """Every outcome with the number of its item, as soon as it is there."""
         from dask.distributed import as_completed
 
@@ -118,10 +112,7 @@ class Cluster(Generic[Item, Outcome]):
         from dask.distributed import KilledWorker
 
         if future.status not in {"finished", "error"}:
-            raise WorkerLost(
-                f"the Dask scheduler at {self.scheduler} is gone",
-                "start it again",
-            )
+            raise WorkerLost(f"the Dask scheduler at {self.scheduler} is gone", "start it again")
         fault = future.exception() if future.status == "error" else None
         if isinstance(fault, KilledWorker):
             return self.crashed(item, "on the cluster, several times")
@@ -155,9 +146,7 @@ def _without_logs() -> Iterator[None]:
             handler.setLevel(level)
 
 
-def _done(
-    version: str, work: Callable[[Item], Outcome], item: Item
-) -> tuple[str, Outcome | None]:
+def _done(version: str, work: Callable[[Item], Outcome], item: Item) -> tuple[str, Outcome | None]:
     """What a worker does: its version, and the outcome where that is the one asked for."""
     if version != __version__:
         return __version__, None

@@ -26,10 +26,7 @@ class _Worker(Generic[Item, Outcome]):
     """A process that does the items it is sent, one after the other."""
 
     def __init__(
-        self,
-        context: BaseContext,
-        work: Callable[[Item], Outcome],
-        others: Sequence[Connection],
+        self, context: BaseContext, work: Callable[[Item], Outcome], others: Sequence[Connection]
     ) -> None:
         self.items: deque[int] = deque()
         self.connection, other = context.Pipe()
@@ -71,10 +68,7 @@ class Crew(Generic[Item, Outcome]):
     """
 
     def __init__(
-        self,
-        work: Callable[[Item], Outcome],
-        size: int,
-        crashed: Callable[[Item, str], Outcome],
+        self, work: Callable[[Item], Outcome], size: int, crashed: Callable[[Item, str], Outcome]
     ) -> None:
         from multiprocessing import get_context
 
@@ -96,9 +90,7 @@ class Crew(Generic[Item, Outcome]):
         for worker in self.workers:
             worker.end()
 
-    def as_they_come(
-        self, items: Sequence[Item]
-    ) -> Iterator[tuple[int, Outcome]]:
+    def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
         """Every outcome with the number of its item, as soon as it is there.
 
         More items may follow once all of these are done.
@@ -112,9 +104,7 @@ class Crew(Generic[Item, Outcome]):
             self._supply(worker)
         self._hire()
         while any(worker.items for worker in self.workers):
-            by_connection = {
-                worker.connection: worker for worker in self.workers
-            }
+            by_connection = {worker.connection: worker for worker in self.workers}
             for found in wait(list(by_connection)):
                 # of a type of its own on Windows
                 connection = cast("Connection", found)
@@ -140,9 +130,7 @@ class Crew(Generic[Item, Outcome]):
         """As many workers as there is work for."""
         while len(self.workers) < self.size and self.waiting:
             others = [worker.connection for worker in self.workers]
-            worker: _Worker[Item, Outcome] = _Worker(
-                self.context, self.work, others
-            )
+            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work, others)
             self.workers.append(worker)
             self._supply(worker)
 
@@ -153,9 +141,7 @@ class Crew(Generic[Item, Outcome]):
             number = self.waiting.popleft()
             worker.send(number, self.items[number])
 
-    def _bury(
-        self, worker: _Worker[Item, Outcome]
-    ) -> Iterator[tuple[int, Outcome]]:
+    def _bury(self, worker: _Worker[Item, Outcome]) -> Iterator[tuple[int, Outcome]]:
         """A worker that died: the item it was at is to blame, the others go back."""
         worker.end()
         self.workers.remove(worker)
@@ -192,18 +178,12 @@ def _cause(code: int | None) -> str:
     name = f"signal {-code}"
     with suppress(ValueError):
         name = signal.Signals(-code).name
-    more = (
-        ", as the system does where memory is short"
-        if name == "SIGKILL"
-        else ""
-    )
+    more = ", as the system does where memory is short" if name == "SIGKILL" else ""
     return f"by {name}{more}"
 
 
 def _serve(
-    connection: Connection,
-    work: Callable[[Item], Outcome],
-    not_its_own: Sequence[Connection],
+    connection: Connection, work: Callable[[Item], Outcome], not_its_own: Sequence[Connection]
 ) -> None:
     """What a worker does; it ends when nobody sends any more.
 

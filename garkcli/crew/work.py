@@ -27,15 +27,11 @@ class Workers(Protocol[Given, Made]):
     @property
     def size(self) -> int: ...
 
-    def as_they_come(
-        self, items: Sequence[Given]
-    ) -> Iterator[tuple[int, Made]]:
+    def as_they_come(self, items: Sequence[Given]) -> Iterator[tuple[int, Made]]:
         """Every outcome with the number of its item, as soon as it is there."""
 
 
-def in_order(
-    workers: Workers[Item, Outcome], items: Sequence[Item]
-) -> Iterator[Outcome]:
+def in_order(workers: Workers[Item, Outcome], items: Sequence[Item]) -> Iterator[Outcome]:
     """Every outcome, in the order of the items."""
     ready: dict[int, Outcome] = {}
     following = 0
@@ -58,8 +54,6 @@ class Alone(Generic[Item, Outcome]):
     def __init__(self, work: Callable[[Item], Outcome]) -> None:
         self.work = work
 
-    def as_they_come(
-        self, items: Sequence[Item]
-    ) -> Iterator[tuple[int, Outcome]]:
+    def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
         """Every outcome with the number of its item."""
         return enumerate(map(self.work, items))

@@ -18,10 +18,7 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
         value = solution.values[radical.name]
         if radical.is_positive and _sign(value, root) <= 0:
             return False
-        if (
-            radical.meant is not None
-            and value_at(value, root) != radical.meant
-        ):
+        if radical.meant is not None and value_at(value, root) != radical.meant:
             return False
     for name, (least, greatest) in family.ranges.items():
         value = solution.values[name]

@@ -30,9 +30,7 @@ class Choice:
     after: int
 
 
-def walk_down(
-    design: Design, values: Mapping[str, tuple[str, fmpq]]
-) -> list[Choice]:
+def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Choice]:
     """What each of several choices leaves of the methods of the highest order with any.
 
     Args:
@@ -43,9 +41,7 @@ def walk_down(
         MethodError: no order was decided that methods of the family have.
         NotDecided: a Gröbner basis takes too long.
     """
-    decided = [
-        x for x in design.steps if x.ideal is not None and x.may_have_methods
-    ]
+    decided = [x for x in design.steps if x.ideal is not None and x.may_have_methods]
     if not decided:
         raise MethodError(
             "--choose: no order is known that methods of the file have",
@@ -59,8 +55,6 @@ def walk_down(
         unknown = ring.context.gen(ring.names.index(name))
         smaller = ideal.with_zeros([unknown - value])
         order = decided[-1].order
-        choices.append(
-            Choice(name, text, order, ideal.dimension, smaller.dimension)
-        )
+        choices.append(Choice(name, text, order, ideal.dimension, smaller.dimension))
         ideal = smaller
     return choices

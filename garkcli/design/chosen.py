@@ -12,11 +12,7 @@ from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError
 from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 
 MAX_DEGREE = 12
@@ -95,17 +91,13 @@ def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     """
     algebraic = [x for x in values.values() if isinstance(x, Algebraic)]
     field = algebraic[0].field
-    candidates = [
-        x for x in algebraic if _powers(x, field).rank() == field.degree
-    ]
+    candidates = [x for x in algebraic if _powers(x, field).rank() == field.degree]
     if not candidates or field.degree > MAX_DEGREE:
         raise MethodError(
             f"the values are numbers of degree {field.degree} without simple radicals",
             f"method files hold roots of polynomials up to degree {MAX_DEGREE}",
         )
-    generator = min(
-        candidates, key=lambda x: len(str(value_at(x, root).polynomial))
-    )
+    generator = min(candidates, key=lambda x: len(str(value_at(x, root).polynomial)))
     number = value_at(generator, root)
     polynomial = polynomial_text(Polynomial.from_flint(number.polynomial), "x")
     name = f"root_of({polynomial}, {root_decimal(number, DIGITS)})"
@@ -114,9 +106,7 @@ def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     for key, value in values.items():
         column = fmpq_mat([[a] for a in coordinates(value, field.degree)])
         solved = powers.solve(column).entries()
-        texts[key] = polynomial_text(Polynomial(solved), name).replace(
-            "^", "**"
-        )
+        texts[key] = polynomial_text(Polynomial(solved), name).replace("^", "**")
     return texts
 
 

@@ -73,20 +73,14 @@ class FamilyConditions:
         weights = [colour.b for colour in tableau.colours]
         rows = list(chain.from_iterable(tableau.blocks.values()))
         self._of_blocks = common_denominator(chain.from_iterable(rows), ring)
-        self._of_weights = common_denominator(
-            chain.from_iterable(weights), ring
-        )
+        self._of_weights = common_denominator(chain.from_iterable(weights), ring)
         both = (self._of_blocks, self._of_weights)
         self.denominators = tuple(d for d in both if not d.is_constant())
         self._maps: dict[Edge, list[Polynomials]] = {}
         for edge, block in tableau.blocks.items():
-            cleared = [
-                self._polynomials(row, self._of_blocks) for row in block
-            ]
+            cleared = [self._polynomials(row, self._of_blocks) for row in block]
             self._maps[edge] = cleared
-        self._weights = [
-            self._polynomials(b, self._of_weights) for b in weights
-        ]
+        self._weights = [self._polynomials(b, self._of_weights) for b in weights]
         # of each stage space, by order: members with one branch, and all members
         self._branches: list[list[list[_Member]]] = []
         self._forests: list[list[list[_Member]]] = []
@@ -96,9 +90,7 @@ class FamilyConditions:
             self._branches.append([[]])
             self._forests.append([[vertex]])
 
-    def _polynomials(
-        self, row: Vector, denominator: fmpq_mpoly
-    ) -> Polynomials:
+    def _polynomials(self, row: Vector, denominator: fmpq_mpoly) -> Polynomials:
         made = []
         for x in row:
             numerator, own = fraction(x, self.ring)
@@ -165,9 +157,7 @@ class FamilyConditions:
                     vector = self._product(rows, branch.vector, rest.vector)
                     yield _Member(scale, vector, trees)
 
-    def _product(
-        self, rows: int, u: Polynomials, v: Polynomials
-    ) -> Polynomials:
+    def _product(self, rows: int, u: Polynomials, v: Polynomials) -> Polynomials:
         space = self.tableau.spaces[rows]
         if not isinstance(space, PolynomialSpace):
             pairs = zip(u, v, strict=True)

@@ -73,19 +73,12 @@ TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "pair": pair,
 }
 """The tableau that is meant, from that of a file."""
-CLAIMS: dict[Whose, str] = {
-    "method": "order",
-    "conjugate": "conjugate-order",
-    "pair": "pair-order",
-}
+CLAIMS: dict[Whose, str] = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
 """What a file claims of the order found, by whose it is."""
 
 
 def find_parameters(
-    family: Family,
-    order: int | None = None,
-    whose: Whose = "method",
-    seconds: float | None = None,
+    family: Family, order: int | None = None, whose: Whose = "method", seconds: float | None = None
 ) -> Design:
     """For which values of its parameters the members of a family have an order.
 
@@ -117,21 +110,13 @@ def find_parameters(
         return Design(family, whose, tableau, (step,))
     ideal = start
     for k in range(1, (order or DEFAULT_LIMIT) + 1):
-        step = _step(
-            _Stage(conditions, start, k, family.relations, first), ideal
-        )
+        step = _step(_Stage(conditions, start, k, family.relations, first), ideal)
         if step.kind == "undecided" and order is not None:
-            step = _at_once(
-                conditions, start, order, deadline, family.relations
-            )
+            step = _at_once(conditions, start, order, deadline, family.relations)
         if step.kind == "solutions":
             step = replace(step, found=_found(family, whose, step))
         steps.append(step)
-        if (
-            step.ideal is None
-            or not step.may_have_methods
-            or step.order == order
-        ):
+        if step.ideal is None or not step.may_have_methods or step.order == order:
             break
         ideal = step.ideal
     return Design(family, whose, tableau, tuple(steps))
@@ -240,9 +225,7 @@ def _at_once(
     conditions.deadline = deadline
     try:
         for k in range(1, order + 1):
-            polynomials += [
-                condition.polynomial for condition in conditions.of_order(k)
-            ]
+            polynomials += [condition.polynomial for condition in conditions.of_order(k)]
         ideal = start.with_zeros_unproved(polynomials, deadline)
     except NotDecided:
         return Step(order, "undecided", None)
@@ -281,9 +264,7 @@ def _stable(family: Family, whose: Whose, found: Found) -> Found:
             meant = TABLEAUS[whose](tableau)
             verdict = all(is_stable(key, meant) for key in family.stable)
         sorted_[verdict].append(index)
-    accepted, unstable, left = (
-        tuple(sorted_[key]) for key in (True, False, None)
-    )
+    accepted, unstable, left = (tuple(sorted_[key]) for key in (True, False, None))
     return replace(found, accepted=accepted, unstable=unstable, open=left)
 
 

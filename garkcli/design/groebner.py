@@ -28,15 +28,12 @@ class NotDecided(GarkError):
 
     def __init__(self) -> None:
         super().__init__(
-            "not decided in the time there is",
-            "give it more seconds, or give parameters values",
+            "not decided in the time there is", "give it more seconds, or give parameters values"
         )
 
 
 def groebner_basis(
-    polynomials: Sequence[fmpz_mpoly],
-    context: fmpz_mpoly_ctx,
-    deadline: float | None,
+    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float | None
 ) -> list[fmpz_mpoly]:
     """The reduced Gröbner basis of an ideal.
 
@@ -63,9 +60,7 @@ def groebner_basis(
     return [_polynomial(p, context) for p in found]
 
 
-def reduced_basis(
-    basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
-) -> list[fmpz_mpoly]:
+def reduced_basis(basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The reduced Gröbner basis of an ideal, primitive, the smallest leading monomials first.
 
     Each is reduced by those that are done, whose leading monomials are smaller: python-flint's
@@ -107,9 +102,7 @@ def divides(a: Exponents, b: Exponents) -> bool:
 
 
 def groebner_basis_apart(
-    polynomials: Sequence[fmpz_mpoly],
-    context: fmpz_mpoly_ctx,
-    deadline: float,
+    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float
 ) -> list[fmpz_mpoly]:
     """The same without a step in this process: reducing polynomials of many terms with one another
     may take long by itself.
@@ -123,9 +116,7 @@ def groebner_basis_apart(
 
 
 def unproved_basis(
-    polynomials: Sequence[fmpz_mpoly],
-    context: fmpz_mpoly_ctx,
-    deadline: float | None,
+    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float | None
 ) -> list[fmpz_mpoly]:
     """The Gröbner basis by msolve, verified to be one of an ideal that contains the polynomials.
 
@@ -140,29 +131,21 @@ def unproved_basis(
     if basis is None:
         raise NotDecided
     lists = [_terms(p) for p in basis], [_terms(p) for p in given]
-    if not _within_time(
-        _is_verified, (*lists, tuple(context.names())), deadline
-    ):
+    if not _within_time(_is_verified, (*lists, tuple(context.names())), deadline):
         raise NotDecided
     return basis
 
 
-def _within_time(
-    work: Callable[..., T], arguments: tuple[Any, ...], deadline: float | None
-) -> T:
+def _within_time(work: Callable[..., T], arguments: tuple[Any, ...], deadline: float | None) -> T:
     """What a function returns in a process of its own, which can be stopped in the middle of it."""
     # fork copies the threads' locks of whoever calls; spawn is the same everywhere
     processes = get_context("spawn")
     here, there = processes.Pipe(duplex=False)
-    worker = processes.Process(
-        target=_serve, args=(there, work, arguments), daemon=True
-    )
+    worker = processes.Process(target=_serve, args=(there, work, arguments), daemon=True)
     worker.start()
     there.close()
     try:
-        seconds = (
-            None if deadline is None else max(0.0, deadline - monotonic())
-        )
+        seconds = None if deadline is None else max(0.0, deadline - monotonic())
         if not here.poll(seconds):
             raise NotDecided
         result: T = here.recv()
@@ -175,9 +158,7 @@ def _within_time(
     return result
 
 
-def _serve(
-    pipe: Connection, work: Callable[..., object], arguments: tuple[Any, ...]
-) -> None:
+def _serve(pipe: Connection, work: Callable[..., object], arguments: tuple[Any, ...]) -> None:
     """What the process does."""
     pipe.send(work(*arguments))
 
@@ -190,14 +171,10 @@ def _basis(generators: list[Terms], names: tuple[str, ...]) -> list[Terms]:
     return [_terms(p) for p in basis]
 
 
-def _is_verified(
-    basis: list[Terms], given: list[Terms], names: tuple[str, ...]
-) -> bool:
+def _is_verified(basis: list[Terms], given: list[Terms], names: tuple[str, ...]) -> bool:
     context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
     polynomials = [_polynomial(p, context) for p in given]
-    return is_basis(
-        [_polynomial(p, context) for p in basis], polynomials, context
-    )
+    return is_basis([_polynomial(p, context) for p in basis], polynomials, context)
 
 
 def _terms(p: fmpz_mpoly) -> Terms:

@@ -51,10 +51,7 @@ class Ideal:
     """
 
     def __init__(
-        self,
-        ring: Parameters,
-        nonzero: Sequence[fmpq_mpoly] = (),
-        deadline: float | None = None,
+        self, ring: Parameters, nonzero: Sequence[fmpq_mpoly] = (), deadline: float | None = None
     ) -> None:
         self.ring = ring
         self.nonzero = tuple(nonzero)
@@ -102,9 +99,7 @@ class Ideal:
                 new.append(rest)
         if not new or self.is_everything:
             return self
-        return self._with_basis(
-            groebner_basis([*self.basis, *new], self._context, self.deadline)
-        )
+        return self._with_basis(groebner_basis([*self.basis, *new], self._context, self.deadline))
 
     def with_zeros_apart(self, polynomials: Sequence[fmpq_mpoly]) -> Ideal:
         """The same; where polynomials have many terms all of it in a process, which the deadline
@@ -118,9 +113,7 @@ class Ideal:
             return self.with_zeros(polynomials)
         new = [self._integral(p) for p in polynomials if p]
         return self._with_basis(
-            groebner_basis_apart(
-                [*self.basis, *new], self._context, self.deadline
-            )
+            groebner_basis_apart([*self.basis, *new], self._context, self.deadline)
         )
 
     def _with_basis(self, basis: list[fmpz_mpoly]) -> Ideal:
@@ -138,9 +131,7 @@ class Ideal:
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
         grown = copy(self)
-        grown.basis = unproved_basis(
-            [*self.basis, *new], self._context, deadline
-        )
+        grown.basis = unproved_basis([*self.basis, *new], self._context, deadline)
         grown.is_proved = False
         return grown
 
@@ -234,9 +225,7 @@ def _alone(p: fmpz_mpoly, variable: int) -> int:
     return int(a) if sum(exponents) == 1 else 0
 
 
-def _put(
-    p: fmpz_mpoly, variable: int, numerator: fmpz_mpoly, denominator: int
-) -> fmpz_mpoly:
+def _put(p: fmpz_mpoly, variable: int, numerator: fmpz_mpoly, denominator: int) -> fmpz_mpoly:
     """A primitive multiple of p with numerator/denominator in place of an unknown."""
     context = p.context()
     degree = p.degrees()[variable]
@@ -296,18 +285,14 @@ def _standard(first: Sequence[Exponents], variables: int) -> list[Exponents]:
     return found
 
 
-def _normal_form(
-    terms: _Terms, lower: Sequence[tuple[Exponents, _Terms]]
-) -> _Terms:
+def _normal_form(terms: _Terms, lower: Sequence[tuple[Exponents, _Terms]]) -> _Terms:
     """The remainder of a polynomial on division by a monic Gröbner basis."""
     rest: _Terms = {}
     while terms:
         exponents, a = terms.popitem()
         for first, instead in lower:
             if divides(first, exponents):
-                shift = tuple(
-                    x - y for x, y in zip(exponents, first, strict=True)
-                )
+                shift = tuple(x - y for x, y in zip(exponents, first, strict=True))
                 for e, b in instead.items():
                     place = tuple(x + y for x, y in zip(e, shift, strict=True))
                     _accumulate(terms, place, a * b)

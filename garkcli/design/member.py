@@ -17,9 +17,7 @@ from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 
-def member(
-    tableau: Tableau, ring: Parameters, values: Mapping[str, Number]
-) -> Tableau:
+def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
     """The tableau with every parameter replaced by its value.
 
     Args:
@@ -33,16 +31,13 @@ def member(
     at = _At([values[name] for name in ring.names])
     spaces = tuple(at.space(space) for space in tableau.spaces)
     colours = tuple(
-        replace(colour, b=at.vector(colour.b), c=at.vector(colour.c))
-        for colour in tableau.colours
+        replace(colour, b=at.vector(colour.b), c=at.vector(colour.c)) for colour in tableau.colours
     )
     blocks = {key: at.matrix(block) for key, block in tableau.blocks.items()}
     return Tableau(spaces, colours, blocks)
 
 
-def value_of(
-    polynomial: fmpq_mpoly, ring: Parameters, values: Mapping[str, Number]
-) -> Number:
+def value_of(polynomial: fmpq_mpoly, ring: Parameters, values: Mapping[str, Number]) -> Number:
     """A polynomial in the parameters at one point."""
     return _At([values[name] for name in ring.names]).polynomial(polynomial)
 
@@ -70,8 +65,7 @@ class _At:
         denominator = self.polynomial(x.denominator)
         if not denominator:
             raise VanishingDenominator(
-                "a denominator is zero: no method has these values",
-                f"it is that of {x}",
+                "a denominator is zero: no method has these values", f"it is that of {x}"
             )
         return self.polynomial(x.numerator) / denominator
 

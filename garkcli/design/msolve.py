@@ -39,10 +39,7 @@ def find_msolve() -> str | None:
 
 
 def basis_by_msolve(
-    program: str,
-    generators: Sequence[fmpz_mpoly],
-    context: fmpz_mpoly_ctx,
-    deadline: float | None,
+    program: str, generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float | None
 ) -> list[fmpz_mpoly] | None:
     """What msolve says is a reduced Gröbner basis, not verified; None where there is no answer in
     time.
@@ -63,19 +60,13 @@ def basis_by_msolve(
     return _read(answer, context)
 
 
-def _question(
-    generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
-) -> str:
+def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
     """The system as msolve reads it; its unknowns have names of ours, x1, x2, …"""
     polynomials = []
     for p in generators:
         terms = []
         for exponents, a in p.to_dict().items():
-            powers = [
-                f"*x{i}^{int(e)}"
-                for i, e in enumerate(exponents, start=1)
-                if int(e)
-            ]
+            powers = [f"*x{i}^{int(e)}" for i, e in enumerate(exponents, start=1) if int(e)]
             terms.append(f"{int(a):+d}{''.join(powers)}")
         # a sign in front of the first term ends the program, unless it is a minus
         polynomials.append("".join(terms).removeprefix("+"))
@@ -88,17 +79,7 @@ def _answer(program: str, question: str, seconds: float | None) -> str | None:
     with TemporaryDirectory() as folder:
         asked, answered = Path(folder, "in.ms"), Path(folder, "out.ms")
         asked.write_text(question, encoding="ascii")
-        command = [
-            program,
-            "-g",
-            "2",
-            "-t",
-            "1",
-            "-f",
-            str(asked),
-            "-o",
-            str(answered),
-        ]
+        command = [program, "-g", "2", "-t", "1", "-f", str(asked), "-o", str(answered)]
         try:
             done = subprocess.run(
                 command,
@@ -157,9 +138,7 @@ def _polynomial(text: str, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
 
 
 def is_basis(
-    basis: Sequence[fmpz_mpoly],
-    given: Sequence[fmpz_mpoly],
-    context: fmpz_mpoly_ctx,
+    basis: Sequence[fmpz_mpoly], given: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
 ) -> bool:
     """Whether polynomials are a Gröbner basis of an ideal that contains those given."""
     if not basis:
@@ -167,7 +146,5 @@ def is_basis(
     vector: Any = fmpz_mpoly_vec(list(basis), context)
     if not vector.is_groebner():
         return False
-    dividends: list[Any] = list(
-        given
-    )  # the types of python-flint lack the method
+    dividends: list[Any] = list(given)  # the types of python-flint lack the method
     return not any(p.reduction_primitive_part(vector) for p in dividends)

@@ -13,9 +13,7 @@ from garkcli.exact.polynomial import Polynomial, interpolated
 from garkcli.exact.projection import PLANE
 
 
-def largest_degree(
-    numbers: Iterable[object], denominator: fmpq_mpoly, ring: Parameters
-) -> int:
+def largest_degree(numbers: Iterable[object], denominator: fmpq_mpoly, ring: Parameters) -> int:
     """The largest degree in t of numbers times a common denominator, and of that itself."""
     degrees = [int(denominator.total_degree())]
     for x in numbers:
@@ -34,9 +32,7 @@ def values_without(poles: fmpq_mpoly) -> Iterator[fmpq]:
             yield t
 
 
-def through(
-    points: Sequence[fmpq], values: Sequence[Polynomial]
-) -> fmpq_mpoly:
+def through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
     """The polynomial in y and t with given polynomials in y at given t."""
     terms: dict[tuple[int, ...], fmpq] = {}
     for j in range(max(p.degree for p in values) + 1):

@@ -122,9 +122,7 @@ def _trace_form(matrices: Sequence[fmpq_mat]) -> fmpq_mat:
 def _basis_matrices(matrices: Sequence[fmpq_mat]) -> Iterator[fmpq_mat]:
     """Multiplication by the elements of a basis of the algebra that the matrices generate."""
     size = matrices[0].nrows()
-    unit = fmpq_mat(
-        size, size, [fmpq(i == j) for i in range(size) for j in range(size)]
-    )
+    unit = fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
     columns: list[list[fmpq]] = []
     waiting = [unit]
     while waiting:
@@ -143,25 +141,13 @@ def _square_free(polynomial: fmpq_poly) -> fmpq_poly:
 
 
 def _at(
-    u: fmpq_mat,
-    matrices: Sequence[fmpq_mat],
-    characteristic: fmpq_poly,
-    f: fmpq_poly,
-    ideal: Ideal,
+    u: fmpq_mat, matrices: Sequence[fmpq_mat], characteristic: fmpq_poly, f: fmpq_poly, ideal: Ideal
 ) -> Iterator[Solution]:
     """The solutions, one a factor of f."""
     n = f.degree()
-    horner = [
-        fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)
-    ]
+    horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
     size = u.nrows()
-    powers = [
-        fmpq_mat(
-            size,
-            size,
-            [fmpq(i == j) for i in range(size) for j in range(size)],
-        )
-    ]
+    powers = [fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])]
     for _ in range(n - 1):
         powers.append(powers[-1] * u)
 

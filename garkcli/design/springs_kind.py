@@ -10,11 +10,7 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
-from garkcli.design.stability_kinds import (
-    Members,
-    eigenvalue_conditions,
-    first_gap,
-)
+from garkcli.design.stability_kinds import Members, eigenvalue_conditions, first_gap
 from garkcli.design.step_plane import Step, through_members
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import ZERO, Number
@@ -49,9 +45,7 @@ class TwoSprings:
 class SpringStability:
     """All powers of the step matrix on two springs are bounded for all fast frequencies."""
 
-    def __init__(
-        self, members: Members, tableau: Tableau, wanted: TwoSprings
-    ) -> None:
+    def __init__(self, members: Members, tableau: Tableau, wanted: TwoSprings) -> None:
         self.members = members
         self.wanted = wanted
         split = self.split = springs(tableau, wanted.fast)
@@ -60,9 +54,7 @@ class SpringStability:
         def step(method: Tableau) -> Step:
             return _step(method, split, wanted.slow)
 
-        self.plane = through_members(
-            tableau, members.family.ring, unknowns, step
-        )
+        self.plane = through_members(tableau, members.family.ring, unknowns, step)
         D = self.plane.denominator
         (a, b), (c, d) = self.plane.numerators
         self.signs = eigenvalue_conditions(self.plane)

@@ -55,9 +55,7 @@ class FamilyFunction:
         return _trimmed([q - p for q, p in pairs])
 
 
-def family_functions(
-    tableau: Tableau, ring: Parameters
-) -> tuple[FamilyFunction, ...]:
+def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction, ...]:
     """R for all colours together, then for each colour alone where there are several.
 
     Empty where colours drive positions or momenta only, or do not see one another.
@@ -105,9 +103,7 @@ def _in_lowest_terms(
     return _trimmed(over), _trimmed(under)
 
 
-def _joined(
-    coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters
-) -> fmpq_mpoly:
+def _joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
     """A polynomial in z, times a common denominator, as one in z and the parameters."""
     larger = Parameters(["_z", *ring.names])
     terms = {}

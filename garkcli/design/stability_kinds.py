@@ -20,22 +20,10 @@ from garkcli.exact.cells import Interval, Point, between, sign_of
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import (
-    PLANE,
-    at_y,
-    coefficient_of,
-    curves,
-    in_t,
-    leading,
-    projected,
-)
+from garkcli.exact.projection import PLANE, at_y, coefficient_of, curves, in_t, leading, projected
 from garkcli.exact.roots import RealRoot
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
-from garkcli.stability.linear import (
-    imaginary_set,
-    is_a_stable,
-    stability_function,
-)
+from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
@@ -90,9 +78,7 @@ class AStability:
 
     def __init__(self, members: Members, tableau: Tableau) -> None:
         colours, spaces = range(tableau.size), range(len(tableau.spaces))
-        is_complete = all(
-            (k, m) in tableau.blocks for k in spaces for m in colours
-        )
+        is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
         if tableau.is_partitioned or not is_complete:
             raise UsageProblem(_RIGHT, "ask for --p-stable")
         self.members = members
@@ -171,9 +157,7 @@ def eigenvalue_conditions(plane: StepPlane) -> list[fmpq_mpoly]:
     return [whole - area, both - trace, both + trace]
 
 
-def oscillator_curves(
-    plane: StepPlane,
-) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
+def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
     """What decides on the oscillator, in x = z² and t.
 
     Returns:

@@ -11,11 +11,7 @@ from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stability.linear import (
-    is_a_stable,
-    is_l_stable,
-    stability_function,
-)
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.family import Family, Stability
 from garkcli.tableau.tableau import Tableau
@@ -24,9 +20,7 @@ MOST_DEGREE = 6
 """Solutions of a larger degree are left open."""
 
 
-def method_at(
-    family: Family, solution: Solution, root: RealRoot
-) -> Tableau | None:
+def method_at(family: Family, solution: Solution, root: RealRoot) -> Tableau | None:
     """The method at a real root of a solution; None where its field is too large.
 
     Raises:

@@ -25,12 +25,7 @@ from flint import fmpq
 
 from garkcli.design.design import TABLEAUS, Design, Whose
 from garkcli.design.springs_kind import SpringStability, TwoSprings
-from garkcli.design.stability_kinds import (
-    AStability,
-    Kind,
-    Members,
-    PStability,
-)
+from garkcli.design.stability_kinds import AStability, Kind, Members, PStability
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
@@ -75,12 +70,7 @@ class StableValues:
     def has_wishes(self) -> bool:
         """Whether the file asks for more than stability, which every value of the set has."""
         family = self.family
-        wanted = (
-            *family.relations,
-            *family.nonzero,
-            *family.positive,
-            *family.not_negative,
-        )
+        wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
         return any(p.total_degree() != 0 for p in wanted)
 
     @property
@@ -108,10 +98,7 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
 
 
 def stable_values(
-    family: Family,
-    wanted: Wanted,
-    whose: Whose = "method",
-    two_springs: TwoSprings | None = None,
+    family: Family, wanted: Wanted, whose: Whose = "method", two_springs: TwoSprings | None = None
 ) -> StableValues:
     """The set of values of the one free parameter, of those that are as the file wants them.
 
@@ -133,9 +120,7 @@ def stable_values(
     if wanted == "p-stable":
         oscillating = _oscillating(members, tableau, two_springs)
         found, undecided = _wanted(family, *_decided(family, oscillating))
-        return StableValues(
-            family, whose, wanted, found, undecided, two_springs
-        )
+        return StableValues(family, whose, wanted, found, undecided, two_springs)
     kind = AStability(members, tableau)
     found, undecided = _decided(family, kind)
     if wanted == "l-stable":
@@ -145,18 +130,14 @@ def stable_values(
     return StableValues(family, whose, wanted, found, undecided)
 
 
-def _oscillating(
-    members: Members, tableau: Tableau, two_springs: TwoSprings | None
-) -> Kind:
+def _oscillating(members: Members, tableau: Tableau, two_springs: TwoSprings | None) -> Kind:
     """What P-stability is decided by."""
     if two_springs is None:
         return PStability(members, tableau)
     return SpringStability(members, tableau, two_springs)
 
 
-def _decided(
-    family: Family, kind: Kind
-) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
+def _decided(family: Family, kind: Kind) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
     """The set, and the values that are left open."""
     decision = _Decision(family, kind)
     found = decision.run()
@@ -164,18 +145,14 @@ def _decided(
     return _without(found, undecided), undecided
 
 
-def _without(
-    found: Sequence[Interval], undecided: Sequence[RealRoot]
-) -> tuple[Interval, ...]:
+def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[Interval, ...]:
     """A set without those ends of its parts that are not decided."""
     kept = [x for x in found if not (x.is_point and x.start in undecided)]
     return tuple(_trimmed(interval, undecided) for interval in kept)
 
 
 def _wanted(
-    family: Family,
-    found: tuple[Interval, ...],
-    undecided: tuple[RealRoot, ...],
+    family: Family, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
     """Those values of a set that are as the file wants them, and of those that are left open."""
     asked: list[tuple[Polynomial, frozenset[int]]] = []
@@ -204,9 +181,7 @@ def _ends(found: Sequence[Interval]) -> list[Polynomial]:
     return [Polynomial.from_flint(end.polynomial) for end in ends]
 
 
-def _damped(
-    kind: AStability, found: Sequence[Interval]
-) -> tuple[Interval, ...]:
+def _damped(kind: AStability, found: Sequence[Interval]) -> tuple[Interval, ...]:
     """The values out of a set with R(∞) = 0."""
     critical = [*kind.critical, *_ends(found)]
     return where(lambda t: _holds_at(found, t) and kind.is_damped(t), critical)
@@ -248,13 +223,9 @@ class _Decision:
 
     def run(self) -> tuple[Interval, ...]:
         """The set; open intervals first, as they tell about their ends."""
-        at_ends = [
-            Polynomial([-end, 1]) for end in self.ends if end is not None
-        ]
+        at_ends = [Polynomial([-end, 1]) for end in self.ends if end is not None]
         poles = [p for p in self.kind.plane.poles if p.degree > 0]
-        critical = [
-            p.square_free() for p in self.kind.critical if p.degree > 0
-        ]
+        critical = [p.square_free() for p in self.kind.critical if p.degree > 0]
         critical += at_ends + poles
         self._inside = where(self._holds_between, critical)
         return where(self._holds, critical)
@@ -272,9 +243,7 @@ class _Decision:
     def _is_outside(self, t: Point) -> bool:
         least, greatest = self.ends
         below = least is not None and sign_of(Polynomial([-least, 1]), t) < 0
-        above = (
-            greatest is not None and sign_of(Polynomial([-greatest, 1]), t) > 0
-        )
+        above = greatest is not None and sign_of(Polynomial([-greatest, 1]), t) > 0
         return below or above
 
     def _at_rational(self, t: fmpq) -> bool:

@@ -10,9 +10,7 @@ from garkcli.design.solutions import Solution
 from garkcli.order.certificate import Order
 from garkcli.trees.tree import Tree
 
-Kind: TypeAlias = Literal[
-    "every-value", "solutions", "family", "none", "undecided"
-]
+Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]
 
 
 @dataclass(frozen=True)

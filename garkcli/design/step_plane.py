@@ -45,9 +45,7 @@ class StepPlane:
     poles: tuple[Polynomial, ...]
 
 
-def step_plane(
-    tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
-) -> StepPlane:
+def step_plane(tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]) -> StepPlane:
     """The step for every value of the one parameter.
 
     Args:
@@ -65,10 +63,7 @@ def step_plane(
 
 
 def through_members(
-    tableau: Tableau,
-    ring: Parameters,
-    unknowns: int,
-    step: Callable[[Tableau], Step],
+    tableau: Tableau, ring: Parameters, unknowns: int, step: Callable[[Tableau], Step]
 ) -> StepPlane:
     """A step whose denominator is the determinant of as many equations as there are unknowns.
 

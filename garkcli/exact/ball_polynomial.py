@@ -51,9 +51,7 @@ def value(coefficients: Sequence[arb], x: arb) -> arb:
     return total
 
 
-def _negative_remainder(
-    f: Sequence[arb], g: Sequence[arb]
-) -> list[arb] | None:
+def _negative_remainder(f: Sequence[arb], g: Sequence[arb]) -> list[arb] | None:
     """−(f mod g), with a leading coefficient that is not zero."""
     *lower, leading = g
     if leading.contains(0):

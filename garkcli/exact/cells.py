@@ -51,9 +51,7 @@ def sign_of(p: Polynomial, point: Point) -> int:
 
 
 def where(
-    holds: Callable[[Point], bool],
-    polynomials: Iterable[Polynomial],
-    start: fmpq | None = None,
+    holds: Callable[[Point], bool], polynomials: Iterable[Polynomial], start: fmpq | None = None
 ) -> tuple[Interval, ...]:
     """The numbers x ≥ ``start`` for which something holds, as intervals in ascending order.
 

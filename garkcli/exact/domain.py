@@ -16,21 +16,8 @@ from flint import arb, ctx, fmpq, fmpq_poly
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-)
-from garkcli.exact.radicands import (
-    even_root_fault,
-    perfect_root,
-    rational_square_root,
-    square_free,
-)
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.radicands import even_root_fault, perfect_root, rational_square_root, square_free
 from garkcli.exact.rewriting import roots_in
 
 if TYPE_CHECKING:
@@ -67,10 +54,7 @@ class Domain:
     """
 
     def __init__(
-        self,
-        expressions: Iterable[Expression],
-        only_check: bool = False,
-        are_real: bool = False,
+        self, expressions: Iterable[Expression], only_check: bool = False, are_real: bool = False
     ) -> None:
         self.field: NumberField | None = None
         self._are_real = are_real
@@ -86,9 +70,7 @@ class Domain:
             else:
                 self._values[root] = value
         if len(irrational) > MAX_RADICALS:
-            message = (
-                f"{len(irrational)} different radicals (limit {MAX_RADICALS})"
-            )
+            message = f"{len(irrational)} different radicals (limit {MAX_RADICALS})"
             first = irrational[0]
             cure = "write the coefficients in fewer"
             raise LimitExceeded(message, cure, first.start, first.end)
@@ -114,9 +96,7 @@ class Domain:
                 total: Number = ZERO if signs[0] in "+-" else ONE
                 for sign, operand in zip(signs, operands, strict=True):
                     number = self.evaluate(operand)
-                    total = _bounded(
-                        self._apply(sign, total, number, operand), expression
-                    )
+                    total = _bounded(self._apply(sign, total, number, operand), expression)
                 return total
             case Power(base=base, exponent=exponent):
                 return self._power(self.evaluate(base), exponent, expression)
@@ -124,14 +104,10 @@ class Domain:
                 return self._values[expression]
             case Name(name=name):
                 message = f"{name!r} has no value"
-                raise UndefinedValue(
-                    message, "", expression.start, expression.end
-                )
+                raise UndefinedValue(message, "", expression.start, expression.end)
         raise TypeError(f"no expression: {expression!r}")
 
-    def _apply(
-        self, sign: str, left: Number, right: Number, at: Expression
-    ) -> Number:
+    def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
         """A sum, a difference, a product or a quotient."""
         if sign == "/" and not right:
             cure = "the divisor is exactly zero"
@@ -194,9 +170,7 @@ class Domain:
 
     def _generated(self, roots: list[Radical]) -> None:
         """ℚ(all roots), adjoined one after the other, the inner ones first."""
-        from garkcli.exact.tower import (
-            RATIONALS,
-        )  # few methods have such roots
+        from garkcli.exact.tower import RATIONALS  # few methods have such roots
 
         tower = RATIONALS
         kept: list[Radical] = []
@@ -218,13 +192,9 @@ class Domain:
         if tower.degree > 1:
             self.field = NumberField(tower.modulus, elements)
         for root, poly in elements:
-            self._values[root] = (
-                self.field.element(poly) if self.field else poly[0]
-            )
+            self._values[root] = self.field.element(poly) if self.field else poly[0]
 
-    def _relation(
-        self, tower: Tower, kept: list[Radical], root: Radical
-    ) -> list[fmpq_poly]:
+    def _relation(self, tower: Tower, kept: list[Radical], root: Radical) -> list[fmpq_poly]:
         """The r_j of yⁿ = r_0 + r_1 y + … for a root y, as polynomials in θ."""
         if isinstance(root, AlgebraicRoot):
             *lower, leading = root.coefficients
@@ -232,9 +202,7 @@ class Domain:
         radicand = self._within(tower, kept, root.radicand)
         return [radicand] + [fmpq_poly()] * (root.index - 1)
 
-    def _within(
-        self, tower: Tower, roots: list[Radical], expression: Expression
-    ) -> fmpq_poly:
+    def _within(self, tower: Tower, roots: list[Radical], expression: Expression) -> fmpq_poly:
         """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
         field = NumberField(tower.modulus, ())
         outer = self._values

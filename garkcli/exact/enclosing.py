@@ -9,14 +9,7 @@ from typing import Any
 from flint import arb, ctx
 
 from garkcli.exact.isolating import isolated
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Power,
-    Root,
-)
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
 
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,

@@ -44,10 +44,7 @@ _TOKEN = re.compile(
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
 """The roots that have a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
-    **dict.fromkeys(
-        "\N{FRACTION SLASH}\N{DIVISION SLASH}\N{DIVISION SIGN}",
-        "use the sign /",
-    ),
+    **dict.fromkeys("\N{FRACTION SLASH}\N{DIVISION SLASH}\N{DIVISION SIGN}", "use the sign /"),
     "\N{VULGAR FRACTION ONE THIRD}": "write 1/3",
     "\N{VULGAR FRACTION ONE QUARTER}": "write 1/4",
     "³": "write x**3",
@@ -91,9 +88,7 @@ class Parser:
     cure: ClassVar[str] = (
         "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n), root_of(p, r)"
     )
-    functions: ClassVar[str] = (
-        "there are sqrt(x), cbrt(x), root(x, n) and root_of(p, r)"
-    )
+    functions: ClassVar[str] = "there are sqrt(x), cbrt(x), root(x, n) and root_of(p, r)"
 
     def __init__(self, text: str) -> None:
         if len(text) > MAX_LENGTH:
@@ -119,9 +114,7 @@ class Parser:
                 offset = position + len(rest) - len(unread)
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
-                message = (
-                    f"the sign {sign!r} has no place in a {self.value_noun}"
-                )
+                message = f"the sign {sign!r} has no place in a {self.value_noun}"
                 raise ExpressionError(message, cure, offset, offset + 1)
             kind = match.lastgroup or "end"
             start, end = match.span(kind)
@@ -170,9 +163,7 @@ class Parser:
     def _term(self) -> Expression:
         return self._chain("*/", self._factor)
 
-    def _chain(
-        self, signs: str, operand: Callable[[], Expression]
-    ) -> Expression:
+    def _chain(self, signs: str, operand: Callable[[], Expression]) -> Expression:
         start = self.start
         joined, operands = signs[0], [operand()]
         while self.kind == "op" and self.value in {signs[0], signs[1]}:
@@ -186,9 +177,7 @@ class Parser:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep"
-            raise LimitExceeded(
-                message, "write it flatter", self.start, self.start + 1
-            )
+            raise LimitExceeded(message, "write it flatter", self.start, self.start + 1)
         try:
             if self.kind == "op" and self.value in {"+", "-"}:
                 return self._signed()
@@ -218,14 +207,10 @@ class Parser:
             negative = self._advance() == "-"
         power = self._raised(base, negative, start)
         if self.kind == "op" and self.value in {"**", "^"}:
-            self._fail(
-                "a power of a power", "use parentheses and small exponents"
-            )
+            self._fail("a power of a power", "use parentheses and small exponents")
         return power
 
-    def _raised(
-        self, base: Expression, is_negative: bool, start: int
-    ) -> Expression:
+    def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
         """``base`` to the exponent that comes next, without its sign."""
         exponent = self._integer("an exponent", MAX_EXPONENT)
         if is_negative:
@@ -235,15 +220,11 @@ class Parser:
     def _integer(self, what: str, limit: int) -> int:
         if self.kind != "number" or not self.value.isdigit():
             self._fail(
-                f"{what} is a small whole number",
-                "for roots write sqrt(…), cbrt(…) or root(…, n)",
+                f"{what} is a small whole number", "for roots write sqrt(…), cbrt(…) or root(…, n)"
             )
         if len(self.value) > 4 or int(self.value) > limit:
             raise LimitExceeded(
-                f"{what} is larger than {limit}",
-                "use a smaller one",
-                self.start,
-                self.end,
+                f"{what} is larger than {limit}", "use a smaller one", self.start, self.end
             )
         return int(self._advance())
 
@@ -270,10 +251,7 @@ class Parser:
     def _function(self, name: str, start: int) -> Expression:
         if name not in FUNCTIONS:
             raise ExpressionError(
-                f"{name!r} is not a function of {self.noun}s",
-                self.functions,
-                start,
-                self.last_end,
+                f"{name!r} is not a function of {self.noun}s", self.functions, start, self.last_end
             )
         opened = self.start
         self._advance()
@@ -289,13 +267,9 @@ class Parser:
         self._expect(")", opened)
         return Root(radicand, index, start=start, end=self.last_end)
 
-    def _root_of(
-        self, polynomial: Expression, start: int, opened: int
-    ) -> Expression:
+    def _root_of(self, polynomial: Expression, start: int, opened: int) -> Expression:
         """What follows the polynomial of a root."""
-        from garkcli.exact.root_of import (
-            root_nearest,
-        )  # few methods have such roots
+        from garkcli.exact.root_of import root_nearest  # few methods have such roots
 
         self._expect(",", opened)
         near = self._sum()
@@ -318,9 +292,7 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     digits = len(whole) + len(fraction)
     if digits + abs(shift) > MAX_DIGITS:
         message = f"a number of more than {MAX_DIGITS} digits"
-        raise LimitExceeded(
-            message, "write fewer digits", start, start + len(text)
-        )
+        raise LimitExceeded(message, "write fewer digits", start, start + len(text))
     digits = int(whole + fraction)
     scale = shift - len(fraction)
     if scale >= 0:

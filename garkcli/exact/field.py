@@ -37,9 +37,7 @@ class NumberField:
     """
 
     def __init__(
-        self,
-        modulus: fmpq_poly,
-        radicals: Sequence[tuple[Expression, fmpq_poly]],
+        self, modulus: fmpq_poly, radicals: Sequence[tuple[Expression, fmpq_poly]]
     ) -> None:
         self.modulus = modulus
         self.degree: int = modulus.degree()
@@ -103,9 +101,7 @@ class NumberField:
         basis = fmpq_mat(columns).transpose()
         return tuple(chosen), basis.inv()
 
-    def _extended(
-        self, level: Mapping[Word, fmpq_poly]
-    ) -> dict[Word, fmpq_poly]:
+    def _extended(self, level: Mapping[Word, fmpq_poly]) -> dict[Word, fmpq_poly]:
         """The products with one factor more; the indices of a word do not descend."""
         extended: dict[Word, fmpq_poly] = {}
         for word, product in level.items():
@@ -119,9 +115,7 @@ class NumberField:
     def _column(self, poly: fmpq_poly) -> list[fmpq]:
         return [poly[k] for k in range(self.degree)]
 
-    def powers(
-        self, word: Word, latex: bool = False
-    ) -> Iterator[tuple[str, int]]:
+    def powers(self, word: Word, latex: bool = False) -> Iterator[tuple[str, int]]:
         """The radicals of a word of ``monomials`` as text, each with its exponent."""
         if not self.radicals:
             if word:

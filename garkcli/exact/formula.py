@@ -18,19 +18,7 @@ from garkcli.exact.expression import FUNCTIONS as ROOTS
 from garkcli.exact.expression import MAX_EXPONENT, Parser
 from garkcli.exact.nodes import Chain, Expression, Literal, Power
 
-FUNCTIONS = (
-    "sin",
-    "cos",
-    "tan",
-    "asin",
-    "acos",
-    "atan",
-    "sinh",
-    "cosh",
-    "tanh",
-    "exp",
-    "log",
-)
+FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
 """The functions of formulas besides the roots: each has a derivative wherever it is defined."""
 CONSTANTS = ("pi",)
 """Names of formulas that have a value of their own."""
@@ -79,45 +67,29 @@ class _FormulaParser(Parser):
     noun: ClassVar[str] = "formula"
     value_noun: ClassVar[str] = "formula"
     example: ClassVar[str] = "write one, such as p**2/2 - cos(x)"
-    cure: ClassVar[str] = (
-        "write names, digits 0-9, + - * / ** ( ) and functions such as sin(x)"
-    )
+    cure: ClassVar[str] = "write names, digits 0-9, + - * / ** ( ) and functions such as sin(x)"
 
-    def _raised(
-        self, base: Expression, is_negative: bool, start: int
-    ) -> Expression:
+    def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
         exponent = self._atom()
         if isinstance(exponent, Literal) and exponent.value.q == 1:
             if abs(exponent.value) > MAX_EXPONENT:
                 message = f"an exponent is larger than {MAX_EXPONENT}"
-                raise LimitExceeded(
-                    message, "use a smaller one", exponent.start, exponent.end
-                )
+                raise LimitExceeded(message, "use a smaller one", exponent.start, exponent.end)
             n = int(exponent.value.p)
-            return Power(
-                base, -n if is_negative else n, start=start, end=self.last_end
-            )
+            return Power(base, -n if is_negative else n, start=start, end=self.last_end)
         if is_negative:
-            exponent = Chain(
-                "-", (exponent,), start=exponent.start, end=exponent.end
-            )
+            exponent = Chain("-", (exponent,), start=exponent.start, end=exponent.end)
         return RealPower(base, exponent, start=start, end=self.last_end)
 
     def _function(self, name: str, start: int) -> Expression:
         if name == "root_of":
-            message = (
-                "root_of is for coefficients of methods, not for formulas"
-            )
-            raise ExpressionError(
-                message, "write radicals", start, self.last_end
-            )
+            message = "root_of is for coefficients of methods, not for formulas"
+            raise ExpressionError(message, "write radicals", start, self.last_end)
         if name in ROOTS:
             return super()._function(name, start)
         if name not in FUNCTIONS:
             message = f"{name!r} is not a function of formulas"
-            raise ExpressionError(
-                message, _cure_of(name), start, self.last_end
-            )
+            raise ExpressionError(message, _cure_of(name), start, self.last_end)
         opened = self.start
         self._advance()
         argument = self._sum()

@@ -32,9 +32,7 @@ OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
 """The same where rounding may be named."""
 
 
-def number_text(
-    x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED
-) -> str:
+def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) -> str:
     """The text of a coefficient.
 
     A float stands for the decimal that it prints. With more than 15 digits that is a rounded
@@ -76,9 +74,7 @@ def number_text(
     raise MethodError(message, _CURE)
 
 
-_CURE = (
-    "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
-)
+_CURE = "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
 
 
 def _fraction_text(p: int, q: int) -> str:

@@ -130,9 +130,7 @@ def _sum(terms: _Rational) -> fmpq:
     return fmpq(numerator, denominator)
 
 
-def _products(
-    rows: Sequence[Vector], parts: _Parts, field: NumberField | None
-) -> list[Vector]:
+def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) -> list[Vector]:
     if not rows:
         return []
     powers: dict[int, fmpq_mat] = {}
@@ -149,9 +147,7 @@ def _products(
     return _reduced(powers, field)
 
 
-def _reduced(
-    powers: Mapping[int, fmpq_mat], field: NumberField
-) -> list[Vector]:
+def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]:
     """The rows of Σ θⁿ P_n, entry by entry; ``powers`` has P_0, and others that are not zero."""
     constant = powers[0]
     zeros = fmpq_mat(constant.nrows(), constant.ncols())
@@ -181,9 +177,7 @@ def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
     constants = [x[0] if isinstance(x, fmpq_poly) else x for x in entries]
     parts = [(0, fmpq_mat(height, width, constants))]
     for k in range(1, field.degree):
-        coordinates = [
-            x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries
-        ]
+        coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]
         if any(coordinates):
             part = fmpq_mat(height, width, coordinates)
             parts.append((k, part))

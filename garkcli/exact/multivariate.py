@@ -37,9 +37,7 @@ class Multivariate:
     terms: tuple[tuple[Exponents, Number], ...]
 
     @classmethod
-    def of(
-        cls, variables: int, terms: Mapping[Exponents, Number]
-    ) -> Multivariate:
+    def of(cls, variables: int, terms: Mapping[Exponents, Number]) -> Multivariate:
         """The polynomial with these terms; zeros are dropped.
 
         >>> Multivariate.of(2, {(0, 1): fmpq(3), (1, 0): fmpq(0), (1, 1): fmpq(2)}).terms
@@ -125,9 +123,7 @@ def lattice(axes: int, degree: int) -> Iterator[Exponents]:
             yield (i, *rest)
 
 
-def from_lines(
-    lines: Mapping[Exponents, Polynomial], offset: int, degree: int
-) -> Multivariate:
+def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) -> Multivariate:
     """The polynomial with given restrictions to lines.
 
     Args:
@@ -150,9 +146,7 @@ def from_lines(
     return Multivariate.of(axes + 1, terms)
 
 
-def through_points(
-    values: Mapping[Exponents, Number], degree: int
-) -> Multivariate:
+def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivariate:
     """The polynomial with given values at the points of a lattice.
 
     Args:
@@ -188,9 +182,7 @@ def _interpolated(
     return terms
 
 
-def _take_differences(
-    table: dict[Exponents, Number], axis: int, degree: int
-) -> None:
+def _take_differences(table: dict[Exponents, Number], axis: int, degree: int) -> None:
     """Replace the values along an axis by their forward differences at its first point."""
     descending = sorted(table, key=lambda point: point[axis], reverse=True)
     for rank in range(1, degree + 1):

@@ -61,9 +61,7 @@ class Parameters:
     def parameter(self, name: str) -> Parametric:
         """A parameter as a number."""
         index = self.names.index(name)
-        return Parametric(
-            self, self.context.gen(index), self.constant(fmpq(1))
-        )
+        return Parametric(self, self.context.gen(index), self.constant(fmpq(1)))
 
     def text(self, polynomial: fmpq_mpoly | fmpz_mpoly) -> str:
         """A polynomial as people read it."""
@@ -97,9 +95,7 @@ class Parameters:
         """A number as a polynomial."""
         return self.context.constant(number)
 
-    def quotient(
-        self, numerator: fmpq_mpoly, denominator: fmpq_mpoly
-    ) -> Mixed:
+    def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
         """The quotient in lowest terms, its denominator with leading coefficient 1."""
         if self.rules:
             numerator = self.reduced(numerator)
@@ -188,9 +184,7 @@ class Parametric:
 
     __slots__ = ("denominator", "numerator", "ring")
 
-    def __init__(
-        self, ring: Parameters, numerator: fmpq_mpoly, denominator: fmpq_mpoly
-    ) -> None:
+    def __init__(self, ring: Parameters, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> None:
         self.ring = ring
         self.numerator = numerator
         self.denominator = denominator
@@ -293,18 +287,14 @@ class Parametric:
         return f"({numerator})/({self.ring.text(self.denominator)})"
 
 
-def fraction(
-    number: object, ring: Parameters
-) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """Numerator and denominator as polynomials, of a rational number too."""
     if isinstance(number, Parametric):
         return number.numerator, number.denominator
     return ring.constant(cast("fmpq", number)), ring.constant(fmpq(1))
 
 
-def common_denominator(
-    numbers: Iterable[object], ring: Parameters
-) -> fmpq_mpoly:
+def common_denominator(numbers: Iterable[object], ring: Parameters) -> fmpq_mpoly:
     """The least common multiple of the denominators."""
     common = ring.constant(fmpq(1))
     for x in numbers:

@@ -5,25 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Self
 
-from flint import (
-    arb,
-    ctx,
-    fmpq,
-    fmpq_mat,
-    fmpq_mpoly,
-    fmpq_poly,
-    fmpz_poly,
-)
+from flint import arb, ctx, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz_poly
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import (
-    ONE,
-    ZERO,
-    Algebraic,
-    Number,
-    NumberField,
-    coordinates,
-)
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, coordinates
 
 
 class Polynomial:
@@ -243,9 +228,7 @@ def in_one(p: fmpq_mpoly) -> Polynomial:
     return Polynomial([powers.get(k, fmpq(0)) for k in range(highest + 1)])
 
 
-def interpolated(
-    points: Sequence[fmpq], values: Sequence[Number]
-) -> Polynomial:
+def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial:
     """The polynomial of least degree through points, by Newton's divided differences.
 
     Args:
@@ -262,9 +245,7 @@ def interpolated(
             difference = table[i] - table[i - 1]
             table[i] = difference / distance
     result = Polynomial([])
-    for point, difference in zip(
-        reversed(points), reversed(table), strict=True
-    ):
+    for point, difference in zip(reversed(points), reversed(table), strict=True):
         x_minus_point = Polynomial([-point, ONE])
         result = result * x_minus_point + difference
     return result

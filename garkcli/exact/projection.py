@@ -31,9 +31,7 @@ def curves(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     return [curve for curve in found.values() if not curve.is_constant()]
 
 
-def projected(
-    found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]
-) -> list[Polynomial]:
+def projected(found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
     """The polynomials in t, not zero, between whose roots nothing changes.
 
     Args:

@@ -10,15 +10,7 @@ from flint import fmpq
 from garkcli.errors import UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT
 from garkcli.exact.formula import Call, RealPower
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-)
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
@@ -65,9 +57,7 @@ def names_in(expression: Expression) -> Iterator[Name]:
         yield from names_in(part)
 
 
-def substitute(
-    expression: Expression, values: Mapping[str, Expression]
-) -> Expression:
+def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
     """``expression`` with each name replaced by its value; offsets stay those of ``expression``.
 
     Raises:
@@ -79,17 +69,12 @@ def substitute(
                 raise _unknown_name(expression, values)
             return values[name]
         case Chain(operands=operands):
-            return replace(
-                expression,
-                operands=tuple(substitute(x, values) for x in operands),
-            )
+            return replace(expression, operands=tuple(substitute(x, values) for x in operands))
         case Power(base=base):
             return replace(expression, base=substitute(base, values))
         case RealPower(base=base, exponent=exponent):
             return replace(
-                expression,
-                base=substitute(base, values),
-                exponent=substitute(exponent, values),
+                expression, base=substitute(base, values), exponent=substitute(exponent, values)
             )
         case Root(radicand=radicand):
             return replace(expression, radicand=substitute(radicand, values))
@@ -98,15 +83,11 @@ def substitute(
     return expression
 
 
-def _unknown_name(
-    name: Name, values: Mapping[str, Expression]
-) -> UndefinedValue:
+def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValue:
     cure = did_you_mean(name.name, values) if values else ""
     if not cure.startswith("did"):
         cure = f"define it, before its use: parameters: {{{name.name}: 1/2}}"
-    return UndefinedValue(
-        f"{name.name!r} is not a parameter", cure, name.start, name.end
-    )
+    return UndefinedValue(f"{name.name!r} is not a parameter", cure, name.start, name.end)
 
 
 def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:
@@ -159,19 +140,14 @@ class PlainText:
         parts = []
         for sign, operand in zip(chain.signs, chain.operands, strict=True):
             binds = is_product or sign == "-"
-            parts.append(
-                sign
-                + (self.tight(operand) if binds else self.written(operand))
-            )
+            parts.append(sign + (self.tight(operand) if binds else self.written(operand)))
         return "".join(parts).removeprefix("+").removeprefix("*")
 
     def tight(self, expression: Expression) -> str:
         """The text in parentheses, unless it is one sign or one call."""
         text = self.written(expression)
         is_whole_number = isinstance(expression, Literal) and text.isdigit()
-        if is_whole_number or isinstance(
-            expression, (Name, Root, AlgebraicRoot, Call)
-        ):
+        if is_whole_number or isinstance(expression, (Name, Root, AlgebraicRoot, Call)):
             return text
         return f"({text})"
 

@@ -38,8 +38,6 @@ def square_root(x: RealRoot) -> RealRoot:
         return origin
     p = Polynomial.from_flint(x.polynomial)
     smaller = sum(1 for root, _ in real_roots(p) if origin < root < x)
-    squares = Polynomial(
-        [p[k // 2] if k % 2 == 0 else ZERO for k in range(2 * p.degree + 1)]
-    )
+    squares = Polynomial([p[k // 2] if k % 2 == 0 else ZERO for k in range(2 * p.degree + 1)])
     positive = [root for root, _ in real_roots(squares) if root > origin]
     return positive[smaller]

@@ -10,15 +10,7 @@ from flint import arb, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.isolating import isolated, precision
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-)
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
 
 MAX_POLYNOMIAL_DEGREE = 12
 """Largest degree of such a polynomial."""
@@ -31,9 +23,7 @@ MOST_BITS = 1 << 16
 VARIABLE = "x"
 
 
-def root_nearest(
-    polynomial: Expression, near: Expression, start: int, end: int
-) -> Expression:
+def root_nearest(polynomial: Expression, near: Expression, start: int, end: int) -> Expression:
     """The real root of a polynomial nearest to a number, as a number where it is rational.
 
     Args:
@@ -62,9 +52,7 @@ def root_nearest(
     return AlgebraicRoot(coefficients, number, start=start, end=end)
 
 
-def _nearest(
-    p: fmpq_poly, target: fmpq, at: Expression, near: Expression
-) -> tuple[fmpz_poly, int]:
+def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tuple[fmpz_poly, int]:
     """The irreducible factor with the nearest root, and which of its real roots that is."""
     _, factors = p.numer().factor()
     bits = BITS
@@ -73,14 +61,10 @@ def _nearest(
             found = []
             for factor, _ in factors:
                 roots = isolated(tuple(int(a) for a in factor.coeffs()), bits)
-                found += [
-                    (abs(x - target), factor, k) for k, x in enumerate(roots)
-                ]
+                found += [(abs(x - target), factor, k) for k, x in enumerate(roots)]
             if not found:
                 message = "the polynomial has no real root"
-                raise UndefinedValue(
-                    message, "coefficients are real numbers", at.start, at.end
-                )
+                raise UndefinedValue(message, "coefficients are real numbers", at.start, at.end)
             found.sort(key=lambda entry: entry[0].mid())
             if len(found) == 1 or found[0][0] < found[1][0]:
                 _, factor, number = found[0]
@@ -88,14 +72,10 @@ def _nearest(
                 return (factor if is_positive else -factor), number
         bits *= 2
     message = "two roots are equally near to this number"
-    raise UndefinedValue(
-        message, "write more digits of the root", near.start, near.end
-    )
+    raise UndefinedValue(message, "write more digits of the root", near.start, near.end)
 
 
-def _in_radicals(
-    coefficients: tuple[int, ...], number: int, start: int, end: int
-) -> Expression:
+def _in_radicals(coefficients: tuple[int, ...], number: int, start: int, end: int) -> Expression:
     """A root of an irreducible quadratic polynomial, by its formula."""
     c, b, a = (fmpq(x) for x in coefficients)
     middle = -b / (2 * a)
@@ -112,9 +92,7 @@ def polynomial_in_x(expression: Expression) -> fmpq_poly:
         case Name(name=name) if name == VARIABLE:
             return fmpq_poly([0, 1])
         case Name():
-            raise _error(
-                "names other than x have no place in root_of", expression
-            )
+            raise _error("names other than x have no place in root_of", expression)
         case Chain(signs=signs, operands=operands):
             total = fmpq_poly([0 if signs[0] in "+-" else 1])
             for sign, operand in zip(signs, operands, strict=True):
@@ -126,9 +104,7 @@ def polynomial_in_x(expression: Expression) -> fmpq_poly:
     raise _error("the polynomial has rational coefficients", expression)
 
 
-def _joined(
-    sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression
-) -> fmpq_poly:
+def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmpq_poly:
     if sign == "+":
         return left + right
     if sign == "-":
@@ -151,9 +127,7 @@ def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
             raise UndefinedValue("division by zero", "", at.start, at.end)
         base = fmpq_poly([1 / base[0]])
     size = abs(exponent)
-    if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (
-        MAX_COEFFICIENT_BITS
-    ):
+    if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (MAX_COEFFICIENT_BITS):
         raise _too_large(at)
     return base**size
 
@@ -174,9 +148,7 @@ def _too_large(at: Expression) -> LimitExceeded:
 
 
 def _error(message: str, at: Expression) -> ExpressionError:
-    cure = (
-        "write root_of(p, r): p a polynomial in x, r a decimal near the root"
-    )
+    cure = "write root_of(p, r): p a polynomial in x, r a decimal near the root"
     return ExpressionError(message, cure, at.start, max(at.end, at.start + 1))
 
 

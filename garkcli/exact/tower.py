@@ -38,9 +38,7 @@ class Tower:
         """The dimension over ℚ."""
         return int(self.modulus.degree())
 
-    def adjoin(
-        self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]
-    ) -> Tower:
+    def adjoin(self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]) -> Tower:
         """The field with a real root y of yⁿ = r_0 + r_1 y + … as a further element.
 
         Args:
@@ -61,9 +59,7 @@ class Tower:
         elements = tuple(f(old_theta) % factor for f in self.elements)
         return Tower(factor, (*elements, y % factor), combination)
 
-    def _multiplications(
-        self, relation: Sequence[fmpq_poly]
-    ) -> tuple[fmpq_mat, fmpq_mat]:
+    def _multiplications(self, relation: Sequence[fmpq_poly]) -> tuple[fmpq_mat, fmpq_mat]:
         """The matrices of multiplication by y and by θ, on the basis θ^i y^j, i running first."""
         d = self.degree
         n = len(relation)
@@ -89,9 +85,7 @@ RATIONALS = Tower(_X, (), ())
 """ℚ."""
 
 
-def _as_polynomials(
-    generator: fmpq_mat, wanted: list[fmpq_mat]
-) -> list[fmpq_poly]:
+def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_poly]:
     """Elements of an algebra as polynomials in its generator, all given by their multiplication
     matrices.
     """
@@ -111,9 +105,7 @@ def _as_polynomials(
 
 
 def _vanishing_factor(
-    characteristic: fmpq_poly,
-    combination: tuple[int, ...],
-    values: Callable[[], list[arb]],
+    characteristic: fmpq_poly, combination: tuple[int, ...], values: Callable[[], list[arb]]
 ) -> fmpq_poly:
     """The irreducible factor that has the real number Σ combination·values as a root.
 

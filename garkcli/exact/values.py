@@ -23,9 +23,7 @@ MAX_DENOMINATOR = 10_000
 """Largest denominator of an exponent."""
 FLOAT_BITS = 1000
 """Largest numbers are 2^``FLOAT_BITS``: floats can still be multiplied by them."""
-_FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {
-    name: getattr(arb, name) for name in FUNCTIONS
-}
+_FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for name in FUNCTIONS}
 
 
 def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
@@ -92,9 +90,7 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
         fault = f"is beyond {MAX_EXPONENT} or has more than four decimals"
         message = f"the exponent {shown(value)} {fault}"
-        raise LimitExceeded(
-            message, "use a smaller or simpler one", start, end
-        )
+        raise LimitExceeded(message, "use a smaller or simpler one", start, end)
     return value
 
 
@@ -139,9 +135,7 @@ def _cut(text: str) -> str:
     return f"{start}…"
 
 
-def _power(
-    base: Value, exponent: fmpq, at: Expression, of: Expression
-) -> Value:
+def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
     """A power; the base is positive where the exponent is no whole number."""
     if exponent < 0:
         _check_divisor(base, of)
@@ -162,9 +156,7 @@ def _power(
     return _bounded(arb(base) ** arb(exponent), at)
 
 
-def _root(
-    radicand: Value, index: int, at: Expression, of: Expression
-) -> Value:
+def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
     is_odd = index % 2 == 1
     if isinstance(radicand, fmpq) and (is_odd or radicand >= 0):
         size = abs(radicand)
@@ -180,9 +172,7 @@ def _root(
     return _finite(x.root(index), at, kind, of, radicand)
 
 
-def _finite(
-    result: arb, at: Expression, function: str, of: Expression, x: Value
-) -> Value:
+def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value) -> Value:
     if not result.is_finite():
         what = _cut(format_expression(of))
         if what != str(x):

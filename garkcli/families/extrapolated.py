@@ -42,9 +42,7 @@ def sequence(name: str, length: int) -> tuple[int, ...]:
     return tuple(found[:length])
 
 
-def extrapolation_weights(
-    parts: Sequence[int], powers: Sequence[int]
-) -> tuple[fmpq, ...]:
+def extrapolation_weights(parts: Sequence[int], powers: Sequence[int]) -> tuple[fmpq, ...]:
     """The w_j with Σ w_j = 1 and Σ w_j n_j^(−k) = 0 for the given powers k.
 
     Args:
@@ -94,9 +92,7 @@ def _midpoint(stages: StageList, n: int) -> Weights:
     return value
 
 
-def _extrapolated(
-    name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]
-) -> Method:
+def _extrapolated(name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]) -> Method:
     stages = StageList()
     weights = extrapolation_weights(parts, powers)
     results = [steps(stages, n) for n in parts]
@@ -104,9 +100,7 @@ def _extrapolated(
     return stages.method(name, total)
 
 
-def _explicit(
-    name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]
-) -> Recipe:
+def _explicit(name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]) -> Recipe:
     """The recipe with an explicit basic method: all sequences of parts begin with one stage."""
     stages = 1 + sum(parts) - len(parts)
     return Recipe(stages, lambda _: _extrapolated(name, steps, parts, powers))
@@ -124,10 +118,7 @@ def implicit_euler(order: int, options: Options) -> Recipe:
     parts = sequence(str(options["sequence"]), order)
     name = f"extrapolated implicit Euler {order}"
     powers = range(1, order)
-    return Recipe(
-        sum(parts),
-        lambda _: _extrapolated(name, _implicit_euler, parts, powers),
-    )
+    return Recipe(sum(parts), lambda _: _extrapolated(name, _implicit_euler, parts, powers))
 
 
 def midpoint(order: int, options: Options) -> Recipe:

@@ -5,22 +5,9 @@ from __future__ import annotations
 from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.matrix import (
-    Vector,
-    add,
-    apply,
-    dot,
-    multiply,
-    outer,
-    scale,
-    subtract,
-)
+from garkcli.exact.matrix import Vector, add, apply, dot, multiply, outer, scale, subtract
 from garkcli.tableau.method import Method
-from garkcli.tableau.polynomial_space import (
-    PolynomialSpace,
-    integral,
-    integration,
-)
+from garkcli.tableau.polynomial_space import PolynomialSpace, integral, integration
 
 X = fmpq_poly([0, 1])
 

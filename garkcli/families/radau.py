@@ -4,12 +4,7 @@ Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5; IB and IIB:
 way constructing symplectic Runge–Kutta methods*, J. Comput. Math. 18 (2000).
 """
 
-from garkcli.families.polynomials import (
-    average,
-    collocation_method,
-    conjugate_method,
-    legendre,
-)
+from garkcli.families.polynomials import average, collocation_method, conjugate_method, legendre
 from garkcli.tableau.method import Method
 
 

@@ -5,32 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import partial
 
-from garkcli.errors import (
-    ExpressionError,
-    UnknownFamily,
-    counted,
-    did_you_mean,
-)
+from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
-from garkcli.families import (
-    deferred,
-    explicit,
-    extrapolated,
-    gauss,
-    lobatto,
-    radau,
-    sdirk2,
-    ssp3,
-)
-from garkcli.families.family import (
-    Family,
-    Given,
-    Option,
-    Options,
-    Recipe,
-    by_stages,
-)
+from garkcli.families import deferred, explicit, extrapolated, gauss, lobatto, radau, sdirk2, ssp3
+from garkcli.families.family import Family, Given, Option, Options, Recipe, by_stages
 from garkcli.tableau.method import Method
 
 MAX_STAGES = 200
@@ -45,9 +24,7 @@ def _named(name: str, order: str, summary: str) -> Family:
 
 
 _any = partial(Family, largest=MAX_STAGES)
-_high = partial(
-    Family, size="order", largest=60, options=(extrapolated.SEQUENCE,)
-)
+_high = partial(Family, size="order", largest=60, options=(extrapolated.SEQUENCE,))
 
 
 def _families() -> Iterator[Family]:
@@ -71,23 +48,11 @@ def _families() -> Iterator[Family]:
     order = "2s - 2"
     for name, make, summary in (
         ("lobatto-iiia", lobatto.lobatto_iiia, "collocation, nodes 0 and 1"),
-        (
-            "lobatto-iiib",
-            lobatto.lobatto_iiib,
-            "symplectic conjugate of IIIA",
-        ),
+        ("lobatto-iiib", lobatto.lobatto_iiib, "symplectic conjugate of IIIA"),
         ("lobatto-iiic", lobatto.lobatto_iiic, "a_i1 = b_1, stiffly accurate"),
         ("lobatto-iiic*", lobatto.lobatto_iiic_star, "conjugate of IIIC"),
-        (
-            "lobatto-iiid",
-            lobatto.lobatto_iiid,
-            "mean of IIIC and IIIC*; symplectic",
-        ),
-        (
-            "lobatto-iiie",
-            lobatto.lobatto_iiie,
-            "mean of IIIA and IIIB; symplectic",
-        ),
+        ("lobatto-iiid", lobatto.lobatto_iiid, "mean of IIIC and IIIC*; symplectic"),
+        ("lobatto-iiie", lobatto.lobatto_iiie, "mean of IIIA and IIIB; symplectic"),
     ):
         yield _any(name, by_stages(make), 2, order=order, summary=summary)
     yield _any(
@@ -110,13 +75,7 @@ def _with_options() -> Iterator[Family]:
     """Those that are chosen by more than their stages, and those beside them."""
     summary = "explicit, strong-stability-preserving"
     yield _any("ssp2", by_stages(explicit.ssp2), 2, order="2", summary=summary)
-    yield _any(
-        "ssp3",
-        ssp3.ssp3,
-        4,
-        order="3",
-        summary="s = n^2; strong-stability-preserving",
-    )
+    yield _any("ssp3", ssp3.ssp3, 4, order="3", summary="s = n^2; strong-stability-preserving")
     yield Family(
         "sdirk2",
         sdirk2.sdirk2,
@@ -159,14 +118,10 @@ def _with_options() -> Iterator[Family]:
     )
 
 
-FAMILIES: Mapping[str, Family] = {
-    family.name: family for family in _families()
-}
+FAMILIES: Mapping[str, Family] = {family.name: family for family in _families()}
 """Every family by name."""
 BY_STAGES: Mapping[str, Family] = {
-    name: family
-    for name, family in FAMILIES.items()
-    if family.keys == ("stages",)
+    name: family for name, family in FAMILIES.items() if family.keys == ("stages",)
 }
 """Those whose members have a number of stages and no options."""
 
@@ -199,9 +154,7 @@ OTHER_NAMES: Mapping[str, str] = {
 """What people call members of the families, and how the program does."""
 
 
-def recipe_of(
-    name: str, size: int | None = None, options: Options = NO_OPTIONS
-) -> Recipe:
+def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS) -> Recipe:
     """How the member of a family is made.
 
     Args:
@@ -241,9 +194,7 @@ def _size_of(family: Family, size: int | None) -> int:
         return family.smallest
     if size is None:
         what = "number of stages" if family.size == "stages" else family.size
-        example = (
-            f"write for instance {family.size}: {max(2, family.smallest)}"
-        )
+        example = f"write for instance {family.size}: {max(2, family.smallest)}"
         message = f"the family {family.name} needs its {what}"
         raise UnknownFamily(message, example)
     if family.smallest <= size <= family.largest:
@@ -264,9 +215,7 @@ def _complete(family: Family, options: Options) -> Options:
     """A value for every option of the family, and for no other."""
     for name in options:
         if name not in family.keys:
-            message = (
-                f"the family {family.name} has no option {name[:MAX_NAME]!r}"
-            )
+            message = f"the family {family.name} has no option {name[:MAX_NAME]!r}"
             raise UnknownFamily(message, did_you_mean(name, family.keys))
     complete: dict[str, Given] = {}
     for option in family.options:
@@ -283,9 +232,7 @@ MAX_NAME = 60
 """Most characters of an unknown name that are shown."""
 
 
-def diagonal_method(
-    name: str, stages: int | None = None, **options: object
-) -> Method:
+def diagonal_method(name: str, stages: int | None = None, **options: object) -> Method:
     """The member of a family.
 
     Args:

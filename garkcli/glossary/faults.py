@@ -26,9 +26,7 @@ UNKNOWN = "fault"
 HOLE = "{}"
 _REST = r"(?: \(also at .*\)|; .*|, and \d+ more.*)?"
 """What is added to a message: other places, or the cure."""
-_QUOTED = re.compile(
-    r"""(?<!\w)(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""", re.DOTALL
-)
+_QUOTED = re.compile(r"""(?<!\w)(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""", re.DOTALL)
 """What a message quotes; behind a letter ' is an apostrophe or a derivative."""
 _SHORT = 6
 """Characters, with the quotes, of what messages of the program quote themselves: '[', ">= n"."""

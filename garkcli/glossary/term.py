@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 PAPER = (
-    "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta"
-    " Methods"
+    "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
 )
 """The paper; sources name its sections."""
 

@@ -33,11 +33,7 @@ from garkcli.longtime.rounding import energy_rate, power_of_ten
 from garkcli.longtime.stability import Stability, stability
 from garkcli.longtime.trend import Shape
 from garkcli.problems.oscillator import Oscillator
-from garkcli.stepping.linear import (
-    conserves_energy,
-    enclosure,
-    linear_step,
-)
+from garkcli.stepping.linear import conserves_energy, enclosure, linear_step
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -102,9 +98,7 @@ def oscillator_run(
     kept = np.union1d(extremes(errors.values, points - 2), [0, done])
     history = _history(errors, energy, fate, line, excused, kept, h)
     times = tuple((kept * h).tolist())
-    return LongRun(
-        problem, step, t_end, done, None, (history,), times, stability=fate
-    )
+    return LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
 
 
 def _history(
@@ -207,9 +201,7 @@ def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
     return errors
 
 
-def _at_precision(
-    R: Matrix, omega: fmpq, count: int, bits: int
-) -> Floats | None:
+def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | None:
     """The same with balls of ``bits`` bits; None where these are too few."""
     with ctx.workprec(bits):
         step = _scaled(R, omega, bits)
@@ -236,9 +228,7 @@ def _in_floats(balls: list[arb]) -> Floats:
     return np.array([float(x) for x in balls])
 
 
-def _forms(
-    step: arb_mat, length: int
-) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
+def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
     """Q_j as coefficients of z₁², z₁z₂, z₂² for j < length, and R^length; fewer when they grow out
     of floats.
     """
@@ -258,9 +248,7 @@ def _forms(
     return forms, power
 
 
-def _starts(
-    block: arb_mat, omega: arb, count: int
-) -> tuple[list[tuple[arb, arb]], list[arb]]:
+def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb]], list[arb]]:
     """The block starts z_{iK} and their energy errors; fewer when the energy blows up."""
     z = arb_mat([[omega], [omega / 2]])
     energy = 5 * omega**2 / 8

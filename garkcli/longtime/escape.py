@@ -86,9 +86,7 @@ class Excursions:
             turns = np.flatnonzero(either[:, i])
             self._add_position(i, first, sizes[:, i], turns)
 
-    def _add_position(
-        self, i: int, first: int, sizes: Floats, turns: Integers
-    ) -> None:
+    def _add_position(self, i: int, first: int, sizes: Floats, turns: Integers) -> None:
         """Of position i: |q| in the steps from ``first`` on, and where it or its momentum turned.
 
         The turn number n is about the state n + 1.

@@ -24,9 +24,7 @@ SERIES = 2000
 BLOW_UP = 1e30
 """How many times the energy the energy error may become before a run ends as unstable."""
 
-Verdict: TypeAlias = Literal[
-    "exact", "round-off", "bounded", "drifts", "unstable", "undecided"
-]
+Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
 """Conserved exactly; no error above round-off; no drift to be told; a drift; blown up or escaped;
 too short to judge.
 """
@@ -126,9 +124,7 @@ class LongRun:
     @property
     def drifts(self) -> bool:
         """Whether a quantity drifts, has blown up or escaped."""
-        return any(
-            x.verdict in ("drifts", "unstable") for x in self.invariants
-        )
+        return any(x.verdict in ("drifts", "unstable") for x in self.invariants)
 
     def __repr__(self) -> str:
         name = getattr(self.problem, "name", "oscillator")

@@ -26,12 +26,7 @@ from garkcli.longtime.history import (
 )
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
-from garkcli.longtime.rounding import (
-    energy_rate,
-    invariant_rate,
-    power_of_ten,
-    unit_round_off,
-)
+from garkcli.longtime.rounding import energy_rate, invariant_rate, power_of_ten, unit_round_off
 from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
@@ -118,9 +113,7 @@ def long_run(
     return _judged(record, bound, rate, step, t_end)
 
 
-def _judged(
-    record: Record, bound: Binding, rate: float, step: fmpq, t_end: fmpq
-) -> LongRun:
+def _judged(record: Record, bound: Binding, rate: float, step: fmpq, t_end: fmpq) -> LongRun:
     """What has become of the invariants; ``rate`` is the energy per unit of time that rounded
     coefficients can cause.
     """
@@ -243,9 +236,7 @@ class _Judge:
             longer=longer,
         )
 
-    def _verdict(
-        self, k: int, noise: float, trend: Trend | None
-    ) -> tuple[Verdict, Shape]:
+    def _verdict(self, k: int, noise: float, trend: Trend | None) -> tuple[Verdict, Shape]:
         record = self.record
         if record.blew_up or self.escape is not None:
             return "unstable", "none"

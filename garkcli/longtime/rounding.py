@@ -92,10 +92,7 @@ class Exchange:
 
 
 def energy_rate(
-    tableau: Tableau,
-    tolerance: fmpq | None,
-    h: float,
-    powers: tuple[float, float],
+    tableau: Tableau, tolerance: fmpq | None, h: float, powers: tuple[float, float]
 ) -> float:
     """The energy per unit of time that the rounding of coefficients can cause, to leading order.
 

@@ -97,9 +97,7 @@ def _exactly(x: Any) -> fmpq | arb:
     return fmpq(numerator, denominator)
 
 
-def _defect(
-    method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]
-) -> Defect:
+def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
     """MᵀJM − J of the step from y, with M by central differences of two widths."""
     delta = fmpq(1, 10**_DECADES)
     with ctx.workprec(method.bits):
@@ -122,9 +120,7 @@ def _defect(
         return Defect(time, float(deviation), float(error))
 
 
-def _jacobian(
-    method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq
-) -> Jacobian:
+def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
     """∂y₁/∂y by central differences with the width ``delta``."""
 
     def moved(i: int, by: fmpq) -> list[Any]:
@@ -168,9 +164,7 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
     return is_symplectic_within(tableau, tolerance)
 
 
-def is_proved(
-    tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None
-) -> bool:
+def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
     """Whether the steps of ``tableau`` on ``problem``, as ``symplecticity_defects`` takes them, are
     symplectic by coefficients.
 

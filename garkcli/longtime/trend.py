@@ -28,13 +28,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from garkcli.longtime.windows import (
-    OF_EIGHTHS,
-    OF_HALVES,
-    OF_QUARTERS,
-    Sums,
-    Windows,
-)
+from garkcli.longtime.windows import OF_EIGHTHS, OF_HALVES, OF_QUARTERS, Sums, Windows
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats

@@ -117,13 +117,7 @@ class ArkReader:
             rows.append(self.numbers.row(item, of_colour("b", m)))
         return tuple(rows)
 
-    def _check_lengths(
-        self,
-        entries: Entries,
-        b: Weights,
-        c: Row | None,
-        stages: int,
-    ) -> None:
+    def _check_lengths(self, entries: Entries, b: Weights, c: Row | None, stages: int) -> None:
         """Note weights and nodes that are not one a stage."""
         wanted = counted(stages, "stage")
         for name, row in _rows_of_weights(b):

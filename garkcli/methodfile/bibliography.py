@@ -23,9 +23,7 @@ KEYS = tuple(field.name for field in fields(Reference))
 """The keys of a reference that is a mapping."""
 
 
-def read_reference(
-    source: Source, node: Node | None
-) -> tuple[str, Reference | None]:
+def read_reference(source: Source, node: Node | None) -> tuple[str, Reference | None]:
     """A reference as text in one line, and its fields where it has them.
 
     Args:
@@ -94,9 +92,7 @@ def read_aliases(source: Source, node: Node | None) -> tuple[str, ...]:
     return tuple(aliases)
 
 
-def _what_is_wrong(
-    alias: str, before: Sequence[str]
-) -> tuple[str, str] | None:
+def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str] | None:
     """Why a text is no alias, and the cure; None where it is one."""
     shown = shortened(alias)
     if not alias:

@@ -19,10 +19,7 @@ def aliases() -> Schema:
         "maxLength": MAX_WORD,
     }
     several = {"type": "array", "items": alias, "uniqueItems": True}
-    return {
-        "description": "What else the method is called.",
-        "anyOf": [several, alias],
-    }
+    return {"description": "What else the method is called.", "anyOf": [several, alias]}
 
 
 def reference() -> Schema:
@@ -30,11 +27,5 @@ def reference() -> Schema:
     properties: Schema = dict.fromkeys(KEYS, TEXT)
     properties |= {"authors": _PEOPLE, "editors": _PEOPLE}
     properties["type"] = {"enum": list(WORKS)}
-    properties["year"] = {
-        "type": ["integer", "string"],
-        "pattern": "^[0-9]{4}[a-z]?$",
-    }
-    return {
-        "description": "Where it was published.",
-        "anyOf": [TEXT, closed(properties, "title")],
-    }
+    properties["year"] = {"type": ["integer", "string"], "pattern": "^[0-9]{4}[a-z]?$"}
+    return {"description": "Where it was published.", "anyOf": [TEXT, closed(properties, "title")]}

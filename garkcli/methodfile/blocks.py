@@ -7,25 +7,13 @@ from typing import TypeAlias
 from garkcli.errors import GarkError, MethodError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
-from garkcli.methodfile.description import (
-    MatrixText,
-    MethodsText,
-    RuleText,
-    block_name,
-)
+from garkcli.methodfile.description import MatrixText, MethodsText, RuleText, block_name
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
 from garkcli.tableau.forms import gark
 from garkcli.tableau.method import Method
-from garkcli.transfer import (
-    PAIR_RULES,
-    RULES,
-    Rule,
-    build_on,
-    combination,
-    symplectic_blocks,
-)
+from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 
@@ -41,11 +29,7 @@ class BlockBuilder:
     """
 
     def __init__(
-        self,
-        source: Source,
-        values: Values,
-        text: MethodsText,
-        methods: list[Method],
+        self, source: Source, values: Values, text: MethodsText, methods: list[Method]
     ) -> None:
         self.source = source
         self.values = values
@@ -90,9 +74,7 @@ class BlockBuilder:
         rule, _ = block.terms[0]
         return block if rule in PAIR_RULES else None
 
-    def _block(
-        self, text: MatrixText | RuleText | None, l: int, m: int
-    ) -> Matrix:
+    def _block(self, text: MatrixText | RuleText | None, l: int, m: int) -> Matrix:
         if text is None:
             cure = "give it one, or a default, under transfer"
             raise MethodError("it has no rule", cure)

@@ -139,9 +139,7 @@ class Builder:
         """What a method is made from, each built as if it stood alone, and its own numbers."""
         tableaus = []
         for part in text.parts:
-            builder = Builder(
-                part.source, self.values, part.families, part.nodes
-            )
+            builder = Builder(part.source, self.values, part.families, part.nodes)
             tableaus.append(builder.tableau(part.description))
         return tableaus, self.values.vector(text.numbers)
 
@@ -224,10 +222,7 @@ class Builder:
         velocities, forces = [0], [1]
         if structure == "semi-separable":
             forces = [0, 1]
-        both = self._at(
-            text.methods[0].node,
-            lambda: symplectic_pair(tableau, velocities, forces),
-        )
+        both = self._at(text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces))
         return with_linear(both, ["V1"]) if structure == "nystrom" else both
 
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
@@ -263,10 +258,7 @@ def families_of(description: Description) -> dict[int, Method]:
 
 
 def nodes_to_spell_out(
-    description: Description,
-    families: Mapping[int, Method],
-    numbers: Numbers,
-    why: str = "",
+    description: Description, families: Mapping[int, Method], numbers: Numbers, why: str = ""
 ) -> dict[int, Row]:
     """For each family that meets a spelled-out block, or has weights of the file beside it, its
     nodes as coefficients of the file.
@@ -302,9 +294,7 @@ def nodes_to_spell_out(
     return rows
 
 
-def _family_nodes(
-    text: FamilyText, space: StageSpace, numbers: Numbers, why: str
-) -> Row | None:
+def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:
     """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
     where it cannot be.
     """

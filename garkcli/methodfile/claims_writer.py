@@ -42,10 +42,7 @@ def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
     expect = _expect(root)
     if expect is None or not expect.value:
         return _with_block(source, text, root, expect, claims)
-    edits = [
-        *_replacements(text, expect, claims),
-        *_additions(text, expect, claims),
-    ]
+    edits = [*_replacements(text, expect, claims), *_additions(text, expect, claims)]
     # from the last to the first: places before an edit stay where they are
     for start, end, new in sorted(edits, reverse=True):
         text = text[:start] + new + text[end:]
@@ -60,11 +57,7 @@ def _expect(root: MappingNode) -> MappingNode | None:
 
 
 def _with_block(
-    source: str,
-    text: str,
-    root: MappingNode,
-    empty: Node | None,
-    claims: Mapping[str, str],
+    source: str, text: str, root: MappingNode, empty: Node | None, claims: Mapping[str, str]
 ) -> str:
     """A file without claims: they stand at its end."""
     if root.flow_style or empty is not None:
@@ -87,9 +80,7 @@ def _with_block(
     return before + "".join(block) + after
 
 
-def _replacements(
-    text: str, expect: MappingNode, claims: Mapping[str, str]
-) -> Iterator[Edit]:
+def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
     """Other values for claims that are there."""
     for key, node in expect.value:
         value = claims.get(key.value)
@@ -99,9 +90,7 @@ def _replacements(
         yield start, _end(text, node), value
 
 
-def _additions(
-    text: str, expect: MappingNode, claims: Mapping[str, str]
-) -> Iterator[Edit]:
+def _additions(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
     """Claims after the last one: behind it in braces, on lines of their own below it otherwise."""
     there = {key.value for key, _ in expect.value}
     new = [f"{key}: {x}" for key, x in claims.items() if key not in there]

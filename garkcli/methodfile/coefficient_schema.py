@@ -16,37 +16,19 @@ NUMBER: Schema = {
     "pattern": r"^[-+*/^(),.\sA-Za-z0-9_]+$",
 }
 """One coefficient."""
-RANGE: Schema = {
-    "type": "array",
-    "items": NUMBER,
-    "minItems": 2,
-    "maxItems": 2,
-}
+RANGE: Schema = {"type": "array", "items": NUMBER, "minItems": 2, "maxItems": 2}
 """Where a parameter lies, from and to."""
 TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
 """A name or a text, as YAML may read it."""
 _ENTRY: Schema = {
-    "anyOf": [
-        NUMBER,
-        {
-            "const": UNKNOWN,
-            "description": "Unknown: gark design finds values.",
-        },
-    ]
+    "anyOf": [NUMBER, {"const": UNKNOWN, "description": "Unknown: gark design finds values."}]
 }
-ROW: Schema = {
-    "anyOf": [{"type": "array", "items": _ENTRY, "minItems": 1}, _ENTRY]
-}
+ROW: Schema = {"anyOf": [{"type": "array", "items": _ENTRY, "minItems": 1}, _ENTRY]}
 """Weights or nodes; a single value is a row of one."""
 MATRIX: Schema = {
     "description": "Row by row; the rows of a triangle may end at the diagonal or before it.",
     "type": "array",
-    "items": {
-        "anyOf": [
-            {"$ref": "#/definitions/row"},
-            {"type": "array", "maxItems": 0},
-        ]
-    },
+    "items": {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "maxItems": 0}]},
     "minItems": 1,
 }
 """A matrix."""
@@ -88,10 +70,7 @@ DENSE: Schema = {
 
 def beside() -> Schema:
     """What may stand beside the weights b of one colour."""
-    embedded = {
-        "description": "Embedded weights, one a stage.",
-        "$ref": "#/definitions/row",
-    }
+    embedded = {"description": "Embedded weights, one a stage.", "$ref": "#/definitions/row"}
     return {"embedded": embedded, "dense": {"$ref": "#/definitions/dense"}}
 
 
@@ -111,28 +90,17 @@ def tableau_keys() -> Schema:
     """A, b and c: of one colour a matrix and rows, of several a block or a row for each."""
     matrix: Schema = {"$ref": "#/definitions/matrix"}
     row: Schema = {"$ref": "#/definitions/row"}
-    blocks = {
-        "type": "array",
-        "minItems": 1,
-        "items": {"anyOf": [matrix, {"type": "null"}]},
-    }
+    blocks = {"type": "array", "minItems": 1, "items": {"anyOf": [matrix, {"type": "null"}]}}
     rows_of_blocks = {"type": "array", "minItems": 1, "items": blocks}
     rows = {"type": "array", "minItems": 1, "items": row}
-    nodes = {
-        "type": "array",
-        "minItems": 1,
-        "items": {"anyOf": [row, {"type": "null"}]},
-    }
+    nodes = {"type": "array", "minItems": 1, "items": {"anyOf": [row, {"type": "null"}]}}
     return {
         "A": {
             "description": "The matrix, or for several colours rows of blocks A^{l,m}, null where "
             "there is none.",
             "anyOf": [matrix, rows_of_blocks],
         },
-        "b": {
-            "description": "The weights; of several colours a row each.",
-            "anyOf": [row, rows],
-        },
+        "b": {"description": "The weights; of several colours a row each.", "anyOf": [row, rows]},
         "c": {
             "description": "The nodes; where they are left out, the row sums of A.",
             "anyOf": [row, nodes],
@@ -162,20 +130,13 @@ def ark() -> Schema:
         ]
     }
     properties = {
-        "A": {
-            "type": "array",
-            "minItems": 1,
-            "items": {"$ref": "#/definitions/matrix"},
-        },
+        "A": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/matrix"}},
         "b": rows,
         "c": {"$ref": "#/definitions/row"},
         "embedded": rows,
         "dense": {"$ref": "#/definitions/dense"},
     }
-    return {
-        **closed(properties, "A", "b"),
-        "description": "An additive method with shared stages.",
-    }
+    return {**closed(properties, "A", "b"), "description": "An additive method with shared stages."}
 
 
 def prk() -> Schema:

@@ -55,14 +55,10 @@ class _Composer(QuickLoader):
         """One value and those in it."""
         self._count += 1
         if self._count > MAX_NODES:
-            raise TooLargeError(
-                self._next_event(), _TOO_MANY, "no method needs that"
-            )
+            raise TooLargeError(self._next_event(), _TOO_MANY, "no method needs that")
         if self._depth >= MAX_NESTING:
             event = self._next_event()
-            if isinstance(
-                event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)
-            ):
+            if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
                 raise TooLargeError(event, _TOO_DEEP, "no file needs that")
         self._depth += 1
         node: Node | None = super().compose_node(parent, index)
@@ -74,10 +70,7 @@ _TOO_DEEP = f"nested more than {MAX_NESTING} deep"
 _TOO_MANY = f"more than {MAX_NODES} values in one file"
 _YAML_CURES = (
     ("'\\t'", "indent with spaces, not with tabs"),
-    (
-        "mapping values are not allowed",
-        "quote a text that holds a colon, and align the keys",
-    ),
+    ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
     ("block end", "align the keys and the dashes of one list"),
     ("undefined alias", "define it first as &name, or quote the text"),
     ("cannot start any token", "quote a text that begins with this sign"),

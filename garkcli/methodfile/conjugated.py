@@ -9,10 +9,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.description import BESIDE
 from garkcli.methodfile.source import Source
 
-_DROPPED = (
-    *("expect", "conjugate", "name", "aliases", "description"),
-    *BESIDE,
-)
+_DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:

@@ -36,26 +36,12 @@ if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open
     from garkcli.methodfile.shaped import Shaped
 
-KEYS_OF_METHOD = (
-    "name",
-    *FORMS,
-    *PLAIN,
-    *BESIDE,
-    "transfer",
-    "structure",
-    "conjugate",
-    "linear",
-)
+KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
 """The keys of a method, wherever it stands."""
-_EXAMPLE = (
-    "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
-)
+_EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
 _START = "give A and b, or one of the keys methods, tableau, ark, prk"
 _HOMES = {
-    "claims go under expect, for instance expect: {order: 4}": (
-        *NUMBERS,
-        *TRUTHS,
-    ),
+    "claims go under expect, for instance expect: {order: 4}": (*NUMBERS, *TRUTHS),
     "write methods: [{family: gauss, stages: 2}]": ("family", "stages"),
     "it goes under transfer": ("blocks", "default"),
     "it goes under prk: {q: {A, b}, p: {A, b}}": ("q", "p"),
@@ -131,9 +117,7 @@ class ContentReader:
         key = key_of(root, content)
         return ShapeReader(self.source, self.numbers).read(key, content)
 
-    def _form(
-        self, root: Node, entries: Entries
-    ) -> Form | Literal["unknown"] | None:
+    def _form(self, root: Node, entries: Entries) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
         forms = (*FORMS, "unknown")
         present: list[str] = [key for key in forms if key in entries]
@@ -193,20 +177,12 @@ class ContentReader:
         """Whether it is a splitting whose flows are exact: of a separable problem."""
         return form == "splitting" and "of" not in keys_of(entries[form])
 
-    def _constructed(
-        self, form: Form, node: Node, structure: Structure
-    ) -> ConstructionText | None:
+    def _constructed(self, form: Form, node: Node, structure: Structure) -> ConstructionText | None:
         """A method made from others."""
         from garkcli.methodfile.constructed.parts import PartReader
         from garkcli.methodfile.constructed.registry import construction
 
-        parts = PartReader(
-            self.source,
-            self.numbers,
-            self._inside,
-            self._open,
-            self.tolerance,
-        )
+        parts = PartReader(self.source, self.numbers, self._inside, self._open, self.tolerance)
         return construction(form).read(parts, node, structure)
 
     def _inside(self, node: Node, where: str) -> Description | None:
@@ -219,9 +195,7 @@ class ContentReader:
             root = MappingNode("tag:yaml.org,2002:map", [(key, node)])
             root.start_mark = node.start_mark
             return reader.read(root, family)
-        entries = self.source.mapping(
-            node, where, KEYS_OF_METHOD, CURES, _EXAMPLE
-        )
+        entries = self.source.mapping(node, where, KEYS_OF_METHOD, CURES, _EXAMPLE)
         if not isinstance(node, MappingNode):
             return None
         return reader.read(node, entries)
@@ -264,9 +238,7 @@ class ContentReader:
                 self.source.fault(text.node, message, "leave them out")
                 return
 
-    def _content(
-        self, form: Form, structure: Structure, entries: Entries
-    ) -> Content | None:
+    def _content(self, form: Form, structure: Structure, entries: Entries) -> Content | None:
         if self.shaped is not None:
             return self.shaped.content
         if form not in entries:

@@ -12,12 +12,7 @@ from garkcli.methodfile.coefficient_schema import Schema
 
 _NO_KEYS = ("if", "then", "not", "patternProperties")
 """What stands below says how keys go together, not what they are."""
-_BELOW = {
-    "butcher": "methods.",
-    "method": "methods.",
-    "dense": "dense.",
-    "rule": "transfer.",
-}
+_BELOW = {"butcher": "methods.", "method": "methods.", "dense": "dense.", "rule": "transfer."}
 """Of the definitions, below which key they are explained; others are whole files."""
 
 
@@ -109,10 +104,7 @@ def _walked(node: Any, path: str, keys: Mapping[str, Key]) -> Any:
         if word == "properties":
             found[word] = _properties(part, path, keys)
         elif word == "definitions":
-            found[word] = {
-                name: _walked(x, _BELOW.get(name, ""), keys)
-                for name, x in part.items()
-            }
+            found[word] = {name: _walked(x, _BELOW.get(name, ""), keys) for name, x in part.items()}
         elif word in _NO_KEYS:
             found[word] = part
         else:

@@ -17,18 +17,9 @@ from garkcli.reference import Reference
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
-Structure: TypeAlias = Literal[
-    "general", "semi-separable", "separable", "nystrom"
-]
-STRUCTURES: tuple[Structure, ...] = (
-    "general",
-    "semi-separable",
-    "separable",
-    "nystrom",
-)
-Construction: TypeAlias = Literal[
-    "compose", "adjoint", "extrapolate", "splitting", "multirate"
-]
+Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
+STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "nystrom")
+Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splitting", "multirate"]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""
 Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"] | Construction
@@ -230,9 +221,7 @@ class ConstructionText:
     tolerance: fmpq | None = None
 
 
-Content: TypeAlias = (
-    "MethodsText | TableauText | ArkText | PrkText | ConstructionText"
-)
+Content: TypeAlias = "MethodsText | TableauText | ArkText | PrkText | ConstructionText"
 
 
 def further_of(content: Content) -> tuple[FurtherText, ...]:

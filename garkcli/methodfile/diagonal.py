@@ -37,9 +37,7 @@ class DiagonalReader:
         self.numbers = numbers
         self._spelled_out = SpelledOutReader(source, numbers)
 
-    def read(
-        self, node: Node, structure: Structure, transfer: Node | None
-    ) -> MethodsText | None:
+    def read(self, node: Node, structure: Structure, transfer: Node | None) -> MethodsText | None:
         """The form ``methods``; None where it does not make a method."""
         source = self.source
         if keys_of(node) & {"A", "b", "family", "stages"}:
@@ -69,9 +67,7 @@ class DiagonalReader:
         self._spelled_out.further.refuse_partial(further, names, node)
         return MethodsText(tuple(methods), rules)
 
-    def _rules(
-        self, node: Node, colours: int, transfer: Node | None
-    ) -> TransferText:
+    def _rules(self, node: Node, colours: int, transfer: Node | None) -> TransferText:
         """How the blocks between the methods are made."""
         if transfer is None:
             if colours > 1:
@@ -84,9 +80,7 @@ class DiagonalReader:
         reader = TransferReader(self.source, self.numbers)
         return reader.read(transfer, colours)
 
-    def _is_too_large(
-        self, methods: Sequence[FamilyText | ButcherText], node: Node
-    ) -> bool:
+    def _is_too_large(self, methods: Sequence[FamilyText | ButcherText], node: Node) -> bool:
         """Note blocks between the methods that together have too many entries to be made."""
         stages = [_stages(method) for method in methods]
         inside = sum(s * s for s in stages)

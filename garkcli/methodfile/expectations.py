@@ -58,15 +58,11 @@ def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
     if node is None:
         return ()
     claims = []
-    for key, value_node in source.mapping(
-        node, "expect", CLAIMS, form=_FORM
-    ).items():
+    for key, value_node in source.mapping(node, "expect", CLAIMS, form=_FORM).items():
         where = f"expect, {key}"
         wanted: Wanted
         if key in TABLES:
-            wanted = _table(
-                source, value_node, where, depth=1 if key == "B" else 2
-            )
+            wanted = _table(source, value_node, where, depth=1 if key == "B" else 2)
         else:
             wanted = _READERS[_kind(key)](source, value_node, where)
         claims.append(ClaimText(value_node, key, wanted))
@@ -102,9 +98,7 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
     if text.isascii() and text.isdigit() and len(text) < 5:
         return int(text)
     if isinstance(node, ScalarNode):
-        message = (
-            f'{where}: a number or ">= n" is expected, not {shortened(text)}'
-        )
+        message = f'{where}: a number or ">= n" is expected, not {shortened(text)}'
         source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
     return None
 
@@ -119,17 +113,12 @@ _READERS: dict[Kind, Callable[[Source, Node, str], Wanted]] = {
 def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
     if not isinstance(node, SequenceNode):
         source.fault(
-            node,
-            f"{where}: a list is expected",
-            "one number a colour, for C and D a row a colour",
+            node, f"{where}: a list is expected", "one number a colour, for C and D a row a colour"
         )
         return None
     if depth > 1:
         return [_table(source, item, where, depth - 1) for item in node.value]
-    return [
-        None if is_null(item) else _number(source, item, where)
-        for item in node.value
-    ]
+    return [None if is_null(item) else _number(source, item, where) for item in node.value]
 
 
 _OF_ORDERS = {*NUMBERS, *TABLES, "stage-order"}
@@ -138,9 +127,7 @@ _OF_ORDERS = {*NUMBERS, *TABLES, "stage-order"}
 
 def highest_order(claims: tuple[ClaimText, ...]) -> int:
     """The largest order that occurs in the claims."""
-    found = [
-        _largest(claim.value) for claim in claims if claim.key in _OF_ORDERS
-    ]
+    found = [_largest(claim.value) for claim in claims if claim.key in _OF_ORDERS]
     return max(found, default=0)
 
 

@@ -26,13 +26,7 @@ from garkcli.methodfile.description import (
     left_behind,
 )
 from garkcli.methodfile.family_values import FamilyValues
-from garkcli.methodfile.load import (
-    NO_SETTINGS,
-    built,
-    described,
-    loads,
-    read_method_text,
-)
+from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
 from garkcli.methodfile.nodes import Extent, extent
 from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
@@ -71,9 +65,7 @@ class FamilyFile(Family):
 
 
 def load_family(
-    path: str,
-    settings: Mapping[str, str] = NO_SETTINGS,
-    deadline: float | None = None,
+    path: str, settings: Mapping[str, str] = NO_SETTINGS, deadline: float | None = None
 ) -> FamilyFile:
     """Read a method file with free parameters.
 
@@ -147,10 +139,7 @@ def _family(
     ranges = {name: values.ends(x) for name, x in free.items()}
     source.close()
     poles = _cancelled(values.domain.divisors, tableau, ring, free)
-    zeros = (
-        *_of_nodes(description, tableau),
-        *numerators(meaning.zeros, ring),
-    )
+    zeros = (*_of_nodes(description, tableau), *numerators(meaning.zeros, ring))
     return FamilyFile(
         source=source.name,
         text=source.text,
@@ -206,10 +195,7 @@ def _places(reader: Reader) -> Mapping[str, Extent]:
 
 
 def _cancelled(
-    divisors: Sequence[fmpq_mpoly],
-    tableau: Tableau,
-    ring: Parameters,
-    free: Iterable[str],
+    divisors: Sequence[fmpq_mpoly], tableau: Tableau, ring: Parameters, free: Iterable[str]
 ) -> Iterator[fmpq_mpoly]:
     """What the file divides by and no denominator shows, as in t/t: there is no method with a zero
     of it. Irreducible polynomials.
@@ -229,16 +215,12 @@ def _cancelled(
                 yield factor
 
 
-def _signs(
-    numbers: Sequence[object], ring: Parameters
-) -> tuple[fmpq_mpoly, ...]:
+def _signs(numbers: Sequence[object], ring: Parameters) -> tuple[fmpq_mpoly, ...]:
     """Polynomials with the signs of rational functions."""
     return tuple(sign_polynomial(x, ring) for x in numbers)
 
 
-def _of_nodes(
-    description: Description, tableau: Tableau
-) -> Iterator[fmpq_mpoly]:
+def _of_nodes(description: Description, tableau: Tableau) -> Iterator[fmpq_mpoly]:
     """Where a node is given and it or its row is unknown: the node minus the sum of the row."""
     for l in _with_given_nodes(description):
         colour = tableau.colours[l]
@@ -292,9 +274,7 @@ def _shape(reader: Reader) -> tuple[Extent, str] | None:
     return reader.shaped.place, text
 
 
-def with_values(
-    family: FamilyFile, values: Mapping[str, str], head: str, claim: str
-) -> str:
+def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
     """The text of a family's file with values for its parameters: that of a method.
 
     Args:

@@ -11,18 +11,12 @@ from garkcli.methodfile.wishes import MOST
 
 def unknown() -> Schema:
     """The key ``unknown``: how many stages, and which shape."""
-    summaries = [
-        {"const": x, "description": find_shape(x).summary} for x in SHAPES
-    ]
+    summaries = [{"const": x, "description": find_shape(x).summary} for x in SHAPES]
     shape: Schema = {"oneOf": summaries}
     shapes = {"type": "array", "items": shape, "minItems": 1}
     stages = {"type": "integer", "minimum": 1, "maximum": MOST_UNKNOWN_STAGES}
     return {
-        **closed(
-            {"stages": stages, "shape": {"anyOf": [shape, shapes]}},
-            "stages",
-            "shape",
-        ),
+        **closed({"stages": stages, "shape": {"anyOf": [shape, shapes]}}, "stages", "shape"),
         "description": "A tableau of unknowns with a shape, for gark design.",
     }
 
@@ -31,11 +25,7 @@ def design() -> Schema:
     """The key ``design``: what is wanted, for all colours or for those that are named."""
     number: Schema = {"$ref": "#/definitions/number"}
     count: Schema = {"type": "integer", "minimum": 1, "maximum": MOST}
-    by_kind: dict[str, Schema] = {
-        "flag": {"type": "boolean"},
-        "count": count,
-        "number": number,
-    }
+    by_kind: dict[str, Schema] = {"flag": {"type": "boolean"}, "count": count, "number": number}
     properties: Schema = {
         "order": {**count, "description": "the order that is looked for"},
         "fix": {
@@ -57,10 +47,7 @@ def design() -> Schema:
             "propertyNames": {"pattern": "^[1-9][0-9]*$"},
             "additionalProperties": value,
         }
-        properties[key] = {
-            "description": want.summary,
-            "anyOf": [value, colours],
-        }
+        properties[key] = {"description": want.summary, "anyOf": [value, colours]}
     return {
         **closed(properties),
         "description": "What gark design looks for, with the order of --order.",

@@ -77,9 +77,7 @@ class FamilyValues(Values):
 class _FamilyDomain(Domain):
     """Evaluates expressions to rational functions of parameters."""
 
-    def __init__(
-        self, names: list[str], expressions: list[Expression]
-    ) -> None:
+    def __init__(self, names: list[str], expressions: list[Expression]) -> None:
         found: dict[Root | AlgebraicRoot, None] = {}
         for expression in expressions:
             found.update(dict.fromkeys(roots_in(expression)))
@@ -111,9 +109,7 @@ class _FamilyDomain(Domain):
         is_even = root.index % 2 == 0
         text = format_expression(root)
         latex = format_expression(root, latex=True)
-        self.radicals.append(
-            Radical(name, relation, is_even, text=text, latex=latex)
-        )
+        self.radicals.append(Radical(name, relation, is_even, text=text, latex=latex))
         return cast("Number", unknown)
 
     def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:
@@ -125,9 +121,7 @@ class _FamilyDomain(Domain):
         meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
         text = format_expression(root)
         latex = format_expression(root, latex=True)
-        self.radicals.append(
-            Radical(name, relation, meant=meant, text=text, latex=latex)
-        )
+        self.radicals.append(Radical(name, relation, meant=meant, text=text, latex=latex))
         return cast("Number", self.ring.parameter(name))
 
     def evaluate(self, expression: Expression) -> Number:
@@ -135,9 +129,7 @@ class _FamilyDomain(Domain):
             return cast("Number", self.ring.parameter(expression.name))
         return super().evaluate(expression)
 
-    def _apply(
-        self, sign: str, left: Number, right: Number, at: Expression
-    ) -> Number:
+    def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
         if sign == "/":
             self._note_divisor(right)
         return super()._apply(sign, left, right, at)

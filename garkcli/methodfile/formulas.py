@@ -46,11 +46,7 @@ class Formulas:
     _sizes: dict[str, int] = field(default_factory=dict)
 
     def parsed(
-        self,
-        node: Node,
-        where: str,
-        names: Mapping[str, str] | None,
-        noun: str = "parameter",
+        self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
         """The expression of a text; None where there are faults, which are noted.
 
@@ -84,12 +80,7 @@ class Formulas:
         return expression if are_known else None
 
     def _are_known(
-        self,
-        expression: Expression,
-        node: Node,
-        where: str,
-        names: Mapping[str, str],
-        noun: str,
+        self, expression: Expression, node: Node, where: str, names: Mapping[str, str], noun: str
     ) -> bool:
         """Whether all names have a meaning; each that has none is noted at its first place."""
         own = {name for name, cure in names.items() if not cure}
@@ -104,9 +95,7 @@ class Formulas:
             self.source.fault(node, message, cure, place.start)
         return not strangers
 
-    def constant(
-        self, node: Node, where: str
-    ) -> tuple[Expression, Value] | None:
+    def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
         """A formula of parameters alone, and its value."""
         expression = self.parsed(node, where, {})
         if expression is None:
@@ -115,11 +104,7 @@ class Formulas:
         return None if value is None else (expression, value)
 
     def value(
-        self,
-        expression: Expression,
-        node: Node,
-        where: str,
-        names: Mapping[str, Value],
+        self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]
     ) -> Value | None:
         """The value for given values of names; None where there is none, which is noted."""
         try:

@@ -8,12 +8,7 @@ from typing import NamedTuple
 from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import counted
-from garkcli.methodfile.description import (
-    BESIDE,
-    NOTHING_FURTHER,
-    FurtherText,
-    of_colour,
-)
+from garkcli.methodfile.description import BESIDE, NOTHING_FURTHER, FurtherText, of_colour
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Entries, Source
 
@@ -117,9 +112,7 @@ class FurtherReader:
             rows[l] = self._row(item, name, colours.stages[l])
         return rows
 
-    def _blocks(
-        self, entries: Entries, colours: _Colours
-    ) -> list[Rows | None]:
+    def _blocks(self, entries: Entries, colours: _Colours) -> list[Rows | None]:
         """The dense output of each colour."""
         blocks: list[Rows | None] = [None] * len(colours.stages)
         if "dense" not in entries:
@@ -202,9 +195,7 @@ class FurtherReader:
         weights = entries["weights"]
         return degree, weights
 
-    def _block(
-        self, node: Node, where: str, stages: int, degree: int
-    ) -> Rows | None:
+    def _block(self, node: Node, where: str, stages: int, degree: int) -> Rows | None:
         """A row a stage, a coefficient a power of θ."""
         rows = self.numbers.matrix(node, where)
         if not rows or not stages:
@@ -241,15 +232,11 @@ class FurtherReader:
                 group = having if is_given else lacking
                 group.append(name)
             if having and lacking:
-                message = (
-                    f"{key}: {having[0]} has it and {lacking[0]} does not"
-                )
+                message = f"{key}: {having[0]} has it and {lacking[0]} does not"
                 self.source.fault(node, message, cure)
 
 
-def _further(
-    entries: Entries, embedded: Row | None, dense: Rows | None
-) -> FurtherText:
+def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> FurtherText:
     if embedded is None and dense is None:
         return NOTHING_FURTHER
     places = [entries[key] for key in BESIDE if key in entries]

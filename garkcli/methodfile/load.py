@@ -8,12 +8,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
-from garkcli.methodfile.build import (
-    Builder,
-    MethodFile,
-    families_of,
-    nodes_to_spell_out,
-)
+from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
 from garkcli.methodfile.description import Description, left_behind
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.folders import STDIN, SUFFIX
@@ -62,25 +57,15 @@ def _of_folder(path: str) -> Fault:
     try:
         os.scandir(path).close()
     except OSError as error:
-        return Fault(
-            f"this folder cannot be read: {error.strerror}", "name the files"
-        )
+        return Fault(f"this folder cannot be read: {error.strerror}", "name the files")
     first = next(find_files([path]))
     if first == path:
-        return Fault(
-            f"no {SUFFIX} files in this directory",
-            "name the files, or rename them",
-        )
-    return Fault(
-        "a directory, where one method file is expected",
-        f"name one, such as {first}",
-    )
+        return Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
+    return Fault("a directory, where one method file is expected", f"name one, such as {first}")
 
 
 def loads(
-    text: str,
-    source: str = "<text>",
-    settings: Mapping[str, str] = NO_SETTINGS,
+    text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
 ) -> MethodFile:
     """Read a method file from its text.
 
@@ -130,9 +115,7 @@ def _free(reader: Reader) -> MethodFileError:
     return HasFreeParameters(error.source, error.faults, error.text)
 
 
-def described(
-    text: str, source: str, settings: Mapping[str, str]
-) -> tuple[Reader, Description]:
+def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Reader, Description]:
     """What a file says, with the reader that has its coefficients and its faults.
 
     Raises:
@@ -164,9 +147,7 @@ class Built(Generic[V]):
     values: V
 
 
-def built(
-    reader: Reader, description: Description, values_of: Callable[[Numbers], V]
-) -> Built[V]:
+def built(reader: Reader, description: Description, values_of: Callable[[Numbers], V]) -> Built[V]:
     """The tableau that a file describes, with what else its coefficients say.
 
     Args:

@@ -17,9 +17,7 @@ from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.source import Source
 
 INFINITY = "infinity"
-_DECIMAL = re.compile(
-    r"[0-9]*\.(?P<places>[0-9]*)(?:[eE](?P<exponent>[+-]?[0-9]{1,3}))?"
-)
+_DECIMAL = re.compile(r"[0-9]*\.(?P<places>[0-9]*)(?:[eE](?P<exponent>[+-]?[0-9]{1,3}))?")
 _AT_LEAST = re.compile(r">=\s*(.*)", re.DOTALL)
 
 
@@ -78,10 +76,7 @@ def read_measure(source: Source, node: Node, where: str) -> Measure | None:
         expression = parse(body)
         number = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
-        cure = (
-            error.help
-            or "write a number such as 2*sqrt(2) or 2.785, or infinity"
-        )
+        cure = error.help or "write a number such as 2*sqrt(2) or 2.785, or infinity"
         source.fault(node, f"{where}: {error.message}", cure)
         return None
     return Measure(text, number, _half_unit(body), least is not None)

@@ -23,9 +23,7 @@ class FamilyReader:
         self.source = source
         self.numbers = numbers
 
-    def read(
-        self, node: Node, where: str
-    ) -> tuple[FamilyText, Entries] | None:
+    def read(self, node: Node, where: str) -> tuple[FamilyText, Entries] | None:
         """A member of a family, which exists, with its keys; None where a fault was noted."""
         before = len(self.source.faults)
         family = _family_named(node)
@@ -72,12 +70,7 @@ class FamilyReader:
         return entry.expression
 
     def _member(
-        self,
-        node: Node,
-        name: str,
-        entries: Entries,
-        size: int | None,
-        options: dict[str, Given],
+        self, node: Node, name: str, entries: Entries, size: int | None, options: dict[str, Given]
     ) -> tuple[FamilyText, Entries] | None:
         try:
             recipe = recipe_of(name, size, options)

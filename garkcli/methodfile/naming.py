@@ -16,14 +16,7 @@ from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
 from garkcli.methodfile.file_kind import METHOD_FILE
 from garkcli.methodfile.folders import STDIN
 from garkcli.methodfile.reading import read_text
-from garkcli.methodfile.shelves import (
-    Shelf,
-    Shelved,
-    key_of,
-    others,
-    own_folders,
-    package,
-)
+from garkcli.methodfile.shelves import Shelf, Shelved, key_of, others, own_folders, package
 
 PREFIX = "catalogue:"
 """What is before a name that is never a file; alone, or before a folder, it means all methods."""
@@ -152,9 +145,7 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
         return methods[0]
     names = dict.fromkeys(method.name for method in methods)
     several = list(names) if len(names) > 1 else [x.place for x in methods]
-    message = (
-        f"{printable(name)!r} means {len(several)} methods: {_first(several)}"
-    )
+    message = f"{printable(name)!r} means {len(several)} methods: {_first(several)}"
     raise MethodFileError(name, [Fault(message, "name one of them")])
 
 
@@ -217,9 +208,7 @@ def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
 def hidden_by(method: Shelved) -> list[str]:
     """Where else among one's own folders and the package a method of this name is."""
     key = key_of(method.name)
-    elsewhere = [
-        x for x in (*own_folders(), package()) if x.label != method.shelf
-    ]
+    elsewhere = [x for x in (*own_folders(), package()) if x.label != method.shelf]
     return [shelf.label for shelf in elsewhere if key in shelf.methods]
 
 
@@ -252,9 +241,7 @@ def names_beginning(start: str) -> list[str]:
     found = [name for name in names if key_of(name).startswith(key)]
     if found:
         return found
-    called = chain.from_iterable(
-        shelf.called(method) for shelf, method in visible(shelves)
-    )
+    called = chain.from_iterable(shelf.called(method) for shelf, method in visible(shelves))
     aliases = [alias for alias in called if key_of(alias).startswith(key)]
     return [alias for alias in aliases if len(alias.split()) == 1]
 

@@ -46,6 +46,4 @@ def extent(text: str, first: Node, last: Node) -> Extent:
 
 def is_null(node: Node) -> bool:
     """Whether the value is YAML's null."""
-    return (
-        isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"
-    )
+    return isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"

@@ -127,9 +127,7 @@ class Numbers:
             return Literal(ZERO)
         if name in self.parameters:
             message = f"{where}: its name {name} is that of a parameter"
-            self.source.fault(
-                node, message, "call the parameter something else"
-            )
+            self.source.fault(node, message, "call the parameter something else")
             return Literal(ZERO)
         self.places[name] = node
         if name in self.settings:
@@ -193,9 +191,7 @@ class Numbers:
             return (self.entry(node, where),)
         items = self.source.items(node, where)
         if not items and not self.source.faults:
-            self.source.fault(
-                node, f"{where} is empty", "every method has a stage"
-            )
+            self.source.fault(node, f"{where} is empty", "every method has a stage")
         return self._entries(items, where)
 
     def _entries(self, items: Sequence[Node], where: str) -> Row:
@@ -210,9 +206,7 @@ class Numbers:
             place = f"{where}, entry {len(row) + 1}"
             if is_open:
                 message = "a comma ends the value inside brackets"
-                self.source.fault(
-                    item, message, 'quote it: "root(x, n)"', where=place
-                )
+                self.source.fault(item, message, 'quote it: "root(x, n)"', where=place)
                 row.append(Entry(Literal(ZERO), item, place))
             else:
                 row.append(self.entry(item, place))
@@ -241,9 +235,7 @@ class Numbers:
         if any(rows):
             return tuple(rows)
         if not self.source.faults:
-            self.source.fault(
-                node, f"{where} is empty", "every method has a stage"
-            )
+            self.source.fault(node, f"{where} is empty", "every method has a stage")
         return ()
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
@@ -258,14 +250,7 @@ class Numbers:
         self.source.fault(first, message, cure, where=where)
         return True
 
-    def fitted(
-        self,
-        rows: Rows,
-        node: Node,
-        where: str,
-        shape: tuple[int, int],
-        why: str,
-    ) -> Rows:
+    def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
         """A matrix of the given shape; note at most one fault where it has another.
 
         The rows of a triangular matrix may end at the diagonal or before it, as explicit tableaus
@@ -311,9 +296,7 @@ class Numbers:
         if len(set(lengths)) > 1:
             self._uneven(lengths, node, where, lengths[0])
 
-    def _uneven(
-        self, lengths: Sequence[int], node: Node, where: str, columns: int
-    ) -> None:
+    def _uneven(self, lengths: Sequence[int], node: Node, where: str, columns: int) -> None:
         """Note rows of different lengths: one fault, at the first of another length."""
         wrong = [i for i, length in enumerate(lengths, 1) if length != columns]
         first, others = wrong[0], wrong[1:]

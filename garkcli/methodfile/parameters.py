@@ -71,9 +71,7 @@ def _free(numbers: Numbers, node: Node, where: str) -> Free:
     return Free(node, *ends)
 
 
-def read_range(
-    numbers: Numbers, node: Node, where: str
-) -> tuple[Entry | None, Entry | None]:
+def read_range(numbers: Numbers, node: Node, where: str) -> tuple[Entry | None, Entry | None]:
     """The two ends of a range; None where it is faulty."""
     ends = numbers.source.items(node, where)
     if len(ends) != 2:

@@ -175,9 +175,7 @@ def _without_bars(lines: list[_Line]) -> Pasted:
     return _made(rows, weights, None)
 
 
-def _made(
-    rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None
-) -> Pasted:
+def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> Pasted:
     stages = len(rows)
     if not weights or not stages:
         raise MethodError(
@@ -199,8 +197,7 @@ def _made(
     for row in weights:
         if len(row) != stages:
             raise MethodError(
-                f"{counted(len(row), 'weight')} for {of_stages}",
-                "a weight a stage, zeros too",
+                f"{counted(len(row), 'weight')} for {of_stages}", "a weight a stage, zeros too"
             )
     filled = tuple(_filled(row, stages) for row in rows)
     embedded = weights[1] if len(weights) == 2 else None

@@ -9,14 +9,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import Number
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Power,
-    Root,
-)
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
@@ -33,9 +26,7 @@ LONG_DENOMINATOR = 10**9
 """Fractions with a smaller denominator are no approximants."""
 
 
-def printed_units(
-    printed: Printed, many: int | None = None
-) -> dict[Number, fmpq]:
+def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmpq]:
     """By how much each value may be off if its last digits are rounded, one unit of them.
 
     A decimal is taken for rounded when it has more than half as many digits as the longest one of

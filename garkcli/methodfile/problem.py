@@ -32,9 +32,7 @@ def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
     return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
 
 
-def loads_problem(
-    text: str, source: str = "<text>", stiffness: fmpq | None = None
-) -> Problem:
+def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = None) -> Problem:
     """Read a problem file from its text; see ``load_problem``.
 
     Raises:

@@ -25,11 +25,7 @@ from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.variables import Variables, read_variables
 from garkcli.methodfile.words import one_line
 
-_WITH_ARTICLE = {
-    "hamiltonian": "a hamiltonian",
-    "lagrangian": "a lagrangian",
-    "rhs": "an rhs",
-}
+_WITH_ARTICLE = {"hamiltonian": "a hamiltonian", "lagrangian": "a lagrangian", "rhs": "an rhs"}
 
 
 class ProblemReader:
@@ -116,11 +112,7 @@ class ProblemReader:
         return present[0]
 
     def _check_start(
-        self,
-        root: Node,
-        entries: Entries,
-        variables: Variables,
-        form: str | None,
+        self, root: Node, entries: Entries, variables: Variables, form: str | None
     ) -> None:
         """Refuse a file without initial values, and a solution of what has none."""
         is_rhs = form == "rhs"
@@ -178,9 +170,7 @@ class ProblemReader:
             return DEFAULT_T_END
         return value
 
-    def _invariants(
-        self, entries: Entries, form: str
-    ) -> list[tuple[str, Node]]:
+    def _invariants(self, entries: Entries, form: str) -> list[tuple[str, Node]]:
         """The first integrals that the file names, with their formulas."""
         node = entries.get("invariants")
         if node is None:

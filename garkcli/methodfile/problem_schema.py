@@ -11,17 +11,10 @@ from collections.abc import Iterable
 from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.described import described
-from garkcli.methodfile.problem_text import (
-    KEYS,
-    MAX_INVARIANTS,
-    MAX_TERMS,
-    MAX_VARIABLES,
-)
+from garkcli.methodfile.problem_text import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
 from garkcli.problems.vectorfield import TIME
 
-_CLASHING = {
-    name.removeprefix("p") for name in RESERVED if name.startswith("p")
-}
+_CLASHING = {name.removeprefix("p") for name in RESERVED if name.startswith("p")}
 
 
 def _name_but(names: Iterable[str]) -> str:
@@ -63,11 +56,7 @@ def _of_keys() -> Schema:
         "type": "object",
         "additionalProperties": False,
         "required": ["variables"],
-        "oneOf": [
-            _of_momenta("hamiltonian"),
-            _of_momenta("lagrangian"),
-            _of_rhs(),
-        ],
+        "oneOf": [_of_momenta("hamiltonian"), _of_momenta("lagrangian"), _of_rhs()],
         "properties": {key: properties[key] for key in KEYS},
         "definitions": {"formula": _FORMULA, "constant": _CONSTANT},
     }

@@ -17,19 +17,10 @@ from garkcli.exact.expression import read_decimal
 from garkcli.methodfile import expectations
 from garkcli.methodfile.bibliography import read_aliases, read_reference
 from garkcli.methodfile.content import CURES, ContentReader
-from garkcli.methodfile.description import (
-    BESIDE,
-    FORMS,
-    PLAIN,
-    ConstructionText,
-    Description,
-)
+from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, ConstructionText, Description
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.parameters import (
-    read_parameters,
-    refuse_unknown_settings,
-)
+from garkcli.methodfile.parameters import read_parameters, refuse_unknown_settings
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 
@@ -57,9 +48,7 @@ KEYS = (
     "expect",
 )
 """The keys of a method file."""
-_DECIMAL = re.compile(
-    r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII
-)
+_DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
 
 
 class Reader:
@@ -78,10 +67,7 @@ class Reader:
     """
 
     def __init__(
-        self,
-        source: Source,
-        settings: Mapping[str, str],
-        inside: tuple[str, ...] = (),
+        self, source: Source, settings: Mapping[str, str], inside: tuple[str, ...] = ()
     ) -> None:
         self.source = source
         self.numbers = Numbers(source, settings=settings)
@@ -107,9 +93,7 @@ class Reader:
             if key in entries:
                 text[key] = source.scalar(entries[key], key) or ""
         aliases = read_aliases(source, entries.get("aliases"))
-        reference, bibliography = read_reference(
-            source, entries.get("reference")
-        )
+        reference, bibliography = read_reference(source, entries.get("reference"))
         tolerance = self._tolerance(entries.get("tolerance"))
         claims = expectations.read(source, entries.get("expect"))
         read_parameters(self.numbers, entries.get("parameters"))

@@ -26,12 +26,8 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     """
     if path == STDIN:
         if sys.stdin is None:
-            raise MethodFileError(
-                "<stdin>", [Fault("standard input is closed", "name a file")]
-            )
-        return decoded(
-            "<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)
-        ), "<stdin>"
+            raise MethodFileError("<stdin>", [Fault("standard input is closed", "name a file")])
+        return decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
     try:
         status = os.stat(path)
     except FileNotFoundError:
@@ -40,9 +36,7 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     except ValueError:
         fault = Fault("no file has such a name", "leave out what is no text")
         raise MethodFileError(path, [fault]) from None
-    except (
-        OSError
-    ) as error:  # among them names that are too long, and links in a circle
+    except OSError as error:  # among them names that are too long, and links in a circle
         fault = Fault(f"cannot be read: {error.strerror}")
         raise MethodFileError(path, [fault]) from None
     if not stat.S_ISREG(status.st_mode):
@@ -100,12 +94,7 @@ def decoded(name: str, data: bytes) -> str:
     """
     if len(data) > MAX_BYTES:
         raise MethodFileError(
-            name,
-            [
-                Fault(
-                    f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1
-                )
-            ],
+            name, [Fault(f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1)]
         )
     try:
         return data.decode("utf-8-sig")

@@ -20,9 +20,7 @@ _NO_TOKEN = frozenset("#\n\r\x85\u2028\u2029")
 """Behind spaces: a comment, or the end of the line."""
 _ENDS_AT_COLON = rf"(?=:[{_BLANKS}])"
 _WORD_IN_BLOCK = re.compile(rf"[^{_BLANKS}:#]+{_ENDS_AT_COLON}")
-_WORD_IN_FLOW = re.compile(
-    rf"[^{_BLANKS}:#,?\[\]{{}}]+(?:(?=[,\[\]{{}}])|{_ENDS_AT_COLON})"
-)
+_WORD_IN_FLOW = re.compile(rf"[^{_BLANKS}:#,?\[\]{{}}]+(?:(?=[,\[\]{{}}])|{_ENDS_AT_COLON})")
 """A plain scalar on which the next sign puts an end, whatever comes then."""
 
 
@@ -99,9 +97,7 @@ class QuickLoader(yaml.SafeLoader):
             return False
         return not choices or isinstance(self.tokens[0], choices)
 
-    def parse_node(
-        self, block: bool = False, indentless_sequence: bool = False
-    ) -> yaml.Event:
+    def parse_node(self, block: bool = False, indentless_sequence: bool = False) -> yaml.Event:
         """The event of one value; most are scalars without anchor and tag."""
         if not self.check_token(ScalarToken):
             event: yaml.Event = super().parse_node(block, indentless_sequence)
@@ -111,11 +107,5 @@ class QuickLoader(yaml.SafeLoader):
         # whether its tag follows from its text, and whether from its quotation marks
         implicit = (True, False) if token.plain else (False, True)
         return yaml.ScalarEvent(
-            None,
-            None,
-            implicit,
-            token.value,
-            token.start_mark,
-            token.end_mark,
-            style=token.style,
+            None, None, implicit, token.value, token.start_mark, token.end_mark, style=token.style
         )

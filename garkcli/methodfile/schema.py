@@ -28,12 +28,7 @@ from garkcli.methodfile.coefficient_schema import (
 from garkcli.methodfile.constructed.registry import construction
 from garkcli.methodfile.content import KEYS_OF_METHOD
 from garkcli.methodfile.described import described
-from garkcli.methodfile.description import (
-    BESIDE,
-    CONSTRUCTIONS,
-    FORMS,
-    STRUCTURES,
-)
+from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, STRUCTURES
 from garkcli.methodfile.expectations import NUMBERS, TABLES, TRUTHS
 from garkcli.methodfile.family_schema import design, parameters, unknown
 from garkcli.methodfile.transfers import ALL_RULES
@@ -110,17 +105,11 @@ def _what_goes_together() -> list[Schema]:
     """Keys that need or exclude another, and values that do."""
     several = {"methods": {"type": "array", "minItems": 2}}
     not_general = {"structure": {"not": {"const": "general"}}}
-    of_two_parts = [
-        {"required": [form]}
-        for form in ("methods", "prk", "unknown", "splitting")
-    ]
+    of_two_parts = [{"required": [form]} for form in ("methods", "prk", "unknown", "splitting")]
     one_hamiltonian = {"structure": {"not": {"const": "semi-separable"}}}
     return [
         _goes_with("transfer", {"required": ["methods"]}),
-        _goes_with(
-            "linear",
-            {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]},
-        ),
+        _goes_with("linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}),
         _goes_with("unknown", {"not": {"required": ["parameters"]}}),
         *(_goes_with(key, {"required": ["A"]}) for key in ("c", *BESIDE)),
         {
@@ -158,10 +147,7 @@ def _properties() -> Schema:
         **{key: construction(key).schema() for key in CONSTRUCTIONS},
         "structure": {"enum": list(STRUCTURES)},
         "conjugate": {"type": "boolean"},
-        "linear": {
-            "type": "array",
-            "items": {"type": "integer", "minimum": 1},
-        },
+        "linear": {"type": "array", "items": {"type": "integer", "minimum": 1}},
         "unknown": unknown(),
         "design": design(),
         "parameters": parameters(),
@@ -178,10 +164,7 @@ def _family() -> Schema:
         keys[family.size] = {"type": "integer", "minimum": 1}
         keys |= {option.name: _option(option) for option in family.options}
     keys["stages"] = {**keys["stages"], "maximum": MAX_STAGES}
-    return {
-        **closed(keys, "family"),
-        "allOf": [_member(family) for family in FAMILIES.values()],
-    }
+    return {**closed(keys, "family"), "allOf": [_member(family) for family in FAMILIES.values()]}
 
 
 def _option(option: Option) -> Schema:
@@ -202,16 +185,11 @@ def _member(family: Family) -> Schema:
     needed += [option.name for option in family.options if not option.default]
     barred = dict.fromkeys(sorted(others), False)
     then: Schema = {"required": needed, "properties": barred}
-    return {
-        "if": {"properties": {"family": {"const": family.name}}},
-        "then": then,
-    }
+    return {"if": {"properties": {"family": {"const": family.name}}}, "then": then}
 
 
 def _rule() -> Schema:
-    words = [
-        {"const": rule, "description": SUMMARIES[rule]} for rule in ALL_RULES
-    ]
+    words = [{"const": rule, "description": SUMMARIES[rule]} for rule in ALL_RULES]
     weights = {rule: {"$ref": "#/definitions/number"} for rule in RULES}
     combination = {
         "type": "object",
@@ -227,9 +205,7 @@ def _transfer() -> Schema:
     block = {"anyOf": [rule, {"$ref": "#/definitions/matrix"}]}
     blocks = {
         "type": "object",
-        "propertyNames": {
-            "pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"
-        },
+        "propertyNames": {"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
         "additionalProperties": block,
     }
     split = {
@@ -256,14 +232,6 @@ def _expect() -> Schema:
         properties[key] = row if key == "B" else table
     truth: Schema = {"type": "boolean"}
     properties |= dict.fromkeys(TRUTHS, truth)
-    by_kind: dict[Kind, Schema] = {
-        "truth": truth,
-        "count": number,
-        "number": _MEASURE,
-    }
+    by_kind: dict[Kind, Schema] = {"truth": truth, "count": number, "number": _MEASURE}
     properties |= {x.key: by_kind[x.kind] for x in every_property()}
-    return {
-        "type": "object",
-        "properties": properties,
-        "additionalProperties": False,
-    }
+    return {"type": "object", "properties": properties, "additionalProperties": False}

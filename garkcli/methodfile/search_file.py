@@ -31,9 +31,7 @@ class FileSearch:
     whose: Whose = "method"
 
     @classmethod
-    def of(
-        cls, family: FamilyFile, order: int, whose: Whose = "method"
-    ) -> FileSearch:
+    def of(cls, family: FamilyFile, order: int, whose: Whose = "method") -> FileSearch:
         """The search of a file that is read already."""
         settings: Mapping[str, str] = family.settings
         given = tuple(settings.items())
@@ -55,9 +53,7 @@ class FileSearch:
 
 
 @lru_cache(maxsize=4)
-def _family(
-    text: str, source: str, settings: tuple[tuple[str, str], ...]
-) -> FamilyFile:
+def _family(text: str, source: str, settings: tuple[tuple[str, str], ...]) -> FamilyFile:
     return loads_family(text, source, dict(settings))
 
 

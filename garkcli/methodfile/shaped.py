@@ -115,9 +115,7 @@ class ShapeReader:
             self.numbers.free[name] = Free(node, where=name)
         self.numbers.define(name, value)
 
-    def _content(
-        self, layout: Layout, node: Node
-    ) -> TableauText | ArkText | PrkText:
+    def _content(self, layout: Layout, node: Node) -> TableauText | ArkText | PrkText:
         matrices: list[Rows] = []
         for colour, texts in enumerate(layout.A):
             where = of_colour("A", colour)

@@ -178,9 +178,7 @@ class OtherPackage(Shelf):
     def _shelved(self) -> Iterator[Shelved]:
         return self._below(self.root, ())
 
-    def _below(
-        self, folder: Traversable, inside: tuple[str, ...]
-    ) -> Iterator[Shelved]:
+    def _below(self, folder: Traversable, inside: tuple[str, ...]) -> Iterator[Shelved]:
         """The method files below a folder of the package."""
         for item in sorted(folder.iterdir(), key=lambda x: x.name):
             if item.is_dir():

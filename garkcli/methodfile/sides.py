@@ -14,12 +14,7 @@ from yaml.nodes import Node
 from garkcli.methodfile.formulas import BITS, Formulas, nearby
 from garkcli.methodfile.problem_text import STIFFNESS, ProblemText, Side
 from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.termreader import (
-    Term,
-    TermReader,
-    formulas_of_invariants,
-    named,
-)
+from garkcli.methodfile.termreader import Term, TermReader, formulas_of_invariants, named
 from garkcli.methodfile.words import unquoted
 from garkcli.problems.vectorfield import TIME
 
@@ -38,9 +33,7 @@ Start: TypeAlias = dict[str, fmpq]
 class SidesMaker:
     """Makes the problem of one file; faults are noted in its source."""
 
-    def __init__(
-        self, source: Source, formulas: Formulas, text: ProblemText
-    ) -> None:
+    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
         from garkcli.problems.vectorfield import symbols
 
         self.source, self.formulas, self.text = source, formulas, text
@@ -108,18 +101,11 @@ class SidesMaker:
         noun = "variable or parameter, nor t"
         return self._by_name(side, names, noun)
 
-    def _by_name(
-        self,
-        items: Side,
-        names: dict[str, str],
-        noun: str,
-    ) -> ByName:
+    def _by_name(self, items: Side, names: dict[str, str], noun: str) -> ByName:
         known = names if self.text.are_named else None
         found = {}
         for name, node, where in items:
-            for term in self.reader.terms(
-                [(node, where)], self._symbols, known, noun
-            ):
+            for term in self.reader.terms([(node, where)], self._symbols, known, noun):
                 found[name] = term
         return found
 
@@ -175,12 +161,7 @@ class SidesMaker:
             self._refuse_other_start(exact, started, values)
         return values
 
-    def _refuse_other_start(
-        self,
-        exact: ByName,
-        started: Start,
-        values: Start,
-    ) -> None:
+    def _refuse_other_start(self, exact: ByName, started: Start, values: Start) -> None:
         """Note where the exact solution does not begin at the initial values."""
         for name, term in exact.items():
             own, given = started[name], values[name]
@@ -201,9 +182,7 @@ class SidesMaker:
                 found[name] = nearby(value)
         return found if len(found) == len(exact) else None
 
-    def _refuse_missing(
-        self, node: Node, where: str, given: Entries, cure: str
-    ) -> None:
+    def _refuse_missing(self, node: Node, where: str, given: Entries, cure: str) -> None:
         missing = [x for x in self.text.variables if x not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
@@ -227,10 +206,7 @@ class SidesMaker:
                 self.source.fault(term.node, message, cure)
 
     def _refuse_constants(
-        self,
-        all_terms: Sequence[Term],
-        terms: Sequence[ByName],
-        invariants: Sequence[Term],
+        self, all_terms: Sequence[Term], terms: Sequence[ByName], invariants: Sequence[Term]
     ) -> None:
         """Note right-hand sides with which nothing moves, and invariants that depend on nothing."""
         from garkcli.problems.vectorfield import is_constant

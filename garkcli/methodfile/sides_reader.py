@@ -8,9 +8,7 @@ from garkcli.methodfile.problem_text import Side, Sides
 from garkcli.methodfile.source import Source
 
 
-def read_sides(
-    source: Source, node: Node, names: tuple[str, ...], most: int
-) -> Sides:
+def read_sides(source: Source, node: Node, names: tuple[str, ...], most: int) -> Sides:
     """The right-hand sides of each term: variables, formulas, and what these are called.
 
     Args:
@@ -36,9 +34,7 @@ def read_sides(
     return tuple(sides)
 
 
-def _side(
-    source: Source, node: Node, where: str, names: tuple[str, ...]
-) -> Side:
+def _side(source: Source, node: Node, where: str, names: tuple[str, ...]) -> Side:
     """Of one term; a formula alone is that of the only variable."""
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)

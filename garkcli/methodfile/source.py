@@ -8,13 +8,7 @@ from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import (
-    ExpressionError,
-    Fault,
-    MethodFileError,
-    did_you_mean,
-    printable,
-)
+from garkcli.errors import ExpressionError, Fault, MethodFileError, did_you_mean, printable
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
 from garkcli.methodfile.composing import composed, folded_place, position
 from garkcli.methodfile.file_kind import METHOD_FILE, FileKind
@@ -42,9 +36,7 @@ _PYTHON = "tag:yaml.org,2002:python"
 class Source:
     """One file being read: its name, its text, its kind, and the faults found so far."""
 
-    def __init__(
-        self, name: str, text: str, kind: FileKind = METHOD_FILE
-    ) -> None:
+    def __init__(self, name: str, text: str, kind: FileKind = METHOD_FILE) -> None:
         self.name = name
         self.text = text
         self.kind = kind
@@ -88,9 +80,7 @@ class Source:
         fault = Fault(printable(text), printable(cure), line, column)
         self._note(fault, cause, is_one)
 
-    def _note(
-        self, fault: Fault, cause: str = "", is_one: bool = False
-    ) -> None:
+    def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
         self._found.append(Found(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
             raise self.error()
@@ -272,11 +262,7 @@ class Source:
         return str(node.value)
 
     def whole(
-        self,
-        node: Node,
-        where: str,
-        smallest: int = 0,
-        largest: int | None = None,
+        self, node: Node, where: str, smallest: int = 0, largest: int | None = None
     ) -> int | None:
         """A whole number written in plain decimal digits."""
         text = self.scalar(node, where)
@@ -300,9 +286,7 @@ class Source:
             return None
         return number
 
-    def choice(
-        self, node: Node, where: str, known: Iterable[str]
-    ) -> str | None:
+    def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
         """One of a few words."""
         text = self.scalar(node, where)
         words = list(known)

@@ -39,8 +39,7 @@ CURES = further.CURES | {
 """What people write into a Butcher tableau besides A, b and c."""
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
-    "a method of one colour has A: [[…], …] and b: […],"
-    " one of two A: [[A11, A12], [A21, A22]]"
+    "a method of one colour has A: [[…], …] and b: […], one of two A: [[A11, A12], [A21, A22]]"
 )
 
 
@@ -64,9 +63,7 @@ def _holds_a_number(node: Node) -> bool:
     return not is_null(node)
 
 
-def lacks_coefficients(
-    source: Source, node: Node, where: str, entries: Entries, cure: str
-) -> bool:
+def lacks_coefficients(source: Source, node: Node, where: str, entries: Entries, cure: str) -> bool:
     """Note that A or b is missing."""
     missing = [key for key in ("A", "b") if key not in entries]
     if missing and isinstance(node, MappingNode):
@@ -100,9 +97,7 @@ class SpelledOutReader:
         self.numbers = numbers
         self.further = FurtherReader(source, numbers)
 
-    def butcher(
-        self, node: Node, where: str, names: Names
-    ) -> ButcherText | None:
+    def butcher(self, node: Node, where: str, names: Names) -> ButcherText | None:
         """A method spelled out; ``names`` are what its A, b and c are called in messages."""
         keys = ("name", "A", "b", "c", *BESIDE)
         entries = self.source.mapping(node, where, keys, CURES, EXAMPLE)
@@ -117,9 +112,7 @@ class SpelledOutReader:
         beside = self.further.of_method(entries, len(found[1]), letters)
         return ButcherText(node, name, *found, beside)
 
-    def _method(
-        self, entries: Entries, names: Names
-    ) -> tuple[Rows, Row, Row | None] | None:
+    def _method(self, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
         """A, b and c of a method of one colour; None where they do not make one."""
         numbers = self.numbers
         name_of_A, name_of_b, name_of_c = names
@@ -157,9 +150,7 @@ class SpelledOutReader:
             return None
         return self.tableau_of(entries, linear)
 
-    def tableau_of(
-        self, entries: Entries, linear: Node | None
-    ) -> TableauText | None:
+    def tableau_of(self, entries: Entries, linear: Node | None) -> TableauText | None:
         """A, b and c of one colour or of several, told apart by how deep A is nested."""
         A, b = entries["A"], entries["b"]
         depth, depth_of_weights = depth_of_lists(A), depth_of_lists(b)
@@ -173,10 +164,7 @@ class SpelledOutReader:
             cure = "write the second row as embedded: […], beside b"
             if len(b.value) == 1:
                 cure = "write b as one row: b: [0, 1]"
-            elif all(
-                isinstance(x, SequenceNode) and len(x.value) == 1
-                for x in b.value
-            ):
+            elif all(isinstance(x, SequenceNode) and len(x.value) == 1 for x in b.value):
                 cure = "b is a column here: write it as one row, [0, 1]"
             self.source.fault(b, message, cure)
             return None
@@ -191,9 +179,7 @@ class SpelledOutReader:
             return None
         return self._blocks(entries, linear)
 
-    def _one_colour(
-        self, entries: Entries, linear: Node | None
-    ) -> TableauText | None:
+    def _one_colour(self, entries: Entries, linear: Node | None) -> TableauText | None:
         """A tableau of a single block."""
         found = self._method(entries, ("A", "b", "c"))
         if found is None:
@@ -203,9 +189,7 @@ class SpelledOutReader:
         beside = self.further.of_method(entries, len(b))
         return TableauText(((A,),), (b,), (c,), linear_colours, (beside,))
 
-    def _blocks(
-        self, entries: Entries, linear: Node | None
-    ) -> TableauText | None:
+    def _blocks(self, entries: Entries, linear: Node | None) -> TableauText | None:
         """A tableau block by block."""
         b = self._weights(entries["b"])
         if b is None:

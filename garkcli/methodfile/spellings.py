@@ -93,9 +93,7 @@ def _in_brackets(items: Sequence[str]) -> str:
     return f"[{inside}]"
 
 
-def printed_row(
-    rows: Sequence[Node], example: str
-) -> tuple[Node, str, str] | None:
+def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:
     """The first row that is a text of several numbers, as other programs print them; that text; and
     all rows in brackets, or ``example`` where they are no plain numbers. None where there is none.
     """
@@ -115,23 +113,11 @@ _PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
 _SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
     (re.compile(pattern, re.ASCII), cure)
     for pattern, cure in (
-        (
-            r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)",
-            "write the exponent with e: {x}e{n}",
-        ),
-        (
-            r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*",
-            "leave the kind out: {x}",
-        ),
-        (
-            r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b",
-            "leave the suffix out: {x}",
-        ),
+        (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
+        (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
+        (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
         (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
-        (
-            r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)",
-            "write {f}(x)",
-        ),
+        (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
         (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
         (r"\\d?frac", "write fractions as 1/2"),
         (r"\\sqrt", "write sqrt(x)"),
@@ -147,9 +133,7 @@ _SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
 """Numbers as other languages write them, and how a method file does."""
 
 
-def explained(
-    error: ExpressionError, text: str
-) -> tuple[ExpressionError, str]:
+def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
     """The error with the cure for what comes from another language; and its cause, where that is
     not the word at fault.
     """
@@ -165,9 +149,7 @@ def explained(
                 what = shortened(found.group())
                 message = f"{what} is not how a number is written here"
             cure = better.format(**found.groupdict())
-            explanation = ExpressionError(
-                message, cure, found.start(), found.end()
-            )
+            explanation = ExpressionError(message, cure, found.start(), found.end())
             return explanation, pattern.pattern
     if _is_symbol(error, text):
         return error, _SYMBOLS.pattern
@@ -182,9 +164,7 @@ def _is_symbol(error: ExpressionError, text: str) -> bool:
     """Whether a tableau was copied with its symbols; a slip in the name of a parameter is another
     matter.
     """
-    if not isinstance(error, UndefinedValue) or error.help.startswith(
-        "did you mean"
-    ):
+    if not isinstance(error, UndefinedValue) or error.help.startswith("did you mean"):
         return False
     word = text[error.start : error.end]
     return _SYMBOLS.fullmatch(word) is not None

@@ -66,9 +66,7 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> SweepText:
     return reads_sweep(text, source, kinds, Path(path).parent)
 
 
-def reads_sweep(
-    text: str, source: str, kinds: Mapping[str, str], folder: Path
-) -> SweepText:
+def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) -> SweepText:
     """Read a spec file from its text; see ``read_sweep``."""
     reading = Source(source, text, SWEEP_FILE)
     root = reading.compose()
@@ -82,9 +80,7 @@ def reads_sweep(
 class _Reader:
     """Reads one spec file."""
 
-    def __init__(
-        self, source: Source, kinds: Mapping[str, str], folder: Path
-    ) -> None:
+    def __init__(self, source: Source, kinds: Mapping[str, str], folder: Path) -> None:
         self.source = source
         self.kinds = kinds
         self.folder = folder
@@ -104,9 +100,7 @@ class _Reader:
         if "methods" in entries:
             methods.read(entries["methods"], entries.get("transfer"))
         elif "transfer" in entries:
-            source.fault(
-                entries["transfer"], "transfer without methods", "add methods"
-            )
+            source.fault(entries["transfer"], "transfer without methods", "add methods")
         if "files" in entries:
             methods.read_files(entries["files"], self.folder)
         if not {"methods", "files"} & entries.keys():
@@ -134,9 +128,7 @@ class _Reader:
         found.columns = list(dict.fromkeys(asked))
 
     def _grids(self, node: Node) -> None:
-        for name, values in self.source.mapping(
-            node, "parameters", ()
-        ).items():
+        for name, values in self.source.mapping(node, "parameters", ()).items():
             where = f"parameters: {unquoted(name)}"
             if not _NAME.fullmatch(name):
                 message = f"{where} cannot be the name of a parameter"
@@ -152,9 +144,7 @@ class _Reader:
             else:
                 given = [self._rational(x, where) for x in one_or_more(values)]
                 found = [x for x in given if x is not None]
-            self.found.grids[name] = tuple(
-                str(x) for x in dict.fromkeys(found)
-            )
+            self.found.grids[name] = tuple(str(x) for x in dict.fromkeys(found))
 
     def _steps(self, node: Node, where: str) -> list[fmpq]:
         """Equidistant values, both ends included."""
@@ -162,23 +152,14 @@ class _Reader:
         form = "write {from: 0, to: 1, steps: 10}"
         entries = self.source.mapping(node, where, keys, form=form)
         if entries.keys() != set(keys):
-            self.source.fault(
-                node, f"{where}: from, to and steps are needed", form
-            )
+            self.source.fault(node, f"{where}: from, to and steps are needed", form)
             return []
         first = self._rational(entries["from"], where)
         last = self._rational(entries["to"], where)
         steps = self.source.whole(entries["steps"], where, 1)
-        if (
-            first is None
-            or last is None
-            or steps is None
-            or steps > MOST_VALUES
-        ):
+        if first is None or last is None or steps is None or steps > MOST_VALUES:
             return []
-        return [
-            first + (last - first) * fmpq(k, steps) for k in range(steps + 1)
-        ]
+        return [first + (last - first) * fmpq(k, steps) for k in range(steps + 1)]
 
     def _rational(self, node: Node, where: str) -> fmpq | None:
         text = self.source.scalar(node, where)
@@ -205,17 +186,13 @@ class _Reader:
         used = {name for x in self.found.templates for name in x.parameters}
         for name in self.found.grids.keys() - used:
             message = f"parameters: no method has {name}"
-            self.source.fault(
-                entries["parameters"], message, "leave it out, or use it"
-            )
+            self.source.fault(entries["parameters"], message, "leave it out, or use it")
         is_searched = any(x.order for x in self.found.templates)
         # a parameter without a value is told already
         is_told = not all(self.found.grids.values())
         if "search" in entries and not is_searched and not is_told:
             message = "search: no method has an unknown that is left to it"
-            cure = (
-                f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
-            )
+            cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
             self.source.fault(entries["search"], message, cure)
 
     def _refuse_large(self, root: Node) -> None:
@@ -237,9 +214,7 @@ class _Reader:
         return found
 
     def _conditions(self, node: Node) -> None:
-        for name, value in self.source.mapping(
-            node, "where", self.kinds
-        ).items():
+        for name, value in self.source.mapping(node, "where", self.kinds).items():
             if name not in self.kinds:
                 continue
             text = self.source.scalar(value, f"where, {name}")
@@ -267,12 +242,8 @@ class _Reader:
             return None
         bound = _as_float(value)
         if bound is None:
-            message = (
-                f"{where}: {shortened(text)} is beyond the numbers of a column"
-            )
-            self.source.fault(
-                node, message, "write 0, or a number up to 1e308"
-            )
+            message = f"{where}: {shortened(text)} is beyond the numbers of a column"
+            self.source.fault(node, message, "write 0, or a number up to 1e308")
         return bound
 
 

@@ -14,11 +14,7 @@ from garkcli.errors import ExpressionError, UnknownFamily
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
-from garkcli.families.registry import (
-    BY_STAGES,
-    MAX_STAGES,
-    recipe_of,
-)
+from garkcli.families.registry import BY_STAGES, MAX_STAGES, recipe_of
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
@@ -52,13 +48,9 @@ class MethodsReader:
     def read(self, node: Node, transfer: Node | None) -> None:
         """The entries of ``methods`` with each rule of ``transfer``."""
         self._at = node
-        choices = [
-            self._choices(item) for item in self.source.items(node, "methods")
-        ]
+        choices = [self._choices(item) for item in self.source.items(node, "methods")]
         if not choices:
-            self.source.fault(
-                node, "methods is empty", "name at least one family"
-            )
+            self.source.fault(node, "methods is empty", "name at least one family")
         rules: list[tuple[str, str, set[str]]] = [("", "", set())]
         if len(choices) > 1:
             if transfer is None:
@@ -67,26 +59,18 @@ class MethodsReader:
             else:
                 rules = list(self._rules(transfer))
         elif transfer is not None:
-            self.source.fault(
-                transfer, "one method has no transfer", "leave it out"
-            )
+            self.source.fault(transfer, "one method has no transfer", "leave it out")
         for methods in product(*choices):
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
 
     def _add(
-        self,
-        methods: Sequence[tuple[str, int]],
-        rule: str,
-        shown: str,
-        names: set[str],
+        self, methods: Sequence[tuple[str, int]], rule: str, shown: str, names: set[str]
     ) -> None:
         """One template out of families and a rule."""
         used = tuple(name for name in self.found.grids if name in names)
         free = [name for name in self.found.free if name in names]
-        members = [
-            f'{{family: "{family}", stages: {s}}}' for family, s in methods
-        ]
+        members = [f'{{family: "{family}", stages: {s}}}' for family, s in methods]
         lines = [f"methods: [{', '.join(members)}]"]
         if rule:
             lines.append(f"transfer: {rule}")
@@ -104,15 +88,10 @@ class MethodsReader:
         """The members of one entry of ``methods``: those there are of families × stages."""
         where = "methods"
         entries = self.source.mapping(
-            node,
-            where,
-            ("family", "stages"),
-            form="write {family: gauss, stages: 1..4}",
+            node, where, ("family", "stages"), form="write {family: gauss, stages: 1..4}"
         )
         if "family" not in entries:
-            self.source.fault(
-                node, "methods: family missing", "name one, or a list"
-            )
+            self.source.fault(node, "methods: family missing", "name one, or a list")
             return []
         families = []
         for item in one_or_more(entries["family"]):
@@ -128,9 +107,7 @@ class MethodsReader:
                 with suppress(UnknownFamily):
                     found[family, recipe_of(family, s).stages] = None
         if families and not found:
-            message = (
-                f"methods: no member of {', '.join(families)} has these stages"
-            )
+            message = f"methods: no member of {', '.join(families)} has these stages"
             self.source.fault(node, message, "write stages: 2, [1, 3] or 1..4")
         return list(found)
 
@@ -139,17 +116,11 @@ class MethodsReader:
             return []
         found: list[int] = []
         for item in one_or_more(node):
-            span = (
-                _SPAN.fullmatch(item.value)
-                if isinstance(item, ScalarNode)
-                else None
-            )
+            span = _SPAN.fullmatch(item.value) if isinstance(item, ScalarNode) else None
             if span:
                 first, last = int(span[1]), int(span[2])
                 if not 1 <= first <= last <= MAX_STAGES:
-                    message = (
-                        f"methods, stages: {span[0]} is no range of stages"
-                    )
+                    message = f"methods, stages: {span[0]} is no range of stages"
                     cure = f"write 1..4, up to {MAX_STAGES}"
                     self.source.fault(item, message, cure)
                 found += range(first, min(last, MAX_STAGES) + 1)
@@ -167,24 +138,14 @@ class MethodsReader:
                     yield rule, rule, set()
                 continue
             terms, names = [], set()
-            for rule, weight in self.source.mapping(
-                item, "transfer", RULES
-            ).items():
+            for rule, weight in self.source.mapping(item, "transfer", RULES).items():
                 text = self._weight(weight, f"transfer, weight of {rule}")
                 if text is not None:
                     terms.append((rule, text))
                     names |= set(_NAME.findall(text)) & self._names
-            rule = (
-                "{"
-                + ", ".join(f'{rule}: "{text}"' for rule, text in terms)
-                + "}"
-            )
+            rule = "{" + ", ".join(f'{rule}: "{text}"' for rule, text in terms) + "}"
             if terms:
-                yield (
-                    rule,
-                    " + ".join(f"({x}) {rule}" for rule, x in terms),
-                    names,
-                )
+                yield (rule, " + ".join(f"({x}) {rule}" for rule, x in terms), names)
 
     def _weight(self, node: Node, where: str) -> str | None:
         text = self.source.scalar(node, where)
@@ -226,9 +187,7 @@ class MethodsReader:
                 order = self._order(item, name, missing, family.order or 0)
             self.found.templates.append(TemplateText(name, text, used, order))
 
-    def _order(
-        self, node: Node, name: str, unknowns: Sequence[str], own: int = 0
-    ) -> int:
+    def _order(self, node: Node, name: str, unknowns: Sequence[str], own: int = 0) -> int:
         """The order that is searched for: that of ``search``, or the file's own."""
         search = self.found.search
         if search is None:

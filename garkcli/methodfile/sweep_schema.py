@@ -30,11 +30,7 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
     columns = _one_or_more({"enum": list(kinds)})
     properties = {
         "name": {"type": "string"},
-        "methods": {
-            "type": "array",
-            "minItems": 1,
-            "items": _method(),
-        },
+        "methods": {"type": "array", "minItems": 1, "items": _method()},
         "transfer": _one_or_more(_rule()),
         "files": _one_or_more({"type": "string"}),
         "parameters": {"type": "object", "additionalProperties": _grid()},
@@ -72,10 +68,7 @@ def _method() -> Schema:
         "type": "object",
         "additionalProperties": False,
         "required": ["family"],
-        "properties": {
-            "family": _one_or_more(_words(BY_STAGES)),
-            "stages": _one_or_more(stages),
-        },
+        "properties": {"family": _one_or_more(_words(BY_STAGES)), "stages": _one_or_more(stages)},
     }
 
 
@@ -120,17 +113,7 @@ def _search() -> Schema:
 
 
 def _conditions(kinds: Mapping[str, str]) -> Schema:
-    bound: Schema = {
-        "type": ["number", "string"],
-        "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$",
-    }
+    bound: Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$"}
     truth: Schema = {"type": "boolean"}
-    properties = {
-        name: truth if kind == "truth" else bound
-        for name, kind in kinds.items()
-    }
-    return {
-        "type": "object",
-        "additionalProperties": False,
-        "properties": properties,
-    }
+    properties = {name: truth if kind == "truth" else bound for name, kind in kinds.items()}
+    return {"type": "object", "additionalProperties": False, "properties": properties}

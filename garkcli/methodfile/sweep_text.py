@@ -50,9 +50,7 @@ class SweepText:
     free: tuple[str, ...] = ()
     search: SearchText | None = None
     columns: list[str] = field(default_factory=list)
-    conditions: list[tuple[str, str, bool | float]] = field(
-        default_factory=list
-    )
+    conditions: list[tuple[str, str, bool | float]] = field(default_factory=list)
     best: list[str] = field(default_factory=list)
     pareto: list[str] = field(default_factory=list)
 

@@ -50,13 +50,9 @@ def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
     lines = [*HEAD, f"name: {quoted(name)}"]
     lines += ["# the diagonal methods, one a colour", "methods:"]
     for member in members:
-        lines.append(
-            f"  - {{family: {member.family}, stages: {member.stages}}}"
-        )
+        lines.append(f"  - {{family: {member.family}, stages: {member.stages}}}")
     if len(members) > 1:
-        lines.append(
-            f"transfer: {transfer}  # how the blocks between are made"
-        )
+        lines.append(f"transfer: {transfer}  # how the blocks between are made")
     return "\n".join([*lines, ""])
 
 

@@ -73,9 +73,7 @@ class TermReader:
                 found.append(Term(node, where, expression, made))
         return found
 
-    def check_values(
-        self, terms: Sequence[Term], start: Mapping[str, fmpq]
-    ) -> None:
+    def check_values(self, terms: Sequence[Term], start: Mapping[str, fmpq]) -> None:
         """Note formulas that have no value at the start, as far as that is known."""
         with ctx.workprec(BITS):
             values = {name: arb(x) for name, x in start.items()}

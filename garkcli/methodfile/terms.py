@@ -17,12 +17,7 @@ from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.problem_text import ProblemText
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.termreader import (
-    Term,
-    TermReader,
-    formulas_of_invariants,
-    named,
-)
+from garkcli.methodfile.termreader import Term, TermReader, formulas_of_invariants, named
 from garkcli.methodfile.words import unquoted
 from garkcli.problems.expr import Expr, Place, Vector
 
@@ -36,9 +31,7 @@ _GOOD = 10.0**-PLACES  # the radius of momenta that may be taken for the start
 class Maker:
     """Makes the problem of one file; faults are noted in its source."""
 
-    def __init__(
-        self, source: Source, formulas: Formulas, text: ProblemText
-    ) -> None:
+    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
         from garkcli.problems.mass import velocities
         from garkcli.problems.vectorfield import symbols
 
@@ -101,9 +94,7 @@ class Maker:
             value = self.formulas.rational(x, f"initial: {name}")
             if value is not None:
                 values[name] = value
-        given = [
-            x for x in motions if not entries.keys().isdisjoint(map(str, x))
-        ]
+        given = [x for x in motions if not entries.keys().isdisjoint(map(str, x))]
         if len(given) > 1:
             cure = "give all velocities or all momenta"
             self.source.fault(node, "initial: velocities and momenta", cure)
@@ -118,9 +109,7 @@ class Maker:
             where = f"initial: {unquoted(name)}"
             self.formulas.rational(x, where)
 
-    def _refuse_missing(
-        self, node: Node, motion: Vector, given: Container[str]
-    ) -> None:
+    def _refuse_missing(self, node: Node, motion: Vector, given: Container[str]) -> None:
         """Note positions, and momenta or velocities, without a value."""
         needed = map(str, (*self.q, *motion))
         missing = [name for name in needed if name not in given]
@@ -131,9 +120,7 @@ class Maker:
             cure = f"give each a number, such as {missing[0]}: 1/2"
             self.source.fault(node, message, cure)
 
-    def _names(
-        self, motion: Vector, other: Vector, cure: str
-    ) -> dict[str, str]:
+    def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
         names: dict[str, str] = {}
         for x, y in zip(motion, other, strict=True):
@@ -144,14 +131,10 @@ class Maker:
 
     def _terms(self) -> list[Term]:
         if self.is_lagrangian:
-            names = self._names(
-                self.v, self.p, "a Lagrangian has velocities: {}"
-            )
+            names = self._names(self.v, self.p, "a Lagrangian has velocities: {}")
             noun = "variable, velocity or parameter"
         else:
-            names = self._names(
-                self.p, self.v, "a Hamiltonian has momenta: {}"
-            )
+            names = self._names(self.p, self.v, "a Hamiltonian has momenta: {}")
             noun = "variable, momentum or parameter"
         return self._formulas(self.text.terms, names, noun)
 
@@ -161,10 +144,7 @@ class Maker:
         return self._formulas(items, names, "variable, momentum or parameter")
 
     def _formulas(
-        self,
-        items: Sequence[tuple[Node, str]],
-        names: dict[str, str],
-        noun: str,
+        self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str
     ) -> list[Term]:
         every = (*self.q, *self.p, *self.v)
         symbols = {str(x): x for x in every}
@@ -221,11 +201,7 @@ class Maker:
         return replace(term, made=made)
 
     def _momenta(
-        self,
-        lagrangians: Sequence[Term],
-        hamiltonians: Sequence[Term],
-        at: Place,
-        moving: Term,
+        self, lagrangians: Sequence[Term], hamiltonians: Sequence[Term], at: Place, moving: Term
     ) -> dict[str, fmpq]:
         """The momenta by name that belong to the velocities at the start."""
         from garkcli.problems.start import initial_momenta
@@ -247,9 +223,7 @@ class Maker:
             found[str(p)] = nearby(value)
         return found
 
-    def _refuse_constants(
-        self, terms: Sequence[Term], invariants: Sequence[Term]
-    ) -> None:
+    def _refuse_constants(self, terms: Sequence[Term], invariants: Sequence[Term]) -> None:
         """Note an H with which nothing moves, and invariants that are none: they are constant for
         every motion.
         """
@@ -270,9 +244,7 @@ class Maker:
                 cure += "or leave it out"
                 self.source.fault(invariant.node, message, cure)
 
-    def _check_fields(
-        self, terms: Sequence[Term], start: dict[str, fmpq]
-    ) -> None:
+    def _check_fields(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
         """Note terms that have no derivative at the start."""
         from garkcli.problems.start import missing_derivative
 

@@ -7,12 +7,9 @@ import unicodedata
 
 _MINUS = dict.fromkeys("\N{MINUS SIGN}\N{EN DASH}", "-")
 _BLANKS = dict.fromkeys(
-    "\N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}\N{EM SPACE}",
-    " ",
+    "\N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}\N{EM SPACE}", " "
 )
-_SIGNS = str.maketrans(
-    {**_MINUS, **_BLANKS, "\N{FRACTION SLASH}": "/", "\N{DIVISION SLASH}": "/"}
-)
+_SIGNS = str.maketrans({**_MINUS, **_BLANKS, "\N{FRACTION SLASH}": "/", "\N{DIVISION SLASH}": "/"})
 _ROOT = "\N{SQUARE ROOT}"
 _OF_LATEX = (
     (r"\\(?:begin|end)\{\w+\*?\}(?:\{[^{}]*\})?", "\n"),

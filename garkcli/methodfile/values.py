@@ -65,9 +65,7 @@ class Values:
         _note_faults(source, numbers.entries)
         if len(source.faults) > before:
             return
-        with_roots = (
-            x for x in numbers.entries if any(roots_in(x.expression))
-        )
+        with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
         source.fault(next(with_roots).node, error.message, error.help)
 
     def number(self, entry: Entry) -> Number:

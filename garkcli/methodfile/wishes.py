@@ -85,9 +85,7 @@ def read_wishes(source: Source, numbers: Numbers, node: Node | None) -> Wishes:
     return Wishes(order, tuple(fixed), tuple(wishes))
 
 
-def _fixed(
-    source: Source, numbers: Numbers, node: Node
-) -> list[tuple[Entry, Entry]]:
+def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, Entry]]:
     """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
     fixed = []
     entries = source.mapping(node, "design: fix", (), form=FORM)
@@ -120,9 +118,7 @@ def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
             source.fault(value, f"{where} is no unknown of the file", cure)
 
 
-def _wishes(
-    source: Source, numbers: Numbers, want: Want, node: Node
-) -> list[Wish]:
+def _wishes(source: Source, numbers: Numbers, want: Want, node: Node) -> list[Wish]:
     """One wish, or one for each colour that is named."""
     if not isinstance(node, MappingNode):
         found = _value(source, numbers, want, node)
@@ -141,9 +137,7 @@ def _wishes(
     return wishes
 
 
-def _value(
-    source: Source, numbers: Numbers, want: Want, node: Node
-) -> int | Entry | bool | None:
+def _value(source: Source, numbers: Numbers, want: Want, node: Node) -> int | Entry | bool | None:
     """The value of a wish; None where it is faulty, or says that nothing is wanted."""
     where = f"design: {want.key}"
     if want.kind == "count":

@@ -62,21 +62,14 @@ def write_tableau_file(
 
 
 def write_method(
-    tableau: Tableau,
-    name: str,
-    tolerance: fmpq | None,
-    further: Further = NOTHING,
+    tableau: Tableau, name: str, tolerance: fmpq | None, further: Further = NOTHING
 ) -> str:
     """The same with decimals where coefficients are rounded."""
     text = to_text if tolerance is None else _decimal_text
-    return write_tableau_file(
-        tableau, name, tolerance, text=text, further=further
-    )
+    return write_tableau_file(tableau, name, tolerance, text=text, further=further)
 
 
-def write_rounded(
-    tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING
-) -> str:
+def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING) -> str:
     """A method file with entries rounded to decimals, and the tolerance that this rounding needs.
 
     An entry is at most half a unit in its last digit off; the tolerance allows for a hundred units
@@ -97,12 +90,8 @@ def write_rounded(
     exponent = 2 + digits_before_the_point - digits
     tolerance = fmpq(10) ** exponent
     note = f"rounded to {digits} digits"
-    rounded = further.changed(
-        lambda number: _rounded(to_ball(number, digits), digits)
-    )
-    return write_tableau_file(
-        made, name, tolerance, note, _decimal_text, further=rounded
-    )
+    rounded = further.changed(lambda number: _rounded(to_ball(number, digits), digits))
+    return write_tableau_file(made, name, tolerance, note, _decimal_text, further=rounded)
 
 
 def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
@@ -194,9 +183,7 @@ def _ark(tableau: Tableau, text: NumberText) -> list[str]:
     return [*lines, *_items(weights, 4, text)]
 
 
-def _items(
-    rows: Iterable[Vector], indent: int, text: NumberText
-) -> Iterator[str]:
+def _items(rows: Iterable[Vector], indent: int, text: NumberText) -> Iterator[str]:
     """A list of rows, a line each."""
     for row in rows:
         yield " " * indent + f"- {_row(row, text)}"
@@ -238,9 +225,7 @@ def _further(further: Further, text: NumberText) -> list[str]:
     return lines
 
 
-def _further_of_part(
-    further: Further, colour: int, text: NumberText
-) -> list[str]:
+def _further_of_part(further: Further, colour: int, text: NumberText) -> list[str]:
     """The same of one part of a prk."""
     lines = []
     if further.embedded is not None:
@@ -253,9 +238,7 @@ def _further_of_part(
     return lines
 
 
-def _block(
-    tableau: Tableau, l: int, m: int, text: NumberText
-) -> Iterator[str]:
+def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
     """The lines of the block A^{l,m}, which is null where it does not exist."""
     block = tableau.block(l, m)
     dash = "    - -" if m == 0 else "      -"

@@ -26,13 +26,7 @@ from operator import add
 
 from flint import arb, arb_mat, ctx
 
-from garkcli.order.entries import (
-    Entries,
-    entrywise_max,
-    plus,
-    scalar_product,
-    times,
-)
+from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.order.recursion import OrderByOrder
 from garkcli.order.residuals import Sizes
 from garkcli.tableau.enclosing import Enclosure
@@ -70,9 +64,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         grain: what is shorter is counted as an error instead of becoming a member.
     """
 
-    def __init__(
-        self, tableau: Tableau, enclosure: Enclosure, grain: arb
-    ) -> None:
+    def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
         self.enclosure = enclosure
         self.grain = grain
         self._absolute: dict[Edge, arb_mat] = {}
@@ -198,9 +190,7 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
     return found
 
 
-def _around(
-    kept: Sequence[_Member], hull: _Hull, weights: Rows, misses: Rows
-) -> _Hull:
+def _around(kept: Sequence[_Member], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
     """The bounds of one hull around the members that are kept.
 
     ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,

@@ -14,13 +14,7 @@ from flint import fmpq
 from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
-from garkcli.order.repairs import (
-    Missed,
-    Repair,
-    named_block,
-    named_blocks,
-    repairs,
-)
+from garkcli.order.repairs import Missed, Repair, named_block, named_blocks, repairs
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
@@ -126,9 +120,7 @@ def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:
     )
 
 
-def _culprit(
-    tableau: Tableau, found: list[Condition], candidates: Sequence[Edge]
-) -> Edge | None:
+def _culprit(tableau: Tableau, found: list[Condition], candidates: Sequence[Edge]) -> Edge | None:
     """The candidate whose conditions fail most often; None where several do alike."""
     share: dict[Edge, float] = {}
     for block in candidates:

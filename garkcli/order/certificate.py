@@ -99,9 +99,7 @@ class Forest:
 
 
 def find_order(
-    tableau: Tableau,
-    limit: int = DEFAULT_LIMIT,
-    spans: StageSpans | None = None,
+    tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> Order:
     """The exact order of a tableau, by affine spans.
 
@@ -141,10 +139,7 @@ class StageSpans:
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
         self.degree = tableau.degree
-        self.maps = {
-            key: LinearMap(block, tableau.field)
-            for key, block in tableau.blocks.items()
-        }
+        self.maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
         self.forests: list[_ByOrder] = []
         self.branches: list[_ByOrder] = []
         for space in tableau.spaces:
@@ -213,9 +208,7 @@ class StageSpans:
         """Coordinates over ℚ: each number by its coordinates in 1, θ, …"""
         if self.degree == 1:
             return cast("list[fmpq]", list(vector))
-        return [
-            x for number in vector for x in coordinates(number, self.degree)
-        ]
+        return [x for number in vector for x in coordinates(number, self.degree)]
 
 
 def all_spanning_trees(
@@ -233,9 +226,6 @@ def all_spanning_trees(
     spans = StageSpans(tableau)
     for order in orders:
         yield tuple(
-            tuple(
-                Tree(l, forest.branches)
-                for forest in spans.stage_vectors(l, order)
-            )
+            tuple(Tree(l, forest.branches) for forest in spans.stage_vectors(l, order))
             for l in range(tableau.size)
         )

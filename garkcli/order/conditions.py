@@ -120,15 +120,11 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     return True
 
 
-def _stage_vector(
-    tableau: Tableau, tree: Tree, images: dict[_Place, Vector]
-) -> Vector:
+def _stage_vector(tableau: Tableau, tree: Tree, images: dict[_Place, Vector]) -> Vector:
     """𝒜^[u], eqs. (Ataul) and (Au); what the blocks make of its branches is kept in ``images``."""
     colour = tableau.colours[tree.root]
     if colour.is_linear and len(tree.branches) > 1:
-        raise MethodError(
-            f"colour {colour.name} is linear: its vertices have one branch at most"
-        )
+        raise MethodError(f"colour {colour.name} is linear: its vertices have one branch at most")
     space = tableau.space(tree.root)
     vector = space.one
     for branch in tree.branches:
@@ -139,34 +135,23 @@ def _stage_vector(
     return vector
 
 
-def _image(
-    tableau: Tableau,
-    colour: Colour,
-    branch: Tree,
-    images: dict[_Place, Vector],
-) -> Vector:
+def _image(tableau: Tableau, colour: Colour, branch: Tree, images: dict[_Place, Vector]) -> Vector:
     """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
     block = tableau.blocks.get((colour.space, branch.root))
     if block is None:
         seen = tableau.colours[branch.root]
         raise MethodError(
-            f"colour {colour.name} does not see colour {seen.name}:"
-            " the tree is not admissible"
+            f"colour {colour.name} does not see colour {seen.name}: the tree is not admissible"
         )
     return apply(block, _stage_vector(tableau, branch, images))
 
 
-def coupling_graph(
-    tableau: Tableau,
-) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
+def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
     """Which trees are admissible: ``edges[l][m]`` whether colour l sees colour m, and the linear
     colours.
     """
     colours = range(tableau.size)
-    edges = tuple(
-        tuple(tableau.block(l, m) is not None for m in colours)
-        for l in colours
-    )
+    edges = tuple(tuple(tableau.block(l, m) is not None for m in colours) for l in colours)
     return edges, frozenset(l for l in colours if tableau.colours[l].is_linear)
 
 

@@ -98,9 +98,7 @@ def estimate_constants(
     return _constants(difference, order, 0, exact)
 
 
-def _constants(
-    tableau: Tableau, order: int, share: int, most_exact: int
-) -> ErrorConstants | None:
+def _constants(tableau: Tableau, order: int, share: int, most_exact: int) -> ErrorConstants | None:
     """The norms of (b_lᵀ 𝒜^[u] − share/γ(u)) / σ(u)."""
     if count_conditions(tableau, order) <= most_exact:
         return _exact(tableau, order, share)
@@ -123,9 +121,7 @@ def _exact(tableau: Tableau, order: int, share: int) -> ErrorConstants:
         everything.append((e, condition.trees))
         if mixed:
             coupling.append((e, mixed))
-    return ErrorConstants(
-        order, True, _exact_norms(everything), _exact_norms(coupling)
-    )
+    return ErrorConstants(order, True, _exact_norms(everything), _exact_norms(coupling))
 
 
 def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:

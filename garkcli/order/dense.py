@@ -114,9 +114,7 @@ def _zeros(tableau: Tableau) -> Weights:
     return tuple((ZERO,) * len(colour.b) for colour in tableau.colours)
 
 
-def ends_at_step(
-    tableau: Tableau, dense: DenseOutput, tolerance: fmpq = ZERO
-) -> bool:
+def ends_at_step(tableau: Tableau, dense: DenseOutput, tolerance: fmpq = ZERO) -> bool:
     """Whether b(1) = b, entry by entry: then the output is continuous from step to step."""
     ends = zip(tableau.colours, dense.at(ONE), strict=True)
     for colour, row in ends:
@@ -149,9 +147,7 @@ class Slopes:
         return False if False in both else None
 
 
-def slopes(
-    tableau: Tableau, dense: DenseOutput, tolerance: fmpq | None = None
-) -> Slopes:
+def slopes(tableau: Tableau, dense: DenseOutput, tolerance: fmpq | None = None) -> Slopes:
     """The slope at both ends of a step.
 
     It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
@@ -160,10 +156,7 @@ def slopes(
     whole = _with_ends(tableau)
     first = dense.coefficients(1)
     last = _slope_at_one(dense)
-    stages = [
-        _differing(first, at_start=True),
-        _differing(last, at_start=False),
-    ]
+    stages = [_differing(first, at_start=True), _differing(last, at_start=False)]
     start, end = (_vanishes(whole, x, tolerance) for x in stages)
     return Slopes(start, end)
 
@@ -205,9 +198,7 @@ def _differing(slope: Weights, at_start: bool) -> Weights:
     return tuple((*row, *ends) for row in slope)
 
 
-def _vanishes(
-    tableau: Tableau, weights: Weights, tolerance: fmpq | None
-) -> bool | None:
+def _vanishes(tableau: Tableau, weights: Weights, tolerance: fmpq | None) -> bool | None:
     """Whether a functional is zero on every problem; None where that is not decided."""
     near = ZERO if tolerance is None else tolerance
     if all(
@@ -226,9 +217,7 @@ def _vanishes(
     return None if failure is None else False
 
 
-def _of_equal_stages(
-    tableau: Tableau, l: int, weights: Vector, near: fmpq
-) -> list[Number]:
+def _of_equal_stages(tableau: Tableau, l: int, weights: Vector, near: fmpq) -> list[Number]:
     """The weights of a colour, those of stages that evaluate at the same place together."""
     k = tableau.colours[l].space
     blocks = [block for (j, _), block in tableau.blocks.items() if j == k]

@@ -15,12 +15,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.order.certificate import StageSpans
 from garkcli.order.constants import ErrorConstants, estimate_constants
-from garkcli.order.functionals import (
-    Functional,
-    Undecided,
-    first_failure,
-    first_failure_within,
-)
+from garkcli.order.functionals import Functional, Undecided, first_failure, first_failure_within
 from garkcli.tableau.embedded import Weights, with_weights
 from garkcli.tableau.tableau import Tableau
 
@@ -98,10 +93,7 @@ def _sum(row: Vector) -> Number:
 
 
 def _leading(
-    difference: Tableau,
-    orders: Orders,
-    tolerance: fmpq | None,
-    spans: StageSpans | None,
+    difference: Tableau, orders: Orders, tolerance: fmpq | None, spans: StageSpans | None
 ) -> int | None:
     """The first order of trees at which the estimate does not vanish."""
     weights = tuple(colour.b for colour in difference.colours)
@@ -111,9 +103,7 @@ def _leading(
         failure = first_failure(difference, functionals, larger, spans)
     else:
         try:
-            failure = first_failure_within(
-                difference, functionals, larger, tolerance
-            )
+            failure = first_failure_within(difference, functionals, larger, tolerance)
         except Undecided:
             return None
     return None if failure is None else failure.witness.tree.order

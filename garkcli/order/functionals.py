@@ -99,10 +99,7 @@ def first_failure(
 
 
 def first_failure_within(
-    tableau: Tableau,
-    functionals: Sequence[Functional],
-    orders: Iterable[int],
-    tolerance: fmpq,
+    tableau: Tableau, functionals: Sequence[Functional], orders: Iterable[int], tolerance: fmpq
 ) -> Failure | None:
     """The first condition that is missed by more than a tolerance t > 0.
 
@@ -132,9 +129,7 @@ def first_failure_within(
 class _Judge:
     """One functional, all trees of an order at a time."""
 
-    def __init__(
-        self, tableau: Tableau, functional: Functional, tolerance: fmpq
-    ) -> None:
+    def __init__(self, tableau: Tableau, functional: Functional, tolerance: fmpq) -> None:
         self.tableau = with_weights(tableau, functional.weights)
         self.functional = functional
         self.tolerance = tolerance

@@ -8,12 +8,7 @@ from dataclasses import replace
 from flint import fmpq
 
 from garkcli.exact.field import ZERO
-from garkcli.order.conditions import (
-    Condition,
-    conditions,
-    coupling_graph,
-    twin_roots,
-)
+from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import count_by_root
 from garkcli.trees.tree import Tree
@@ -26,16 +21,12 @@ def count_conditions(tableau: Tableau, order: int) -> int:
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
-def all_conditions(
-    tableau: Tableau, order: int, tolerance: fmpq = ZERO
-) -> Iterator[Condition]:
+def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[Condition]:
     """Every condition of ``order``, its value exact, with the twins of its root: identical ones
     come once.
     """
     twins = twin_roots(tableau)
-    for condition in conditions(
-        tableau, admissible_trees(tableau, order), tolerance
-    ):
+    for condition in conditions(tableau, admissible_trees(tableau, order), tolerance):
         others = twins[condition.tree.root][1:]
         yield replace(condition, twins=others)
 
@@ -49,12 +40,7 @@ def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
     edges, linear = coupling_graph(tableau)
     twins = twin_roots(tableau)
     blocks = iter_blocks(
-        tableau.size,
-        order,
-        edges=edges,
-        linear=linear,
-        roots=twins,
-        block_size=1 << 14,
+        tableau.size, order, edges=edges, linear=linear, roots=twins, block_size=1 << 14
     )
     for block in blocks:
         yield from block.trees()

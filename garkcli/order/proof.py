@@ -7,12 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.order.certificate import (
-    DEFAULT_LIMIT,
-    Order,
-    all_spanning_trees,
-    find_order,
-)
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, all_spanning_trees, find_order
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 

@@ -26,13 +26,7 @@ from dataclasses import dataclass
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.field import Number
-from garkcli.order.entries import (
-    Entries,
-    entrywise_max,
-    plus,
-    scalar_product,
-    times,
-)
+from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.enclosing import Enclosure, enclose_tableau
@@ -68,11 +62,7 @@ class Propagation(OrderByOrder[_Range]):
     """
 
     def __init__(
-        self,
-        tableau: Tableau,
-        radii: Radii,
-        tolerance: fmpq,
-        weights: Rows | None = None,
+        self, tableau: Tableau, radii: Radii, tolerance: fmpq, weights: Rows | None = None
     ) -> None:
         with ctx.workprec(BITS):
             self._rounding = arb(tolerance)
@@ -148,9 +138,7 @@ class Propagation(OrderByOrder[_Range]):
         return found
 
 
-def printed_rounding(
-    tableau: Tableau, units: Mapping[Number, fmpq]
-) -> Propagation:
+def printed_rounding(tableau: Tableau, units: Mapping[Number, fmpq]) -> Propagation:
     """What the last digits of printed coefficients leave open.
 
     Args:
@@ -231,9 +219,7 @@ class ConjugateRounding:
         return True
 
 
-def conjugate_rounding(
-    tableau: Tableau, tolerance: fmpq
-) -> ConjugateRounding | None:
+def conjugate_rounding(tableau: Tableau, tolerance: fmpq) -> ConjugateRounding | None:
     """The radii of all Â^{l,m}; None where a weight that is divided by is within t of zero.
 
     >>> from garkcli.families.registry import diagonal_method
@@ -254,9 +240,7 @@ def conjugate_rounding(
     return ConjugateRounding(tableau, tolerance, hats)
 
 
-def _hat(
-    tableau: Tableau, enclosure: Enclosure, l: int, m: int, tolerance: fmpq
-) -> arb_mat | None:
+def _hat(tableau: Tableau, enclosure: Enclosure, l: int, m: int, tolerance: fmpq) -> arb_mat | None:
     """The radii of Â^{l,m}, made from A^{m,l}."""
     space = tableau.colours[m].space
     block = enclosure.A[space, l].tolist()

@@ -51,9 +51,7 @@ class OrderByOrder(ABC, Generic[Found]):
             forests = self._new_forests(k, n)
             self._forests[k].append(forests)
 
-    def _split_forests(
-        self, k: int, order: int
-    ) -> Iterator[tuple[Found, Found]]:
+    def _split_forests(self, k: int, order: int) -> Iterator[tuple[Found, Found]]:
         """The smallest branch, and the forest of the others, of all forests of two branches at
         least.
         """

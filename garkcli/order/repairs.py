@@ -79,9 +79,7 @@ class Missed:
     near: fmpq = ZERO
 
 
-def repairs(
-    method: Tableau, missed: Missed, failing: list[Condition]
-) -> Iterator[Repair]:
+def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:
     """Entries whose change restores what is claimed: each must solve a failing condition.
 
     Of exact coefficients one condition tells as much as all; of rounded ones the entry that solves
@@ -186,10 +184,7 @@ def _has_points(method: Tableau, l: int) -> bool:
 
 
 def _solution(
-    method: Tableau,
-    missed: Missed,
-    place: _Place,
-    failing: Sequence[Condition],
+    method: Tableau, missed: Missed, place: _Place, failing: Sequence[Condition]
 ) -> Number | None:
     """The value with which a failing condition holds; None where none depends on the entry.
 
@@ -248,9 +243,7 @@ def _refined(
     return value
 
 
-def _weights(
-    missed: Missed, method: Tableau, trees: Sequence[Tree]
-) -> list[Number] | None:
+def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
     """The elementary weights of some trees; None where the changed method has none."""
     tableau = _derived(missed, method)
     if tableau is None:
@@ -266,9 +259,7 @@ def _derived(missed: Missed, method: Tableau) -> Tableau | None:
         return None
 
 
-def _with_entry(
-    tableau: Tableau, key: Edge, i: int, j: int, value: Number
-) -> Tableau:
+def _with_entry(tableau: Tableau, key: Edge, i: int, j: int, value: Number) -> Tableau:
     block = list(tableau.blocks[key])
     block[i] = _with_value(block[i], j, value)
     blocks = {**tableau.blocks, key: tuple(block)}

@@ -78,9 +78,7 @@ class TreeResiduals:
             self._vectors[1, nature] = [one]
         self._applied: dict[tuple[int, int, int], arb_mat] = {}
 
-    def sizes(
-        self, order: int, tolerance: arb | None = None, share: int = 1
-    ) -> Sizes:
+    def sizes(self, order: int, tolerance: arb | None = None, share: int = 1) -> Sizes:
         """Bounds on all |residuals| of an order; ``tolerance`` tells which trees are doubtful.
 
         With ``share`` 0 it is the elementary weights themselves that are bounded.
@@ -109,9 +107,7 @@ class TreeResiduals:
             trees = tuple(table.tree(u) for u in doubtful)
             return Sizes(bound.abs_upper(), reached, worst, trees)
 
-    def _residuals(
-        self, table: TreeTable, order: int, share: int
-    ) -> Iterator[_Residual]:
+    def _residuals(self, table: TreeTable, order: int, share: int) -> Iterator[_Residual]:
         """|b_lᵀ 𝒜^[u] − share/γ(u)| and the id, for the roots that differ in more than their
         colour.
         """
@@ -161,9 +157,7 @@ class TreeResiduals:
             self._applied[key] = A * columns
         return self._applied[key]
 
-    def _stage_vectors(
-        self, table: TreeTable, order: int, l: int
-    ) -> list[Row]:
+    def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[Row]:
         """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at
         least.
         """

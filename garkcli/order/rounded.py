@@ -106,10 +106,7 @@ class RoundedOrder:
 
 
 def find_order_within(
-    tableau: Tableau,
-    tolerance: fmpq,
-    limit: int = DEFAULT_LIMIT,
-    effect: Effect | None = None,
+    tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT, effect: Effect | None = None
 ) -> RoundedOrder:
     """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within ``tolerance``.
 
@@ -133,18 +130,14 @@ def find_order_within(
             verdicts.append(decision.of(order))
     decided = [verdict for verdict in verdicts if verdict.size is not None]
     met = [verdict for verdict in verdicts if verdict.is_met]
-    wider = [
-        verdict.tolerance for verdict in met if verdict.tolerance is not None
-    ]
+    wider = [verdict.tolerance for verdict in met if verdict.tolerance is not None]
     last = verdicts[-1] if verdicts else None
     return RoundedOrder(
         order=len(met),
         tolerance=max(wider, default=tolerance),
         witness=last.witness if last else None,
         undecided=len(decided) < len(verdicts),
-        sizes=tuple(
-            verdict.size for verdict in decided if verdict.size is not None
-        ),
+        sizes=tuple(verdict.size for verdict in decided if verdict.size is not None),
         means=tuple(verdict.means for verdict in decided),
         doubt=last.doubt if last else None,
     )
@@ -172,9 +165,7 @@ class _Verdict:
 class _Decision:
     """One order after the other of one tableau, with one tolerance > 0."""
 
-    def __init__(
-        self, tableau: Tableau, tolerance: fmpq, effect: Effect | None
-    ) -> None:
+    def __init__(self, tableau: Tableau, tolerance: fmpq, effect: Effect | None) -> None:
         self.tableau = tableau
         self.tolerance = tolerance
         self.effect = effect
@@ -199,11 +190,7 @@ class _Decision:
 
     def _explained(self, order: int, verdict: _Verdict) -> _Verdict:
         """What is left of a failure once rounding is known."""
-        if (
-            self.effect is None
-            or verdict.witness is None
-            or verdict.size is None
-        ):
+        if self.effect is None or verdict.witness is None or verdict.size is None:
             return verdict
         effect = self.effect(order)
         doubtful = _Verdict(verdict.means, doubt=Doubt(verdict.size, effect))
@@ -218,9 +205,7 @@ class _Decision:
 
     @cached_property
     def trees(self) -> TreeResiduals:
-        return TreeResiduals(
-            self.tableau, enclose_tableau(self.tableau, self.bits)
-        )
+        return TreeResiduals(self.tableau, enclose_tableau(self.tableau, self.bits))
 
     @cached_property
     def spans(self) -> ApproximateSpans:

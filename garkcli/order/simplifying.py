@@ -187,14 +187,10 @@ class _Alike:
         nodes = [(x.space, x.c) for x in tableau.colours]
         weights = [(x.space, x.c, x.b) for x in tableau.colours]
         # compared, not hashed: flint hashes fractions by Python's, which takes longer
-        return _Alike(
-            tuple(map(nodes.index, nodes)), tuple(map(weights.index, weights))
-        )
+        return _Alike(tuple(map(nodes.index, nodes)), tuple(map(weights.index, weights)))
 
 
-def consistent_blocks(
-    tableau: Tableau, tolerance: fmpq = ZERO
-) -> dict[Edge, bool]:
+def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[Edge, bool]:
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
     every stage.
     """

@@ -79,10 +79,7 @@ class Misprint:
 
 
 def find_misprint(
-    tableau: Tableau,
-    exact: Order,
-    found: Suggestion,
-    units: Mapping[Number, fmpq],
+    tableau: Tableau, exact: Order, found: Suggestion, units: Mapping[Number, fmpq]
 ) -> Misprint | None:
     """Whether the residuals that a tolerance would cover are larger than rounding makes them.
 
@@ -161,9 +158,7 @@ def suggest_tolerance(
     Returns:
         None where nothing speaks for rounding, or where it takes too many trees to tell.
     """
-    spelled_out = any(
-        isinstance(space, PointSpace) for space in tableau.spaces
-    )
+    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
     if exact.witness is None or not spelled_out:
         return None
     first = abs(to_ball(exact.witness.residual))
@@ -178,9 +173,7 @@ def suggest_tolerance(
                 rounding, worst = sizes.bound, order
         elif order > failing and sizes.reached >= JUMP * rounding:
             exponent = _exponent(rounding)
-            return Suggestion(
-                order - 1, exponent, rounding, sizes.reached, worst
-            )
+            return Suggestion(order - 1, exponent, rounding, sizes.reached, worst)
         else:
             return None
     return None
@@ -219,15 +212,11 @@ def suggest_wider(
             return None
         genuine = abs(to_ball(wider.witness.residual))
         if genuine >= JUMP * wider.largest_residual:
-            return Suggestion(
-                wider.order, exponent, wider.largest_residual, genuine
-            )
+            return Suggestion(wider.order, exponent, wider.largest_residual, genuine)
     return None
 
 
-def _sizes(
-    tableau: Tableau, first: arb, orders: range
-) -> Iterator[tuple[int, Sizes]]:
+def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, Sizes]]:
     """The sizes of one order after the other, where the trees are many by spans."""
     # six bits for each power of e by which residuals are small
     smallness = -int(first.log().floor().unique_fmpz() or 0)

@@ -92,20 +92,14 @@ def vector_within(space: StageSpace, vector: Vector, tolerance: fmpq) -> bool:
     return form_within(space, None, column, tolerance, dual=False)
 
 
-def functional_within(
-    space: StageSpace, functional: Vector, tolerance: fmpq
-) -> bool:
+def functional_within(space: StageSpace, functional: Vector, tolerance: fmpq) -> bool:
     """Whether a functional, Σ w_i f(c_i), has all |w_i| ≤ tolerance."""
     column = tuple((x,) for x in functional)
     return form_within(space, None, column, tolerance)
 
 
 def form_within(
-    space: StageSpace,
-    other: StageSpace | None,
-    matrix: Matrix,
-    tolerance: fmpq,
-    dual: bool = True,
+    space: StageSpace, other: StageSpace | None, matrix: Matrix, tolerance: fmpq, dual: bool = True
 ) -> bool:
     """Whether a bilinear form Σ m_ij f(c_i) g(c_j) has all |m_ij| ≤ tolerance.
 
@@ -135,9 +129,7 @@ def form_within(
     return True
 
 
-def form_entries(
-    space: StageSpace, other: StageSpace, matrix: Matrix
-) -> arb_mat:
+def form_entries(space: StageSpace, other: StageSpace, matrix: Matrix) -> arb_mat:
     """The coefficients m_ij of a bilinear form at the nodes, in balls."""
     with ctx.workprec(FIRST_BITS):
         return _at_nodes(space, other, matrix, dual=True)
@@ -150,9 +142,7 @@ def _to_nodes(space: PolynomialSpace, dual: bool) -> arb_mat:
     return powers_of_nodes(space)
 
 
-def _at_nodes(
-    space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool
-) -> arb_mat:
+def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool) -> arb_mat:
     digits = int(ctx.prec * 0.302)
     rows = [[to_ball(x, digits) for x in row] for row in matrix]
     balls = arb_mat(rows)

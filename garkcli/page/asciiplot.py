@@ -178,10 +178,7 @@ def _short(exponent: float) -> str:
 
 
 def _framed(
-    frame: Sequence[Sequence[str]],
-    rows: Mapping[int, str],
-    columns: Mapping[int, str],
-    label: str,
+    frame: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
 ) -> list[str]:
     """The frame with its axes; ``rows`` and ``columns`` say where they have a mark, and its
     label.
@@ -197,9 +194,7 @@ def _framed(
     return lines
 
 
-def beside_axis(
-    frame: Sequence[Sequence[str]], marks: Mapping[int, str], margin: int
-) -> list[str]:
+def beside_axis(frame: Sequence[Sequence[str]], marks: Mapping[int, str], margin: int) -> list[str]:
     """The lines of a frame right of their axis; ``marks`` has the numbers of some of them, and
     ``margin`` their width.
     """

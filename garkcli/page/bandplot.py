@@ -19,11 +19,7 @@ _FRAME = 5  # columns of the axis left of what is inside, and of the letter righ
 
 
 def terminal_band(
-    times: Sequence[float],
-    values: Sequence[float],
-    label: str,
-    columns: int = 58,
-    height: int = 11,
+    times: Sequence[float], values: Sequence[float], label: str, columns: int = 58, height: int = 11
 ) -> str:
     """Values against time, linear on both axes, as lines of text without a final newline.
 
@@ -109,11 +105,7 @@ def _bands(
 
 
 def _framed(
-    field: Sequence[Sequence[str]],
-    marks: Mapping[int, str],
-    label: str,
-    start: float,
-    end: float,
+    field: Sequence[Sequence[str]], marks: Mapping[int, str], label: str, start: float, end: float
 ) -> list[str]:
     margin = max(map(len, marks.values()))
     width = len(field[0])

@@ -9,12 +9,7 @@ from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    power_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, power_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.page.schema import TEXT, Schema, one_of
 
@@ -36,9 +31,7 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
     x^{2}-22x+48
     """
     descending = reversed(list(enumerate(p.coefficients)))
-    return _sum_latex(
-        (a, power_text(variable, k, f"{{{k}}}")) for k, a in descending
-    )
+    return _sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in descending)
 
 
 def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
@@ -51,9 +44,7 @@ def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
     terms = []
     for exponents, a in p.terms:
         named = zip(variables, exponents, strict=True)
-        terms.append(
-            (a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named))
-        )
+        terms.append((a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named)))
     return _sum_latex(terms)
 
 

@@ -7,9 +7,7 @@ from math import isfinite
 from typing import Any
 
 
-def to_json(
-    data: Any, indent: int | None = 2, ascii_only: bool = False
-) -> str:
+def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
     """Plain data as JSON text, without a final newline.
 
     A number beyond the range of floats is null: its exact form stands beside it as text.
@@ -18,9 +16,7 @@ def to_json(
     '{"float": null, "exact": "10**400"}'
     """
     finite = _finite(data)
-    return json.dumps(
-        finite, indent=indent, ensure_ascii=ascii_only, allow_nan=False
-    )
+    return json.dumps(finite, indent=indent, ensure_ascii=ascii_only, allow_nan=False)
 
 
 def _finite(data: Any) -> Any:

@@ -21,9 +21,7 @@ def number(text: str) -> str:
     ('-1.5 \\cdot 10^{-16}', '0.25')
     """
     mantissa, _, exponent = text.partition("e")
-    return (
-        rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
-    )
+    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
 
 
 def fragment(lines: Iterable[str], is_document: bool) -> Iterator[str]:

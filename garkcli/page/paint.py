@@ -7,13 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 
-_CODES = {
-    "good": "32",
-    "bad": "31;1",
-    "strong": "1",
-    "faint": "2",
-    "note": "36",
-}
+_CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
 _DOT = re.compile("●([0-9]+)")
 """A dot of a drawn tree, with the number of its colour."""
@@ -75,9 +69,7 @@ def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
     return [indent + line for line in lines]
 
 
-def aligned(
-    rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True
-) -> list[str]:
+def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) -> list[str]:
     """Rows of cells as lines with columns of equal width.
 
     >>> aligned([["1/2", "-1"], ["0", "1/36"]])
@@ -120,9 +112,7 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
     return [line.rstrip() for line in lines]
 
 
-def beside(
-    left: Sequence[str], right: Sequence[str], gap: str = "   "
-) -> list[str]:
+def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
     """Two blocks of lines next to each other."""
     width = max((len(line) for line in left), default=0)
     lines = []

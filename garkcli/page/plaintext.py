@@ -103,9 +103,7 @@ DRAWN = frozenset("●○─│└┘┌┐├┤┬┴┼╯╰")
 """What trees and plots are drawn with: lines of these stand below each other."""
 EVERYTHING = "¹⁴γ𝟙●"
 """An encoding that has these has every sign: it is one of Unicode."""
-_GREEK = re.compile(
-    r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)"
-)
+_GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)")
 _BLANKS = re.compile(" +")
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 HANGING = 4
@@ -130,9 +128,7 @@ def ascii_form(sign: str) -> str:
         letter = greek["name"].lower().replace("lamda", "lambda")
         return letter.capitalize() if greek[1] == "CAPITAL" else letter
     plain = unicodedata.normalize("NFKD", sign)
-    plain = "".join(x for x in plain if not unicodedata.combining(x)).replace(
-        "−", "-"
-    )
+    plain = "".join(x for x in plain if not unicodedata.combining(x)).replace("−", "-")
     if not plain.isascii() or not plain:
         return sign.encode("ascii", "backslashreplace").decode("ascii")
     if _SCRIPT.match(name):
@@ -215,9 +211,7 @@ def plain_text(text: str, encoding: str, width: int | None = None) -> str:
     made: list[str] = []
     for line in text.split("\n"):
         plain = plain_line(line, encoding)
-        has_grown = width is not None and _columns(line) <= width < _columns(
-            plain
-        )
+        has_grown = width is not None and _columns(line) <= width < _columns(plain)
         made += broken(plain, width) if width and has_grown else [plain]
     return "\n".join(made)
 

@@ -20,16 +20,10 @@ _EVERY = 64
 
 def _is_watched() -> bool:
     """Whether somebody sees standard error; a terminal that cannot move its cursor shows no bar."""
-    return (
-        sys.stderr is not None
-        and sys.stderr.isatty()
-        and os.environ.get("TERM") != "dumb"
-    )
+    return sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 
-def tracked(
-    items: Iterable[T], total: int | None, what: str, wanted: bool = True
-) -> Iterator[T]:
+def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = True) -> Iterator[T]:
     """The same items; a bar counts them once they have taken longer than ``PATIENCE``.
 
     Args:
@@ -49,9 +43,7 @@ def tracked(
             return
 
 
-def _with_bar(
-    items: Iterator[T], total: int | None, done: int, what: str
-) -> Iterator[T]:
+def _with_bar(items: Iterator[T], total: int | None, done: int, what: str) -> Iterator[T]:
     from rich.console import Console
     from rich.progress import (
         BarColumn,
@@ -61,15 +53,8 @@ def _with_bar(
         TimeRemainingColumn,
     )
 
-    columns = (
-        TextColumn(what),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-    )
-    with Progress(
-        *columns, console=Console(stderr=True), transient=True
-    ) as progress:
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task(what, total=total, completed=done)
         pending = 0
         for item in items:
@@ -114,12 +99,7 @@ class _Bar:
             if monotonic() - self.start < PATIENCE:
                 return
             from rich.console import Console
-            from rich.progress import (
-                BarColumn,
-                MofNCompleteColumn,
-                Progress,
-                TextColumn,
-            )
+            from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
             columns = (
                 TextColumn("{task.description}"),
@@ -127,15 +107,11 @@ class _Bar:
                 MofNCompleteColumn(),
                 TextColumn("steps"),
             )
-            self.progress = Progress(
-                *columns, console=Console(stderr=True), transient=True
-            )
+            self.progress = Progress(*columns, console=Console(stderr=True), transient=True)
             self.task = self.progress.add_task(what, total=total)
             self.progress.start()
         assert self.task is not None
-        self.progress.update(
-            self.task, description=what, completed=done, total=total
-        )
+        self.progress.update(self.task, description=what, completed=done, total=total)
 
     def close(self) -> None:
         """Take the bar away."""

@@ -70,9 +70,7 @@ class Record(Generic[Whole]):
     @property
     def schema(self) -> Schema:
         """The JSON Schema (draft-07) of such objects."""
-        required = [
-            field.name for field in self.fields if not field.is_optional
-        ]
+        required = [field.name for field in self.fields if not field.is_optional]
         schema: Schema = {
             "type": "object",
             "required": required,
@@ -93,21 +91,15 @@ class Record(Generic[Whole]):
         """A field with this object of a part that is always there."""
         return Field(name, self.schema, self._of(part))
 
-    def or_null(
-        self, name: str, part: Callable[[Owner], Whole | None]
-    ) -> Field[Owner]:
+    def or_null(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
         """A field with this object of a part; null where there is no such part."""
         return Field(name, nullable(self.schema), self._of(part))
 
-    def optional(
-        self, name: str, part: Callable[[Owner], Whole | None]
-    ) -> Field[Owner]:
+    def optional(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
         """A field with this object of a part; left out where there is no such part."""
         return Field(name, self.schema, self._of(part), is_optional=True)
 
-    def every(
-        self, name: str, parts: Callable[[Owner], Iterable[Whole]]
-    ) -> Field[Owner]:
+    def every(self, name: str, parts: Callable[[Owner], Iterable[Whole]]) -> Field[Owner]:
         """A field with a list of these objects, one for each part."""
 
         def found(owner: Owner) -> object:
@@ -115,9 +107,7 @@ class Record(Generic[Whole]):
 
         return Field(name, array(self.schema), found)
 
-    def _of(
-        self, part: Callable[[Owner], Whole | None]
-    ) -> Callable[[Owner], object]:
+    def _of(self, part: Callable[[Owner], Whole | None]) -> Callable[[Owner], object]:
         return _of_part(part, self.data)
 
 

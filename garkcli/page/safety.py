@@ -20,9 +20,7 @@ TABBED = frozenset({"rungekutta-jl"})
 _COLOURS = re.compile(r"(\x1b\[(?:[012]|3[1-6]|31;1)m)")
 
 
-def written_out(
-    text: str, format: str = "text", coloured: bool = False
-) -> str:
+def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
     r"""A whole report in which every sign that does not print is written out.
 
     Control characters would command a terminal, bidirectional ones would show another text than

@@ -7,10 +7,7 @@ from typing import Any, TypeAlias
 Schema: TypeAlias = dict[str, Any]
 
 TEXT: Schema = {"type": "string"}
-EXACT: Schema = {
-    "type": "string",
-    "description": "An exact number, such as 1/2 - sqrt(3)/6.",
-}
+EXACT: Schema = {"type": "string", "description": "An exact number, such as 1/2 - sqrt(3)/6."}
 INTEGER: Schema = {"type": "integer"}
 FLAG: Schema = {"type": "boolean"}
 NULL: Schema = {"type": "null"}
@@ -65,8 +62,5 @@ def published(title: str, schema: Schema) -> Schema:
     """The schema of a whole document. Fields may be added to documents; those that are there never
     change their meaning.
     """
-    head = {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": title,
-    }
+    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
     return {**head, **schema}

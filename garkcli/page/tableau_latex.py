@@ -21,9 +21,7 @@ MAX_BESIDE = 8
 """Most columns of two arrays that stand beside each other."""
 
 
-def render(
-    tableau: Tableau, entries: Entries, name: str, is_document: bool = False
-) -> str:
+def render(tableau: Tableau, entries: Entries, name: str, is_document: bool = False) -> str:
     """The arrays, with a comment that names them.
 
     Args:
@@ -95,9 +93,7 @@ def displays(
             yield from _display(array)
 
 
-def parts_of(
-    tableau: Tableau,
-) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
+def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
     """The arrays that a tableau is printed as: a letter or none, a colour for each group of rows,
     the colours of the columns.
     """
@@ -127,9 +123,7 @@ def _display(lines: Sequence[str]) -> Iterator[str]:
     yield r"\]"
 
 
-def _array(
-    shown: _Shown, stages: Sequence[int], colours: Sequence[int]
-) -> list[str]:
+def _array(shown: _Shown, stages: Sequence[int], colours: Sequence[int]) -> list[str]:
     """C | A | …, the stages of one colour of ``stages`` under those of the other, b below."""
     entries = shown.entries
     text = shown.text

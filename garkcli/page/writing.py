@@ -13,9 +13,7 @@ from typing import BinaryIO
 
 from garkcli.errors import UsageProblem
 
-_OWN_STREAM = re.compile(
-    r"/dev/(?:fd/)?(\d{1,9}|stdout|stderr)|/proc/self/fd/(\d{1,9})"
-)
+_OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d{1,9}|stdout|stderr)|/proc/self/fd/(\d{1,9})")
 _MOST_LINKS = 40
 """As many links in a row as Linux follows."""
 
@@ -85,9 +83,7 @@ def _told(path: str) -> Iterator[None]:
         raise
     except OSError as error:
         why = error.strerror or str(error)
-        raise UsageProblem(
-            f"cannot write {path}: {why}", "choose another place"
-        ) from None
+        raise UsageProblem(f"cannot write {path}: {why}", "choose another place") from None
 
 
 def _without_links(path: str) -> Path:
@@ -132,9 +128,7 @@ def _encoded(pieces: Iterable[str | bytes]) -> Iterator[bytes]:
         yield piece.encode("utf-8") if isinstance(piece, str) else piece
 
 
-def _write_through(
-    target: Path, pieces: Iterable[str | bytes], is_file: bool
-) -> None:
+def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -> None:
     """Write into what is there: a file of several names at the end, a device as it comes."""
     data = _encoded(pieces)
     if is_file:

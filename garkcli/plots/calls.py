@@ -60,26 +60,20 @@ def plot(
 
 
 def _figure(
-    results: Sequence[Any],
-    names: Sequence[str],
-    against: str,
-    is_order_star: bool,
+    results: Sequence[Any], names: Sequence[str], against: str, is_order_star: bool
 ) -> Figure:
     if not results:
         raise MethodError("there is nothing to draw", _CURE)
     kind = type(results[0])
     if any(type(result) is not kind for result in results):
-        raise MethodError(
-            "the results are of several kinds", "draw them apart"
-        )
+        raise MethodError("the results are of several kinds", "draw them apart")
     if kind is Convergence:
         return _errors(results, names, against)
     if kind is Stability:
         from garkcli.plots.stability_plot import stability_figure
 
         reports = [
-            StabilityReport(name, name, found)
-            for name, found in zip(names, results, strict=True)
+            StabilityReport(name, name, found) for name, found in zip(names, results, strict=True)
         ]
         return stability_figure(reports, is_order_star)
     if len(results) > 1:
@@ -94,13 +88,8 @@ def _figure(
     raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE)
 
 
-def _errors(
-    results: Sequence[Convergence], names: Sequence[str], against: str
-) -> Figure:
-    from garkcli.plots.convergence_plot import (
-        comparison_figure,
-        convergence_figure,
-    )
+def _errors(results: Sequence[Convergence], names: Sequence[str], against: str) -> Figure:
+    from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
 
     if len(results) == 1 and against == "h":
         return convergence_figure(results[0], names[0])
@@ -111,9 +100,6 @@ def _front(report: SweepReport) -> Figure:
     from garkcli.plots.sweep_plot import sweep_figure
 
     if len(report.plan.pareto) < 2:
-        raise MethodError(
-            "the sweep compares no two columns",
-            "say pareto: [x, y] in its file",
-        )
+        raise MethodError("the sweep compares no two columns", "say pareto: [x, y] in its file")
     x, y = report.plan.pareto[:2]
     return sweep_figure(report, x, y)

@@ -31,27 +31,12 @@ _Place: TypeAlias = Callable[[float], float]
 _BLUE, _RED = "#1f4e9e", "#c0392b"  # of clearly different lightness in grey
 _STYLES: Sequence[Style] = (
     {"marker": "o", "linestyle": "-", "color": "black"},
-    {
-        "marker": "s",
-        "linestyle": "--",
-        "color": "#c0392b",
-        "markerfacecolor": "white",
-    },
+    {"marker": "s", "linestyle": "--", "color": "#c0392b", "markerfacecolor": "white"},
     {"marker": "^", "linestyle": "-.", "color": "#1f4e9e"},
-    {
-        "marker": "D",
-        "linestyle": ":",
-        "color": "#e08214",
-        "markerfacecolor": "white",
-    },
+    {"marker": "D", "linestyle": ":", "color": "#e08214", "markerfacecolor": "white"},
     {"marker": "v", "linestyle": (0, (5, 1, 1, 1, 1, 1)), "color": "#4d8f4d"},
     {"marker": "X", "linestyle": (0, (8, 2)), "color": "0.55"},
-    {
-        "marker": "P",
-        "linestyle": (0, (1, 3)),
-        "color": "#7b3f9e",
-        "markerfacecolor": "white",
-    },
+    {"marker": "P", "linestyle": (0, (1, 3)), "color": "#7b3f9e", "markerfacecolor": "white"},
     {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
 )
 _THIN: Style = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}
@@ -82,9 +67,7 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     points = curve(result, "h")
     errors = _curve(points, "error", _ERROR)
     energies = [(row.h, row.energy_error) for row in result.rows]
-    kept = [
-        (h, error) for h, error in energies if error is not None and error > 0
-    ]
+    kept = [(h, error) for h, error in energies if error is not None and error > 0]
     energy_errors = _curve(kept, "energy error", _ENERGY_ERROR)
     curves = [found for found in (errors, energy_errors) if found is not None]
     if errors is not None:
@@ -102,9 +85,7 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     return figure
 
 
-def comparison_figure(
-    named: Sequence[tuple[str, Convergence]], against: str = "h"
-) -> Figure:
+def comparison_figure(named: Sequence[tuple[str, Convergence]], against: str = "h") -> Figure:
     """Errors of several methods, log–log, with a line for each visible order.
 
     Args:
@@ -155,11 +136,7 @@ def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
     drawn = lines[: len(curves)]
     placeholders = ["method"] * len(drawn)
     legend = figure.legend(
-        drawn,
-        placeholders,
-        loc="outside lower left",
-        frameon=False,
-        handlelength=3.5,
+        drawn, placeholders, loc="outside lower left", frameon=False, handlelength=3.5
     )
     # names are no formulas, and may begin with _, which would hide them
     texts = legend.get_texts()
@@ -191,11 +168,7 @@ def _style(k: int) -> dict[str, Any]:
 
 
 def _log_log(
-    curves: Sequence[Curve],
-    lines: Sequence[Line],
-    title: str,
-    label: str,
-    size: float,
+    curves: Sequence[Curve], lines: Sequence[Line], title: str, label: str, size: float
 ) -> Figure:
     """A figure of the curves; where they leave the range of floats, of their logarithms.
 
@@ -278,12 +251,7 @@ def _annotate(axes: Axes, line: Line, place: _Place) -> None:
         zorder=1.6,
         fontsize=9,
         color="0.3",
-        bbox={
-            "facecolor": "white",
-            "edgecolor": "none",
-            "pad": 0.6,
-            "alpha": 0.8,
-        },
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
     )
 
 

@@ -15,16 +15,8 @@ from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.problems.oscillator import Oscillator
 
 _PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
-_ERRORS: Mapping[str, Any] = {
-    "color": _PALE,
-    "linewidth": 1.1,
-    "solid_joinstyle": "round",
-}
-_POWERS: Mapping[str, Any] = {
-    "style": "sci",
-    "scilimits": (-2, 3),
-    "useMathText": True,
-}
+_ERRORS: Mapping[str, Any] = {"color": _PALE, "linewidth": 1.1, "solid_joinstyle": "round"}
+_POWERS: Mapping[str, Any] = {"style": "sci", "scilimits": (-2, 3), "useMathText": True}
 
 
 def energy_figure(run: LongRun) -> Figure:
@@ -35,9 +27,7 @@ def energy_figure(run: LongRun) -> Figure:
     heights[0] = 3.0  # the energy
     height = 0.9 + sum(heights)
     figure = Figure(figsize=(7.2, height), layout="constrained")
-    grid = figure.subplots(
-        rows, 1, sharex=True, squeeze=False, height_ratios=heights
-    )
+    grid = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)
     panels = grid[:, 0]
     problem = run.problem
     name = "oscillator" if isinstance(problem, Oscillator) else problem.name

@@ -70,9 +70,7 @@ def _half_trace(oscillator: OscillatorStability, z: Array) -> Array:
     return half
 
 
-def _shade_stable(
-    axes: Axes, oscillator: OscillatorStability, end: float
-) -> None:
+def _shade_stable(axes: Axes, oscillator: OscillatorStability, end: float) -> None:
     for interval in oscillator.stable:
         low = 0.0
         high = end

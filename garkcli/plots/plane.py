@@ -46,9 +46,7 @@ class Window:
     right: float
     top: float
 
-    def grid(
-        self,
-    ) -> tuple[Floats, Floats, Complexes]:
+    def grid(self) -> tuple[Floats, Floats, Complexes]:
         """The real parts, the imaginary parts, and all points, shape (POINTS, POINTS)."""
         x = np.linspace(self.left, self.right, POINTS)
         y = np.linspace(-self.top, self.top, POINTS)
@@ -83,9 +81,7 @@ def finite(level: Array) -> Array:
     return drawn
 
 
-def window_of(
-    functions: Sequence[StabilityFunction], is_symmetric: bool
-) -> Window:
+def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Window:
     """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
     reach = 2.0
     for R in functions:

@@ -57,10 +57,7 @@ class Line:
 
 
 def place_line(
-    beside: Sequence[Curve],
-    slope: int,
-    curves: Sequence[Curve],
-    is_whole: bool = False,
+    beside: Sequence[Curve], slope: int, curves: Sequence[Curve], is_whole: bool = False
 ) -> Line:
     """A line of this slope near one of the curves that it is for, where no other curve is.
 

@@ -38,9 +38,7 @@ SQUARES = 121
 """Squares a side of a region whose squares are decided one by one, odd so that one row is real."""
 
 
-def stability_figure(
-    reports: Sequence[StabilityReport], order_star: bool = False
-) -> Figure:
+def stability_figure(reports: Sequence[StabilityReport], order_star: bool = False) -> Figure:
     """What there is to draw of one or several methods.
 
     Args:
@@ -55,9 +53,7 @@ def stability_figure(
     return trace_figure(reports)
 
 
-def region_figure(
-    reports: Sequence[StabilityReport], order_star: bool
-) -> Figure:
+def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figure:
     """The regions |R(z)| ≤ 1, a panel a direction where there is one method of several colours."""
     pair = None
     first = reports[0]
@@ -94,9 +90,7 @@ def _direction_of(report: StabilityReport, pair: ImexPair) -> str:
     return _direction(explicit.name)
 
 
-def _draw_damped(
-    axes: Axes, pair: ImexPair, explicit: StabilityFunction
-) -> None:
+def _draw_damped(axes: Axes, pair: ImexPair, explicit: StabilityFunction) -> None:
     """The z_E with all z_I damped, each square decided at its centre, and the outline without."""
     window = window_of([explicit], is_symmetric=False)
     x = np.linspace(window.left, window.right, SQUARES)
@@ -111,9 +105,7 @@ def _draw_damped(
     below = -y[:0:-1]
     both = np.concatenate([below, y])
     shades = ListedColormap(["#ffffff", COLOURS[0]])
-    axes.pcolormesh(
-        x, both, lower + upper, cmap=shades, alpha=0.35, shading="nearest"
-    )
+    axes.pcolormesh(x, both, lower + upper, cmap=shades, alpha=0.35, shading="nearest")
     u, v, z = window.grid()
     level = finite(modulus(explicit, z))
     colour, dashes = line_style(1)
@@ -136,9 +128,7 @@ def _direction(name: str) -> str:
     return "all colours alike" if name == "all" else f"colour {name} alone"
 
 
-def _draw_regions(
-    axes: Axes, named: Sequence[Named], order_star: bool
-) -> None:
+def _draw_regions(axes: Axes, named: Sequence[Named], order_star: bool) -> None:
     functions = [R for _, R in named]
     window = window_of(functions, order_star)
     x, y, z = window.grid()

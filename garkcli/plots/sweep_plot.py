@@ -17,24 +17,12 @@ _PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
 
 def sweep_figure(report: SweepReport, x: str, y: str) -> Figure:
     """The kept methods in the plane of two columns; those without finite values are left out."""
-    rows = [
-        row
-        for row in kept(report.done)
-        if _is_finite(row, x) and _is_finite(row, y)
-    ]
+    rows = [row for row in kept(report.done) if _is_finite(row, x) and _is_finite(row, y)]
     front = pareto_front(rows, [x, y])
     figure = Figure(figsize=(7.2, 4.8), layout="constrained")
     axes = figure.subplots()
-    axes.plot(
-        *_values(rows, x, y), "o", color=_PALE, markersize=5, label="methods"
-    )
-    axes.plot(
-        *_values(front, x, y),
-        "s",
-        color=_RED,
-        markersize=6,
-        label="Pareto front",
-    )
+    axes.plot(*_values(rows, x, y), "o", color=_PALE, markersize=5, label="methods")
+    axes.plot(*_values(front, x, y), "s", color=_RED, markersize=6, label="Pareto front")
     for name, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
         # errors spread over powers of ten
         sizes = [_value(row, name) for row in rows]
@@ -48,9 +36,7 @@ def sweep_figure(report: SweepReport, x: str, y: str) -> Figure:
     return figure
 
 
-def _values(
-    rows: Sequence[Row], x: str, y: str
-) -> tuple[list[float], list[float]]:
+def _values(rows: Sequence[Row], x: str, y: str) -> tuple[list[float], list[float]]:
     return [_value(row, x) for row in rows], [_value(row, y) for row in rows]
 
 

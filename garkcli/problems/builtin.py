@@ -13,13 +13,7 @@ from flint import fmpq
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.problems import stiff
 from garkcli.problems.entry import BuiltIn, mechanical, stiff_one
-from garkcli.problems.generic import (
-    generic,
-    generic_rhs,
-    nystrom,
-    semi_separable,
-    separable,
-)
+from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import (
     Mechanical,
@@ -37,9 +31,7 @@ from garkcli.problems.mechanical import (
 from garkcli.problems.problem import Problem
 
 
-def problem(
-    name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None
-) -> Problem:
+def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
     """The problem called ``name``, of either kind, split into ``terms`` terms.
 
     Args:
@@ -89,9 +81,7 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     """
     made = built_in(name).make(terms, seed)
     if not isinstance(made, Hamiltonian):
-        raise UsageProblem(
-            f"{name} is not Hamiltonian", "its maker is problem(...)"
-        )
+        raise UsageProblem(f"{name} is not Hamiltonian", "its maker is problem(...)")
     return made
 
 
@@ -102,9 +92,7 @@ def built_in(name: str) -> BuiltIn:
         UsageProblem: there is no such problem.
     """
     if name not in PROBLEMS:
-        raise UsageProblem(
-            f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS))
-        )
+        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS)))
     return PROBLEMS[name]
 
 
@@ -118,9 +106,7 @@ def check_seed(name: str, seed: int | None) -> None:
     if seed is not None and name not in takers:
         plural = "s" if len(takers) > 1 else ""
         whose = f"problem{plural} {', '.join(takers)}"
-        raise UsageProblem(
-            f"--seed is for the {whose}, not for {name}", "leave it out"
-        )
+        raise UsageProblem(f"--seed is for the {whose}, not for {name}", "leave it out")
 
 
 _ALTERNATING = "alternating trees in which velocities do not branch"
@@ -139,26 +125,14 @@ _ENTRIES = (
         "two springs of frequencies 1 and 5/2; sees the unbranched trees only",
         "½|p|² + ½x² + ½(5/2)²(y − x)²",
         "the unbranched trees",
-        Mechanical(
-            ("x", "y"),
-            two_springs,
-            numbers("1 1/2 0 1"),
-            fmpq(2),
-            long_run=_TENTHS,
-        ),
+        Mechanical(("x", "y"), two_springs, numbers("1 1/2 0 1"), fmpq(2), long_run=_TENTHS),
     ),
     mechanical(
         "pendulum",
         "½p² + 1 − cos q",
         "½p² + 1 − cos q",
         _ALTERNATING,
-        Mechanical(
-            ("x",),
-            pendulum_potential,
-            numbers("1 1/2"),
-            fmpq(4),
-            long_run=_TENTHS,
-        ),
+        Mechanical(("x",), pendulum_potential, numbers("1 1/2"), fmpq(4), long_run=_TENTHS),
     ),
     mechanical(
         "kepler",
@@ -194,11 +168,7 @@ _ENTRIES = (
         "three masses between walls, α = 1/4, β = 1/2",
         _ALTERNATING,
         Mechanical(
-            ("x", "y", "z"),
-            springs,
-            numbers("1 1/2 -1/4 0 1/2 0"),
-            fmpq(2),
-            long_run=_TENTHS,
+            ("x", "y", "z"), springs, numbers("1 1/2 -1/4 0 1/2 0"), fmpq(2), long_run=_TENTHS
         ),
     ),
     mechanical(
@@ -206,13 +176,7 @@ _ENTRIES = (
         "two rods; the kinetic energy depends on the angles",
         "two rods, by the Legendre transform of their Lagrangian",
         "all; what depends on positions alone has only velocities as branches",
-        Mechanical(
-            ("a", "b"),
-            rods_potential,
-            numbers("1 -1/2 1 1/2"),
-            fmpq(2),
-            kinetic=rods,
-        ),
+        Mechanical(("a", "b"), rods_potential, numbers("1 -1/2 1 1/2"), fmpq(2), kinetic=rods),
     ),
     stiff_one(
         "prothero-robinson",
@@ -279,12 +243,7 @@ _ENTRIES = (
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
 """The problems by name, in the order in which they are shown."""
-GENERIC = (
-    "generic",
-    "generic-semi-separable",
-    "generic-separable",
-    "generic-nystrom",
-)
+GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
 """The Hamiltonian ones that see every tree of a structure, from the most general one to the most
 special.
 """

@@ -9,14 +9,7 @@ from dataclasses import dataclass
 from flint import arb
 
 from garkcli.errors import NoLegendreTransform
-from garkcli.problems.expr import (
-    Expr,
-    ExprMatrix,
-    Place,
-    Substitution,
-    Vector,
-    dot,
-)
+from garkcli.problems.expr import Expr, ExprMatrix, Place, Substitution, Vector, dot
 from garkcli.problems.mass import enclosed, inverse_of
 from garkcli.problems.solving import solutions
 
@@ -143,12 +136,7 @@ def _by_form(L: Expr, equations: Equations) -> list[Solved]:
     return []
 
 
-def _of_form(
-    form: _Form,
-    v: Vector,
-    shifted: Vector,
-    raised: Vector,
-) -> list[Solved]:
+def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[Solved]:
     """The velocities G⁻¹(p − b)/φ'(a) for the values of a, from p − b and G⁻¹(p − b)."""
     import sympy
 

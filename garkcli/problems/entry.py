@@ -49,9 +49,7 @@ class BuiltIn:
         return self.stiff is not None
 
 
-def mechanical(
-    name: str, summary: str, formula: str, sees: str, made: Mechanical
-) -> BuiltIn:
+def mechanical(name: str, summary: str, formula: str, sees: str, made: Mechanical) -> BuiltIn:
     """An entry for H = T + V, without a seed."""
 
     def make(terms: int, _: int) -> Hamiltonian:
@@ -60,9 +58,7 @@ def mechanical(
     return BuiltIn(name, summary, formula, sees, make)
 
 
-def stiff_one(
-    name: str, summary: str, formula: str, sees: str, made: StiffMaker
-) -> BuiltIn:
+def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker) -> BuiltIn:
     """An entry for stiff right-hand sides; their stiffness is 1 where none is chosen."""
 
     def make(terms: int, _: int) -> RightHandSide:

@@ -59,9 +59,7 @@ def nystrom(terms: int, seed: int) -> Hamiltonian:
     return _separated("generic-nystrom", kinetic, terms, Draw(seed))
 
 
-def generic_rhs(
-    terms: int, seed: int, linear: frozenset[int] = frozenset()
-) -> RightHandSide:
+def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
     """f^{l} = Σ_k v_k (1 + a_k·y)^7, with random rational v_k and a_k: every component of every
     term has every derivative.
 
@@ -114,9 +112,7 @@ def _form(draw: Draw, variables: Vector) -> Expr:
     return 1 + dot(slopes, variables)
 
 
-def _separated(
-    name: str, kinetic: Expr, terms: int, draw: Draw
-) -> Hamiltonian:
+def _separated(name: str, kinetic: Expr, terms: int, draw: Draw) -> Hamiltonian:
     """T + Σ U, in one term where there is no other."""
     q = _positions()
     if terms == 1:
@@ -128,13 +124,7 @@ def _separated(
 
 def _problem(name: str, split: Vector, draw: Draw) -> Hamiltonian:
     return Hamiltonian(
-        name,
-        VARIABLES,
-        tuple(split),
-        start(draw),
-        fmpq(1),
-        is_generic=True,
-        long_run=_LONG_RUN,
+        name, VARIABLES, tuple(split), start(draw), fmpq(1), is_generic=True, long_run=_LONG_RUN
     )
 
 

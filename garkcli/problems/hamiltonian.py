@@ -15,14 +15,7 @@ from flint import fmpq
 
 from garkcli.errors import counted
 from garkcli.problems.expr import Expr, Exprs, Invariants
-from garkcli.problems.vectorfield import (
-    GROUPS,
-    Group,
-    Layout,
-    VectorField,
-    occurring,
-    symbols,
-)
+from garkcli.problems.vectorfield import GROUPS, Group, Layout, VectorField, occurring, symbols
 
 FLOAT_DIGITS = 15
 """Up to so many digits numbers are floats; beyond, they are the midpoints of balls."""
@@ -85,9 +78,7 @@ class Hamiltonian:
 
 
 @cache
-def vector_field(
-    problem: Hamiltonian, term: int, drives: Group
-) -> VectorField:
+def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
     """V^{l} for ``drives`` q, F^{l} for p."""
     import sympy
 

@@ -9,13 +9,7 @@ from flint import arb, ctx, fmpq
 from garkcli.errors import NoLegendreTransform
 from garkcli.problems.candidates import Equations, Solved, candidates
 from garkcli.problems.draw import Draw
-from garkcli.problems.expr import (
-    Expr,
-    Place,
-    Substitution,
-    Vector,
-    dot,
-)
+from garkcli.problems.expr import Expr, Place, Substitution, Vector, dot
 from garkcli.problems.mass import (
     BITS,
     WRITE_HAMILTONIAN,
@@ -53,9 +47,7 @@ def by_solving(lagrangian: Lagrangian) -> Expr:
     arguments = (*symbols(variables, "q"), *p)
     derivatives = (H.diff(x) for x in arguments)
     if not is_smooth(H) or not all(map(is_smooth, derivatives)):
-        raise NoLegendreTransform(
-            "the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN
-        )
+        raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
     return H
 
 
@@ -71,9 +63,7 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
         right += [x for x in smooth if _is_right(x.velocities, equations)]
     if not right:
         whose = ", ".join(map(str, equations.v))
-        raise NoLegendreTransform(
-            f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN
-        )
+        raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
     known = {**equations.start, **equations.momenta(equations.start)}
     found = []
     for solved in right:
@@ -148,9 +138,7 @@ def _is_right(solved: Substitution, equations: Equations) -> bool:
     return tested > _TRIES // 2
 
 
-def _agrees(
-    solved: Substitution, equations: Equations, place: Place
-) -> bool | None:
+def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | None:
     """Whether the equations hold at one place; None where something has no value there."""
     at = {**place, **equations.momenta(place)}
     if not all(x in at for x in equations.p):

@@ -12,19 +12,11 @@ from __future__ import annotations
 from garkcli.errors import NoLegendreTransform
 from garkcli.problems.expr import Expr, Place
 from garkcli.problems.inversion import by_solving
-from garkcli.problems.mass import (
-    Lagrangian,
-    coupled,
-    differentiated,
-    inverse_of,
-    velocities,
-)
+from garkcli.problems.mass import Lagrangian, coupled, differentiated, inverse_of, velocities
 from garkcli.problems.vectorfield import symbols
 
 
-def legendre_transform(
-    L: Expr, variables: tuple[str, ...], start: Place
-) -> Expr:
+def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Expr:
     """The Hamiltonian of a Lagrangian, sympy expressions both.
 
     Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v

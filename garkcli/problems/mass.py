@@ -10,22 +10,12 @@ from flint import arb, ctx, fmpq_mat
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.graph import components
-from garkcli.problems.expr import (
-    Expr,
-    ExprMatrix,
-    Exprs,
-    Place,
-    Vector,
-    number,
-    rational,
-)
+from garkcli.problems.expr import Expr, ExprMatrix, Exprs, Place, Vector, number, rational
 from garkcli.problems.straightline import function
 
 MAX_COUPLED = 5
 """Most velocities that a mass matrix depending on the positions may couple."""
-WRITE_HAMILTONIAN = (
-    "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
-)
+WRITE_HAMILTONIAN = "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
 BITS = 300
 """Precision of enclosures that tell solutions apart."""
 
@@ -64,9 +54,7 @@ class Lagrangian:
         return not any(x.free_symbols & moving for x in entries)
 
 
-def differentiated(
-    L: Expr, variables: tuple[str, ...], start: Place
-) -> Lagrangian:
+def differentiated(L: Expr, variables: tuple[str, ...], start: Place) -> Lagrangian:
     """``L`` with its derivatives by the velocities."""
     v = velocities(variables)
     gradient = [L.diff(x) for x in v]
@@ -85,9 +73,7 @@ def coupled(M: ExprMatrix) -> list[list[int]]:
     return sorted(sorted(block) for block in components(after))
 
 
-def inverse_of(
-    M: ExprMatrix, names: Vector, start: Place
-) -> tuple[list[list[Expr]], Expr]:
+def inverse_of(M: ExprMatrix, names: Vector, start: Place) -> tuple[list[list[Expr]], Expr]:
     """The inverse of a symmetric matrix as a matrix and its divisor: the adjugate and the
     determinant, or 1.
 
@@ -199,6 +185,4 @@ def is_smooth(expression: Expr) -> bool:
     """Whether a sympy expression is real and has no |x|, which sympy makes of roots of squares."""
     import sympy
 
-    return not expression.has(
-        sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo
-    )
+    return not expression.has(sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo)

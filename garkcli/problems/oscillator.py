@@ -56,9 +56,7 @@ class Oscillator:
     if TYPE_CHECKING:
 
         def __init__(
-            self,
-            omega: AnyNumber,
-            shares: Sequence[tuple[AnyNumber, AnyNumber]],
+            self, omega: AnyNumber, shares: Sequence[tuple[AnyNumber, AnyNumber]]
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -79,8 +77,7 @@ class Oscillator:
         object.__setattr__(self, "shares", shares)
         if self.omega <= 0:
             raise UsageProblem(
-                f"the frequency {self.omega} is not positive",
-                "give a positive rational, such as 1",
+                f"the frequency {self.omega} is not positive", "give a positive rational, such as 1"
             )
         for column, energy in enumerate(("kinetic", "potential")):
             total = sum((share[column] for share in self.shares), ZERO)
@@ -132,10 +129,7 @@ def parse_shares(text: str, terms: int) -> Shares:
     cure = f"write {terms} pairs kinetic:potential, such as {example_shares(terms)}"
     parts = text.split(",")
     if len(parts) != terms:
-        raise UsageProblem(
-            f"the split {text!r} has {len(parts)} pairs for {terms} terms",
-            cure,
-        )
+        raise UsageProblem(f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure)
     shares = []
     for part in parts:
         texts = part.split(":")
@@ -167,8 +161,7 @@ def _share(text: str) -> fmpq:
         ) from None
     if not isinstance(number, fmpq):
         raise UsageProblem(
-            f"the share {text.strip()!r} is irrational",
-            "write a rational number, such as 1/2",
+            f"the share {text.strip()!r} is irrational", "write a rational number, such as 1/2"
         )
     return number
 

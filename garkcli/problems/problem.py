@@ -6,11 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from garkcli.problems.expr import Exprs
-from garkcli.problems.hamiltonian import (
-    FLOAT_DIGITS,
-    Hamiltonian,
-    vector_field,
-)
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, vector_field
 from garkcli.problems.righthandside import RightHandSide, right_hand_side
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, VectorField, symbols
@@ -35,9 +31,7 @@ def unknowns(problem: Problem) -> Exprs:
     return found
 
 
-def quantities_function(
-    problem: Problem, digits: int
-) -> Callable[..., list[Any]]:
+def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:
     """What is conserved, the energy first where there is one, as a function of the unknowns:
     floats, or balls for more ``digits``.
 

@@ -13,14 +13,7 @@ from flint import arb, fmpq
 from garkcli.errors import counted
 from garkcli.problems.expr import Exprs, Invariants, rational
 from garkcli.problems.straightline import function
-from garkcli.problems.vectorfield import (
-    TIME,
-    Group,
-    Layout,
-    VectorField,
-    occurring,
-    symbols,
-)
+from garkcli.problems.vectorfield import TIME, Group, Layout, VectorField, occurring, symbols
 
 EXACT_DIGITS = 50
 """To so many digits an irrational start of an exact solution is certainly the rational one that is

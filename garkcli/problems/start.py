@@ -13,10 +13,7 @@ from garkcli.problems.vectorfield import symbols
 
 
 def initial_momenta(
-    lagrangians: Vector,
-    hamiltonians: Vector,
-    variables: tuple[str, ...],
-    start: Place,
+    lagrangians: Vector, hamiltonians: Vector, variables: tuple[str, ...], start: Place
 ) -> list[arb]:
     """p(0) with which q̇(0) is the given velocity, shape (d,).
 
@@ -66,9 +63,7 @@ def initial_momenta(
             ) from None
 
 
-def missing_derivative(
-    made: Expr, by: Vector, start: Place
-) -> tuple[str, str] | None:
+def missing_derivative(made: Expr, by: Vector, start: Place) -> tuple[str, str] | None:
     """What is wrong with a derivative of an expression at the start, and the cure; None where all
     derivatives exist.
 

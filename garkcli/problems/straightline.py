@@ -62,9 +62,7 @@ class Code:
     constants: tuple[fmpq | None, ...]
     is_for_balls: bool
 
-    def lines(
-        self, arguments: Sequence[str], prefix: str
-    ) -> tuple[list[str], list[str]]:
+    def lines(self, arguments: Sequence[str], prefix: str) -> tuple[list[str], list[str]]:
         """Assignments to names that start with ``prefix``, and the names or short texts of the
         results.
         """
@@ -122,11 +120,7 @@ def constant_name(x: fmpq) -> str:
 
 
 @cache
-def code_of(
-    expressions: Exprs,
-    arguments: Exprs,
-    is_for_balls: bool,
-) -> Code:
+def code_of(expressions: Exprs, arguments: Exprs, is_for_balls: bool) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
 
     Raises:
@@ -281,11 +275,7 @@ def _is_negative(exponent: Expr) -> bool:
     return bool(exponent.is_Rational and exponent.is_negative)
 
 
-def function(
-    expressions: Exprs,
-    arguments: Exprs,
-    is_for_balls: bool,
-) -> Callable[..., list[Any]]:
+def function(expressions: Exprs, arguments: Exprs, is_for_balls: bool) -> Callable[..., list[Any]]:
     """The expressions as one function of numbers, one after the other, to a list of numbers.
 
     For balls the rational constants are enclosed once, at the precision in force now.
@@ -317,13 +307,7 @@ def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:
     """The function ``name`` that a text of ours defines; the text has only names made in this
     package.
     """
-    namespace: dict[str, Any] = {
-        "__builtins__": {},
-        **_BUILTINS,
-        **FLOATS,
-        **BALLS,
-        **constants,
-    }
+    namespace: dict[str, Any] = {"__builtins__": {}, **_BUILTINS, **FLOATS, **BALLS, **constants}
     exec(_compiled(source), namespace)
     return namespace[name]
 

@@ -119,9 +119,7 @@ class Translator:
                 return made.replace(sympy.cot, lambda u: 1 / sympy.tan(u))
         raise TypeError(f"no expression: {expression!r}")
 
-    def _product(
-        self, signs: str, factors: list[Expr], at: Expression
-    ) -> Expr:
+    def _product(self, signs: str, factors: list[Expr], at: Expression) -> Expr:
         import sympy
 
         if sum(map(_bits, factors)) > 2 * MAX_BITS:

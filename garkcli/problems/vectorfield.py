@@ -92,12 +92,7 @@ class VectorField:
     @property
     def is_linear(self) -> bool:
         """Whether all second derivatives vanish."""
-        return all(
-            is_constant(x)
-            for g in self.depends
-            for row in self.derivative(g)
-            for x in row
-        )
+        return all(is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
 
     @property
     def degree(self) -> int | None:
@@ -119,15 +114,11 @@ class VectorField:
     @property
     def arguments(self) -> Exprs:
         """The symbols of what it depends on, in the order of the groups."""
-        return tuple(
-            x for g in self.depends for x in symbols(self.variables, g)
-        )
+        return tuple(x for g in self.depends for x in symbols(self.variables, g))
 
 
 def occurring(
-    components: Iterable[Any],
-    variables: tuple[str, ...],
-    groups: Iterable[Group],
+    components: Iterable[Any], variables: tuple[str, ...], groups: Iterable[Group]
 ) -> tuple[Group, ...]:
     """Those of ``groups`` that occur in expressions."""
     free: set[Expr] = set()

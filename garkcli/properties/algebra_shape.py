@@ -25,14 +25,7 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
-PRIMES = (
-    2147483647,
-    2147483629,
-    2147483587,
-    2147483579,
-    2147483563,
-    2147483549,
-)
+PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549)
 """Primes that are tried; most have a root of a node polynomial, and few hide an entry."""
 
 
@@ -51,9 +44,7 @@ class _Space:
     kept: tuple[int, ...]
 
 
-def shape_of_families(
-    tableau: Tableau, colours: Sequence[int]
-) -> Shape | None:
+def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
     """The shape of the given colours of a method, where all their stages but those that see nothing
     or are not seen are solved together; None where that is not proved so.
 
@@ -79,9 +70,7 @@ def shape_of_families(
     return Shape("fully implicit", len(together), (together,), None, "")
 
 
-def _rational_blocks(
-    tableau: Tableau, colours: Sequence[int]
-) -> Blocks | None:
+def _rational_blocks(tableau: Tableau, colours: Sequence[int]) -> Blocks | None:
     """The blocks between some colours; None where one does not exist or is irrational."""
     indices = sorted({tableau.colours[l].space for l in colours})
     found: Blocks = {}
@@ -111,9 +100,7 @@ def _is_rational(block: Matrix) -> bool:
     return all(isinstance(x, fmpq) for row in block for x in row)
 
 
-def _space(
-    tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly
-) -> _Space | None:
+def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | None:
     """The stages of a space without those that see nothing, or that none sees; None where such a
     node is irrational.
     """
@@ -154,12 +141,7 @@ def _divided(M: fmpq_poly, values: Vector) -> fmpq_poly:
     return fmpq_poly([shifted[s + n] for n in range(s)])
 
 
-def _has_centre(
-    spaces: dict[int, _Space],
-    blocks: Blocks,
-    owners: dict[int, int],
-    p: int,
-) -> bool:
+def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int], p: int) -> bool:
     """Whether, modulo p, a stage is seen to see all others and to be seen by them."""
     try:
         left = {k: _modulo(space.left, p) for k, space in spaces.items()}

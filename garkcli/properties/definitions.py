@@ -30,8 +30,7 @@ class Definition:
 
 
 _PAPER = (
-    "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta"
-    " Methods"
+    "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
 )
 _ORDER = KINDS["count"]
 _TABLE = "a list of such numbers by colour; `null` where there is no block"
@@ -175,9 +174,7 @@ _OF_ORDERS = (
 
 def _of_property(found: Property) -> Definition:
     values = KINDS[found.kind]
-    return Definition(
-        found.key, found.text, found.source, values, found.meaning
-    )
+    return Definition(found.key, found.text, found.source, values, found.meaning)
 
 
 def every_definition() -> list[Definition]:

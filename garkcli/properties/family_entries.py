@@ -16,9 +16,7 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 
-def is_nonzero_at(
-    tableau: Tableau, place: tuple[int, int], i: int, j: int
-) -> bool | None:
+def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> bool | None:
     """Whether an entry between stages of families is not zero, where one node is rational.
 
     With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
@@ -67,9 +65,7 @@ def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
     return total
 
 
-def is_family_stage(
-    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]
-) -> bool:
+def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) -> bool:
     """Whether stage i of a family, nodes ascending, has the rows wanted, one a colour."""
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)
@@ -82,9 +78,7 @@ def is_family_stage(
     return vanishes_at(common, nodes_of(space)[i])
 
 
-def common_nodes(
-    tableau: Tableau, k: int, wanted: Sequence[Vector]
-) -> Polynomial:
+def common_nodes(tableau: Tableau, k: int, wanted: Sequence[Vector]) -> Polynomial:
     """The polynomial whose roots are the nodes of a family at which a stage has the rows wanted.
 
     In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They are

@@ -54,17 +54,12 @@ def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
 
             if common_nodes(tableau, k, wanted).degree > 0:
                 return True
-        elif any(
-            not missed_entries(tableau, k, i, wanted, tolerance)
-            for i in range(space.stages)
-        ):
+        elif any(not missed_entries(tableau, k, i, wanted, tolerance) for i in range(space.stages)):
             return True
     return False
 
 
-def first_same_as_last(
-    tableau: Tableau, tolerance: fmpq = ZERO
-) -> FirstSameAsLast:
+def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsLast:
     """Whether the first stage is the old value and the last one the new value: FSAL.
 
     Then the last evaluation of a step is the first of the next. It is asked of every stage space.
@@ -97,11 +92,7 @@ def old_value(tableau: Tableau) -> list[Vector]:
 
 
 def missed_entries(
-    tableau: Tableau,
-    k: int,
-    i: int,
-    wanted: Sequence[Vector],
-    tolerance: fmpq = ZERO,
+    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> list[tuple[int, int]]:
     """Where stage i of a space of points differs from the rows wanted, as (colour, stage).
 
@@ -126,11 +117,7 @@ def _is_close(a: Number, b: Number, allowed: fmpq) -> bool:
 
 
 def _is_stage(
-    tableau: Tableau,
-    k: int,
-    i: int,
-    wanted: Sequence[Vector],
-    tolerance: fmpq = ZERO,
+    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> bool:
     """Whether stage i of a space, in the order of its nodes, has the rows wanted."""
     space = tableau.spaces[k]

@@ -20,12 +20,7 @@ from garkcli.exact.polynomial_text import (
 from garkcli.exact.roots import RealRoot
 from garkcli.properties.property import Verdict
 from garkcli.properties.subject import MISSING_BLOCKS
-from garkcli.stability.linear import (
-    StabilityFunction,
-    e_polynomial,
-    imaginary_set,
-    poles_are_right,
-)
+from garkcli.stability.linear import StabilityFunction, e_polynomial, imaginary_set, poles_are_right
 
 _BITS = 128
 _DIGITS = 6
@@ -41,9 +36,7 @@ def no_meaning() -> Verdict:
 def decide_within(found: bool | None) -> Verdict:
     """A verdict on all methods within a tolerance."""
     if found is None:
-        return Verdict.undecided(
-            "methods within the tolerance differ, or seem to"
-        )
+        return Verdict.undecided("methods within the tolerance differ, or seem to")
     return Verdict.unless("" if found else "no method within the tolerance is")
 
 
@@ -89,9 +82,7 @@ def _roots(Q: Polynomial) -> list[acb]:
         digits = bits * 3 // 10
         balls = [acb(to_ball(a, digits)) for a in Q.coefficients]
         try:
-            roots: list[acb] = acb_poly(balls).roots(
-                tol=arb(2) ** -60, maxprec=4 * bits
-            )
+            roots: list[acb] = acb_poly(balls).roots(tol=arb(2) ** -60, maxprec=4 * bits)
         except ValueError:
             bits *= 2
         else:
@@ -103,9 +94,7 @@ def first_gap(intervals: Sequence[Interval]) -> Interval | None:
     origin = RealRoot.rational(ZERO)
     end, is_left_out = origin, True
     for found in intervals:
-        if found.start is not None and (
-            end < found.start or not found.has_start
-        ):
+        if found.start is not None and (end < found.start or not found.has_start):
             return Interval(end, found.start, is_left_out, not found.has_start)
         if found.end is None:
             return None

@@ -57,9 +57,7 @@ class StageGraph:
 
 
 def stage_graph(
-    tableau: Tableau,
-    colours: Iterable[int] | None = None,
-    tolerance: fmpq = ZERO,
+    tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
     """The graph of all stages, or that of some colours alone.
 
@@ -94,10 +92,7 @@ class _Graph:
             self.successors.setdefault((space, i), set())
 
     def add_block(self, l: int, m: int) -> None:
-        space, other = (
-            self.tableau.colours[l].space,
-            self.tableau.colours[m].space,
-        )
+        space, other = (self.tableau.colours[l].space, self.tableau.colours[m].space)
         if (space, m) in self.added:
             return
         self.added.add((space, m))
@@ -107,9 +102,7 @@ class _Graph:
 
     def _entries(self, l: int, m: int) -> tuple[Row, ...]:
         block = self.tableau.block(l, m)
-        if block is None or all(
-            isinstance(x, PointSpace) for x in self.tableau.spaces
-        ):
+        if block is None or all(isinstance(x, PointSpace) for x in self.tableau.spaces):
             return block or ()
         return self._listed[l][m] or ()
 
@@ -119,16 +112,12 @@ class _Graph:
 
         return entries(self.tableau, DIGITS).A
 
-    def _add_entry(
-        self, entry: Cell, seer: Vertex, seen: Vertex, m: int
-    ) -> None:
+    def _add_entry(self, entry: Cell, seer: Vertex, seen: Vertex, m: int) -> None:
         nonzero = is_nonzero(entry, self.tolerance)
         if nonzero is None and isinstance(entry, arb):
             from garkcli.properties.family_entries import is_nonzero_at
 
-            nonzero = is_nonzero_at(
-                self.tableau, (seer[0], m), seer[1], seen[1]
-            )
+            nonzero = is_nonzero_at(self.tableau, (seer[0], m), seer[1], seen[1])
         if nonzero is None:
             self.is_certain = False
         if not nonzero:
@@ -139,9 +128,7 @@ class _Graph:
             self.loops.setdefault(seen, []).append(exact)
 
     def finished(self) -> StageGraph:
-        successors = {
-            x: frozenset(found) for x, found in self.successors.items()
-        }
+        successors = {x: frozenset(found) for x, found in self.successors.items()}
         loops = {x: tuple(found) for x, found in self.loops.items()}
         return StageGraph(successors, self.is_certain, loops)
 

@@ -45,22 +45,14 @@ class Size:
     def __str__(self) -> str:
         if self.root is None:
             return "infinity"
-        from garkcli.exact.polynomial import (
-            Polynomial,
-        )  # few checks show such numbers
-        from garkcli.exact.polynomial_text import (
-            polynomial_text,
-            root_decimal,
-            root_text,
-        )
+        from garkcli.exact.polynomial import Polynomial  # few checks show such numbers
+        from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 
         simple = root_text(self.root)
         if simple is not None:
             return simple
         decimal = root_decimal(self.root, _DIGITS)
-        polynomial = polynomial_text(
-            Polynomial.from_flint(self.root.polynomial), "x"
-        )
+        polynomial = polynomial_text(Polynomial.from_flint(self.root.polynomial), "x")
         if len(polynomial) > _LONG:
             return decimal
         return f"{decimal}, a root of {polynomial}"

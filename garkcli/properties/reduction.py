@@ -14,13 +14,7 @@ from itertools import combinations
 from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    SingularMatrixError,
-    Vector,
-    apply,
-    solve,
-)
+from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
 from garkcli.exact.signs import roots_below
 from garkcli.properties.pattern import Vertex, is_nonzero
 from garkcli.stability.algebraic import negative_pivot
@@ -113,9 +107,7 @@ def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
         return True
     if tolerance:
         return False
-    return any(
-        _is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows
-    )
+    return any(_is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows)
 
 
 def _is_regular(form: Matrix) -> bool:
@@ -281,9 +273,7 @@ def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
         classes = finer
 
 
-def _split(
-    tableau: Tableau, k: int, classes: list[list[list[int]]]
-) -> list[list[int]]:
+def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[list[int]]:
     """The classes of one space, divided by what their stages see."""
     found: list[list[int]] = []
     for members in classes[k]:
@@ -300,9 +290,7 @@ def _split(
     return sorted(found)
 
 
-def _sight(
-    tableau: Tableau, k: int, i: int, classes: list[list[list[int]]]
-) -> list[object]:
+def _sight(tableau: Tableau, k: int, i: int, classes: list[list[list[int]]]) -> list[object]:
     """What stage i of a space sees: its node, and the sums of its entries over each class."""
     sight: list[object] = [tableau.spaces[k].nodes[i]]
     for m, colour in enumerate(tableau.colours):

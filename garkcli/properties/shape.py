@@ -44,9 +44,7 @@ class Shape:
         return self.singly or self.kind
 
 
-def shape(
-    tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO
-) -> Shape:
+def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -> Shape:
     """The shape of the whole tableau, or of the diagonal method of one colour.
 
     Args:
@@ -65,14 +63,8 @@ def shape(
 
 def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     """The shape of the stages of a graph."""
-    together = [
-        tuple(sorted(found)) for found in graph.systems if len(found) > 1
-    ]
-    alone = [
-        found[0]
-        for found in graph.systems
-        if len(found) == 1 and graph.is_loop(found[0])
-    ]
+    together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
+    alone = [found[0] for found in graph.systems if len(found) == 1 and graph.is_loop(found[0])]
     count = sum(map(len, together)) + len(alone)
     implicit = count if graph.is_certain else None
     kind: Kind | None = None
@@ -87,9 +79,7 @@ def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     return Shape(kind, implicit, tuple(together), gamma, singly)
 
 
-def _singly(
-    graph: StageGraph, implicit: Sequence[Vertex]
-) -> Literal["SDIRK", "ESDIRK", ""]:
+def _singly(graph: StageGraph, implicit: Sequence[Vertex]) -> Literal["SDIRK", "ESDIRK", ""]:
     stages = set(graph.successors)
     if set(implicit) == stages:
         return "SDIRK"
@@ -98,9 +88,7 @@ def _singly(
     return "ESDIRK" if see_nothing and set(implicit) == stages - first else ""
 
 
-def _gamma(
-    graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq
-) -> Number | None:
+def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Number | None:
     """The number by which every implicit stage depends on itself; the first one where they are
     equal within what rounding of two coefficients explains.
     """

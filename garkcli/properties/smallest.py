@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 from garkcli.properties.reduction import is_plainly_irreducible, reduced
-from garkcli.tableau.embedded import (
-    NOTHING,
-    Further,
-    as_colours,
-    from_colours,
-)
+from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.tableau import Tableau
 
 
-def smallest(
-    tableau: Tableau, further: Further = NOTHING
-) -> tuple[Tableau, Further] | None:
+def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
     """The smallest method with further weights: a stage that any row of weights needs stays.
 
     Returns:

@@ -40,16 +40,12 @@ def what_is_not_singly(subject: Subject) -> str:
         return what_is_solved_together(subject) or f"it is {shape.kind}"
     if shape.gamma is not None:
         return ""
-    found = {
-        x: None for entries in subject.graph.loops.values() for x in entries
-    }
+    found = {x: None for entries in subject.graph.loops.values() for x in entries}
     first, second, *_ = (number_text(x) for x in found if x is not None)
     return f"stages depend on themselves by {first} and by {second}"
 
 
-def decide_singly(
-    subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]
-) -> Verdict:
+def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdict:
     """Whether all implicit stages have one γ, and which stages are explicit."""
     shape = subject.shape
     if shape.kind is None:
@@ -61,9 +57,5 @@ def decide_singly(
         explicit = set(subject.graph.successors) - set(subject.graph.loops)
         none = "no stage is explicit"
         names = stages_name(subject.tableau, explicit) if explicit else ""
-        why = (
-            f"{names} {'is' if len(explicit) == 1 else 'are'} explicit"
-            if names
-            else none
-        )
+        why = f"{names} {'is' if len(explicit) == 1 else 'are'} explicit" if names else none
     return Verdict(False, why)

@@ -58,13 +58,8 @@ class Subject:
     @cached_property
     def is_complete(self) -> bool:
         """Whether every stage sees every vector field."""
-        colours, spaces = (
-            range(self.tableau.size),
-            range(len(self.tableau.spaces)),
-        )
-        return all(
-            (k, m) in self.tableau.blocks for k in spaces for m in colours
-        )
+        colours, spaces = (range(self.tableau.size), range(len(self.tableau.spaces)))
+        return all((k, m) in self.tableau.blocks for k in spaces for m in colours)
 
     @cached_property
     def graph(self) -> StageGraph:
@@ -74,9 +69,7 @@ class Subject:
     @cached_property
     def shape(self) -> Shape:
         """The shape of the whole method."""
-        return self._of_families(range(self.tableau.size)) or shape_of(
-            self.graph, self.tolerance
-        )
+        return self._of_families(range(self.tableau.size)) or shape_of(self.graph, self.tolerance)
 
     def _of_families(self, colours: Sequence[int]) -> Shape | None:
         """The shape of some colours where no node is needed for it."""
@@ -129,9 +122,7 @@ class Subject:
     def stage_orders(self) -> tuple[int, ...]:
         """For each colour the largest q with B(q) and C(q) for all its stages."""
         found = []
-        for r, etas in zip(
-            self.simplifying.B, self.simplifying.C, strict=True
-        ):
+        for r, etas in zip(self.simplifying.B, self.simplifying.C, strict=True):
             found.append(min([r, *(eta for eta in etas if eta is not None)]))
         return tuple(found)
 
@@ -150,6 +141,4 @@ class Subject:
         from garkcli.stability.within import stability_within
 
         shares = [ONE] * self.tableau.size
-        return stability_within(
-            self.tableau, shares, self.tolerance, self.order
-        )
+        return stability_within(self.tableau, shares, self.tolerance, self.order)

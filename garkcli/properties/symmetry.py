@@ -16,15 +16,7 @@ from math import prod
 from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    add,
-    apply_left,
-    identity,
-    multiply,
-    outer,
-)
+from garkcli.exact.matrix import Matrix, Vector, add, apply_left, identity, multiply, outer
 from garkcli.order.tolerance import within
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -100,9 +92,7 @@ def is_symmetric(tableau: Tableau) -> bool | None:
     return symmetry(tableau).holds
 
 
-def _turns_into_adjoint(
-    tableau: Tableau, chosen: Sequence[Reflection], tolerance: fmpq
-) -> bool:
+def _turns_into_adjoint(tableau: Tableau, chosen: Sequence[Reflection], tolerance: fmpq) -> bool:
     """Whether S A^{k,m} S_m + A^{k,m} = 𝟙 b_mᵀ and b_m S_m = b_m for reflections S = S⁻¹."""
     for colour in tableau.colours:
         weights = apply_left(colour.b, chosen[colour.space].matrix)
@@ -129,9 +119,7 @@ def _are_close(rows: Matrix, others: Matrix, allowed: fmpq) -> bool:
     )
 
 
-def _reflections(
-    tableau: Tableau, k: int, tolerance: fmpq
-) -> Iterator[Reflection]:
+def _reflections(tableau: Tableau, k: int, tolerance: fmpq) -> Iterator[Reflection]:
     """The maps of one stage space that may do it."""
     space = tableau.spaces[k]
     if isinstance(space, PolynomialSpace):
@@ -153,9 +141,7 @@ def _reflected_polynomials(space: PolynomialSpace) -> Iterator[Reflection]:
     yield Reflection(tuple(zip(*columns, strict=True)), None)
 
 
-def _keys(
-    tableau: Tableau, k: int, space: StageSpace
-) -> list[tuple[Vector, Vector]]:
+def _keys(tableau: Tableau, k: int, space: StageSpace) -> list[tuple[Vector, Vector]]:
     """What a stage has, and what its image must have: row sums, then weights.
 
     Row sums r of A turn into (sum of weights) − r, and weights stay.
@@ -180,9 +166,7 @@ def _keys(
     return keys
 
 
-def _fitting(
-    keys: list[tuple[Vector, Vector]], tolerance: fmpq
-) -> list[list[bool]]:
+def _fitting(keys: list[tuple[Vector, Vector]], tolerance: fmpq) -> list[list[bool]]:
     """For each pair of stages whether one may turn into the other; sums are as long as stages."""
     allowed = (3 * len(keys) + 3) * tolerance
     fits = []

@@ -12,14 +12,7 @@ from garkcli.errors import counted
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    POSITION,
-    TEXT,
-    Schema,
-    nullable,
-    published,
-)
+from garkcli.page.schema import COUNT, POSITION, TEXT, Schema, nullable, published
 from garkcli.report import check_github, check_sarif
 from garkcli.report.check_markdown import table_cell
 
@@ -49,11 +42,7 @@ _TABLE: Record[Audited] = Record(
     Field("declared_order", _ORDER, lambda x: x.table.order),
     Field("embedded_order", _ORDER, lambda x: _number(x.embedded_order)),
     Field("declared_embedded", _ORDER, lambda x: x.table.embedded_order),
-    Field(
-        "nonautonomous_order",
-        _ORDER,
-        lambda x: _number(x.nonautonomous_order),
-    ),
+    Field("nonautonomous_order", _ORDER, lambda x: _number(x.nonautonomous_order)),
     _FINDING.every("findings", lambda x: x.findings),
 )
 
@@ -68,9 +57,7 @@ def _unread(tables: Sequence[Audited]) -> int:
 
 
 _SUMMARY: Record[Sequence[Audited]] = Record(
-    Field("tables", COUNT, len),
-    Field("wrong", COUNT, _errors),
-    Field("unread", COUNT, _unread),
+    Field("tables", COUNT, len), Field("wrong", COUNT, _errors), Field("unread", COUNT, _unread)
 )
 _REPORT: Record[Sequence[Audited]] = Record(
     schema_named(SCHEMA),
@@ -160,10 +147,7 @@ def _sarif(tables: Sequence[Audited]) -> str:
 
 def _markdown(tables: Sequence[Audited]) -> str:
     """A table of what was found, for the summary of a job."""
-    lines = [
-        "| source | name | order | declared | finding |",
-        "|---|---|---|---|---|",
-    ]
+    lines = ["| source | name | order | declared | finding |", "|---|---|---|---|---|"]
     for found in tables:
         if not found.findings:
             continue

@@ -69,11 +69,7 @@ def certificate(method: AnyMethod) -> str:
 
 
 def run_sweep(
-    spec: AnyPath,
-    rows: AnyPath,
-    is_resumed: bool = False,
-    jobs: Whole = 1,
-    scheduler: str = "",
+    spec: AnyPath, rows: AnyPath, is_resumed: bool = False, jobs: Whole = 1, scheduler: str = ""
 ) -> SweepReport:
     r"""Run a sweep, or what is left of it: ``gark sweep``.
 

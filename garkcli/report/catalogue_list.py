@@ -12,16 +12,7 @@ from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint, aligned, counted
 from garkcli.page.plain import csv_cell, printable
 from garkcli.page.record import Field, Record
-from garkcli.page.schema import (
-    COUNT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    published,
-)
+from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, array, nullable, published
 from garkcli.properties.property import Kind
 from garkcli.properties.registry import every_property
 
@@ -96,9 +87,7 @@ _LONGEST_NAME = 26
 _GAP = "  "
 
 
-def render(
-    entries: Sequence[Entry], format: str, paint: Paint, width: int
-) -> str:
+def render(entries: Sequence[Entry], format: str, paint: Paint, width: int) -> str:
     """The list.
 
     Args:

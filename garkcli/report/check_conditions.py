@@ -31,17 +31,10 @@ def simplifying_lines(analysis: Analysis) -> list[str]:
     rows += labelled("", [bound_numbers(found)])
     both = analysis.pair_simplifying
     bound, sharper_of_pair = analysis.pair_bound, analysis.pair_sharp_bound
-    if (
-        both is None
-        or both is found
-        or bound is None
-        or sharper_of_pair is None
-    ):
+    if both is None or both is found or bound is None or sharper_of_pair is None:
         return rows
     rows += _bound("pair bound", both.bound, BOUND, bound)
-    rows += _bound(
-        "pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair
-    )
+    rows += _bound("pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair)
     return rows + labelled("", [bound_numbers(both)])
 
 
@@ -92,9 +85,7 @@ def structure_lines(analysis: Analysis, paint: Paint) -> list[str]:
     text = consistent_text(analysis.inconsistent, names, "A", near, paint)
     lines = labelled("consistent", [text])
     if analysis.conjugate is not None:
-        text = consistent_text(
-            analysis.conjugate_inconsistent, names, "Â", near, paint
-        )
+        text = consistent_text(analysis.conjugate_inconsistent, names, "Â", near, paint)
         lines += labelled("conjugate nodes", [text])
     own = "its own conjugate"
     if analysis.tableau.is_partitioned:
@@ -104,11 +95,7 @@ def structure_lines(analysis: Analysis, paint: Paint) -> list[str]:
 
 
 def consistent_text(
-    wrong: Sequence[tuple[int, int]],
-    names: Sequence[str],
-    letter: str,
-    near: str,
-    paint: Paint,
+    wrong: Sequence[tuple[int, int]], names: Sequence[str], letter: str, near: str, paint: Paint
 ) -> str:
     """Whether the nodes are the row sums, and of which blocks they are not.
 

@@ -10,17 +10,10 @@ if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
     from garkcli.page.paint import Paint
 
-Renderer: TypeAlias = (
-    "Callable[[Sequence[Outcome], Paint, int, int | None], str]"
-)
+Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None], str]"
 
 
-def _text(
-    outcomes: Sequence[Outcome],
-    paint: Paint,
-    verbosity: int,
-    digits: int | None,
-) -> str:
+def _text(outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None) -> str:
     from garkcli.report import check_text
 
     return check_text.render(outcomes, paint, verbosity, digits)
@@ -30,10 +23,7 @@ def _machine(module: str) -> Renderer:
     """A format that is always the same: the ``render`` of its file, which is imported when used."""
 
     def render(
-        outcomes: Sequence[Outcome],
-        paint: Paint,
-        verbosity: int,
-        digits: int | None,
+        outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None
     ) -> str:
         del paint, verbosity, digits  # for people
         text: str = import_module(f"garkcli.report.{module}").render(outcomes)

@@ -11,12 +11,7 @@ from garkcli.order.constants import Norms
 from garkcli.order.estimator import Estimator
 from garkcli.page.paint import Paint, folded, indented
 from garkcli.report.check_conditions import labelled
-from garkcli.report.check_orders import (
-    LABEL,
-    Shown,
-    one_order,
-    with_time_lines,
-)
+from garkcli.report.check_orders import LABEL, Shown, one_order, with_time_lines
 from garkcli.trees.notation import format_tree
 
 _WIDTH = 80
@@ -40,15 +35,11 @@ def further_lines(analysis: Analysis, paint: Paint, shown: Shown) -> list[str]:
         names.append("dense output")
     left_out = " and ".join(names)
     if analysis.conjugate is not None or analysis.pair is not None:
-        lines.append(
-            f"{_INSIDE}the conjugate and the pair are without {left_out}"
-        )
+        lines.append(f"{_INSIDE}the conjugate and the pair are without {left_out}")
     return lines
 
 
-def _embedded(
-    analysis: Analysis, found: EmbeddedFacts, paint: Paint, shown: Shown
-) -> list[str]:
+def _embedded(analysis: Analysis, found: EmbeddedFacts, paint: Paint, shown: Shown) -> list[str]:
     label = "embedded order"
     lines = one_order(label, found.order, found.tableau, paint, shown)
     timed = found.nonautonomous_order
@@ -124,10 +115,6 @@ def fit_text(found: DenseFacts) -> str:
     """How the pieces of single steps fit together."""
     if not found.ends_at_step:
         return "does not end where the step does: b(1) is not b"
-    slope = {
-        True: "its slope too",
-        False: "its slope is not",
-        None: "its slope is not decided",
-    }
+    slope = {True: "its slope too", False: "its slope is not", None: "its slope is not decided"}
     answer = slope[found.slopes.are_continuous]
     return f"continuous, b(1) = b; {answer}"

@@ -12,16 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import decimal
 from garkcli.page.record import Field, Record, inside, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    published,
-)
+from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, array, nullable, published
 from garkcli.report.every_json import EVERY_FIELDS, EVERY_VERDICTS
 from garkcli.report.fault_json import FAULT
 from garkcli.report.further_json import FURTHER_FIELDS
@@ -88,8 +79,7 @@ def _name(found: tuple[Tableau, Colour]) -> str:
 
 
 COLOUR: Record[tuple[Tableau, Colour]] = Record(
-    Field("name", TEXT, _name),
-    Field("stages", POSITION, _stages),
+    Field("name", TEXT, _name), Field("stages", POSITION, _stages)
 )
 """A colour of a tableau."""
 _ANALYSIS: tuple[Field[Analysis], ...] = (
@@ -128,18 +118,13 @@ def _errors(outcome: Outcome) -> list[dict[str, Any]]:
 
 
 _ERRORS: Schema = {**array(FAULT.schema), "minItems": 1}
-_STRUCTURE: Schema = {
-    "enum": ["general", "semi-separable", "separable", "nystrom"]
-}
+_STRUCTURE: Schema = {"enum": ["general", "semi-separable", "separable", "nystrom"]}
 _HEAD: tuple[Field[Outcome], ...] = (
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),
 )
 _LEFT_BEHIND: Field[Outcome] = Field(
-    "left_behind",
-    array(TEXT),
-    lambda x: list(x.left_behind) or None,
-    is_optional=True,
+    "left_behind", array(TEXT), lambda x: list(x.left_behind) or None, is_optional=True
 )
 _CHECKED: Record[Outcome] = Record(
     *_HEAD,
@@ -161,9 +146,7 @@ _EVERY: Record[Outcome] = Record(
     _CLAIM.every("claims", lambda x: x.claims),
 )
 _UNREADABLE: Record[Outcome] = Record(
-    *_HEAD,
-    Field("ok", {"const": False}, lambda x: x.ok),
-    Field("errors", _ERRORS, _errors),
+    *_HEAD, Field("ok", {"const": False}, lambda x: x.ok), Field("errors", _ERRORS, _errors)
 )
 
 

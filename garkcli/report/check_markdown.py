@@ -65,11 +65,7 @@ def _row(outcome: Outcome) -> list[str]:
         cells = [f"`{_code(outcome.file)}`", "unreadable", "", "", "", "", ""]
     else:
         claims, failed = len(outcome.claims), len(outcome.failed_claims)
-        orders = (
-            analysis.order,
-            analysis.conjugate_order,
-            analysis.pair_order,
-        )
+        orders = (analysis.order, analysis.conjugate_order, analysis.pair_order)
         cells = [
             f"`{_code(outcome.file)}`",
             *(_order(order) for order in orders),

@@ -78,11 +78,7 @@ def order_number(order: AnyOrder) -> str:
 
 
 def with_time_lines(
-    label: str,
-    order: AnyOrder,
-    tableau: Tableau,
-    paint: Paint,
-    shown: Shown,
+    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: Shown
 ) -> list[str]:
     """The order on y' = f(t, y), as the nodes are not the row sums."""
     timed = with_time(tableau)
@@ -122,9 +118,7 @@ def one_order(
     return [head, *lines]
 
 
-def _failure(
-    failed: str, witness: Witness, tableau: Tableau, digits: int | None
-) -> list[str]:
+def _failure(failed: str, witness: Witness, tableau: Tableau, digits: int | None) -> list[str]:
     """The tree that fails, how far off its condition is, and its drawing where it fits."""
     has_colours = tableau.size > 1
     tree = format_tree(witness.tree, has_colours)
@@ -158,20 +152,14 @@ def doubt_text(order: RoundedOrder) -> str:
     return f"order {next_order} is not decided: {reached}, {why}"
 
 
-def suggestion_lines(
-    found: Suggestion, tolerance: fmpq | None, paint: Paint
-) -> list[str]:
+def suggestion_lines(found: Suggestion, tolerance: fmpq | None, paint: Paint) -> list[str]:
     """The coefficients look rounded, or more so than they say: what to write into the file."""
     hint = f"  {paint('note', 'hint')}:"
     cure = f"with the line  {found.line}  the order is {found.order}"
     rounding = size(found.rounding)
     if tolerance is not None:
         effect = f"rounding by {decimal(tolerance)} makes residuals up to {rounding}"
-        return [
-            f"{hint} {effect}:",
-            "        the tolerance is too tight;",
-            f"        {cure}",
-        ]
+        return [f"{hint} {effect}:", "        the tolerance is too tight;", f"        {cure}"]
     small = f"up to order {found.order} the residuals are at most {rounding}"
     return [
         f"{hint} {small}, then {size(found.genuine)}:",
@@ -218,8 +206,4 @@ def _residual(witness: Witness, digits: int | None) -> list[str]:
         return [f"about {value} instead of {required}, off by {residual}"]
     if len(value) + len(residual) < _ONE_LINE:
         return [f"{value} instead of {required}, off by {residual}"]
-    return [
-        f"value    {value}",
-        f"required {required}",
-        f"residual {residual}",
-    ]
+    return [f"value    {value}", f"required {required}", f"residual {residual}"]

@@ -32,9 +32,7 @@ _ODDITIES = {
 """Properties that are told where they are unusual."""
 
 
-def property_lines(
-    subject: Subject, has_further: bool = False
-) -> list[tuple[str, str]]:
+def property_lines(subject: Subject, has_further: bool = False) -> list[tuple[str, str]]:
     """The block of a plain check, as labels with texts: only what has meaning and is not usual.
 
     Args:

@@ -41,13 +41,7 @@ def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
         "version": "2.1.0",
         "runs": [
             {
-                "tool": {
-                    "driver": {
-                        "name": "gark",
-                        "version": __version__,
-                        "rules": rules,
-                    }
-                },
+                "tool": {"driver": {"name": "gark", "version": __version__, "rules": rules}},
                 "columnKind": "unicodeCodePoints",
                 "results": [_result(x, places.index(x.rule)) for x in found],
             }
@@ -57,11 +51,7 @@ def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
 
 
 def _result(finding: Finding, place: int) -> dict[str, Any]:
-    text = (
-        f"{finding.message}; {finding.help}"
-        if finding.help
-        else finding.message
-    )
+    text = f"{finding.message}; {finding.help}" if finding.help else finding.message
     region = {"startLine": finding.line, "startColumn": finding.column}
     code = {"properties": {"code": finding.code}} if finding.code else {}
     return {

@@ -15,18 +15,8 @@ from garkcli.exact.display import decimal
 from garkcli.glossary.faults import code_of
 from garkcli.page.paint import Paint, counted, folded, indented
 from garkcli.page.plain import inert, printable
-from garkcli.report.check_conditions import (
-    labelled,
-    simplifying_lines,
-    structure_lines,
-)
-from garkcli.report.check_orders import (
-    LABEL,
-    Shown,
-    order_lines,
-    order_number,
-    suggestion_lines,
-)
+from garkcli.report.check_conditions import labelled, simplifying_lines, structure_lines
+from garkcli.report.check_orders import LABEL, Shown, order_lines, order_number, suggestion_lines
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -36,10 +26,7 @@ _WIDTH = 80
 
 
 def render(
-    outcomes: Sequence[Outcome],
-    paint: Paint,
-    verbosity: int = 0,
-    digits: int | None = None,
+    outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0, digits: int | None = None
 ) -> str:
     """The report on some files.
 
@@ -68,9 +55,7 @@ def render(
     return inert(text) + "\n"
 
 
-def _outcome(
-    outcome: Outcome, paint: Paint, full: bool, quiet: bool, digits: int | None
-) -> str:
+def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool, digits: int | None) -> str:
     if outcome.every is not None:
         lines = _every(outcome, outcome.every, paint, full, quiet)
         return "\n".join(lines)
@@ -92,9 +77,7 @@ def _outcome(
     return "\n".join(lines)
 
 
-def _every(
-    outcome: Outcome, found: EveryValue, paint: Paint, full: bool, quiet: bool
-) -> list[str]:
+def _every(outcome: Outcome, found: EveryValue, paint: Paint, full: bool, quiet: bool) -> list[str]:
     """A file with free parameters."""
     from garkcli.report.every_text import every_line, every_lines
 
@@ -194,9 +177,7 @@ def _title(outcome: Outcome) -> list[str]:
     return [f"{file}:", f"  {name}"]
 
 
-def _full(
-    outcome: Outcome, analysis: Analysis, paint: Paint, digits: int | None
-) -> list[str]:
+def _full(outcome: Outcome, analysis: Analysis, paint: Paint, digits: int | None) -> list[str]:
     tableau = analysis.tableau
     kind = kind_text(tableau, outcome.structure, analysis.tolerance)
     lines = [paint("strong", line) for line in _title(outcome)]
@@ -210,9 +191,7 @@ def _full(
         lines += further_lines(analysis, paint, shown)
     lines += _left_behind(outcome)
     if analysis.suggestion is not None:
-        lines += suggestion_lines(
-            analysis.suggestion, analysis.tolerance, paint
-        )
+        lines += suggestion_lines(analysis.suggestion, analysis.tolerance, paint)
     if analysis.misprint is not None:
         from garkcli.report.hints import misprint_lines
 
@@ -280,10 +259,7 @@ def _domain(tableau: Tableau) -> str:
 
 def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
     """What the method is like: what is worth a word, or everything where that was asked for."""
-    from garkcli.report.check_properties import (
-        every_property_lines,
-        property_lines,
-    )
+    from garkcli.report.check_properties import every_property_lines, property_lines
 
     if outcome.wants_properties:
         return every_property_lines(analysis.subject)

@@ -65,9 +65,7 @@ def _work(cited: Cited) -> object:
         return cited.text
     own = {"where", "coefficients", "note"}
     return tuple(
-        getattr(reference, field.name)
-        for field in fields(reference)
-        if field.name not in own
+        getattr(reference, field.name) for field in fields(reference) if field.name not in own
     )
 
 
@@ -79,11 +77,7 @@ def keys(cited: Sequence[Cited]) -> list[str]:
     plain = [_key(one) for one in cited]
     found = []
     for one, key in zip(cited, plain, strict=True):
-        same = sorted(
-            other.text
-            for other, its in zip(cited, plain, strict=True)
-            if its == key
-        )
+        same = sorted(other.text for other, its in zip(cited, plain, strict=True) if its == key)
         letter = ""
         if len(same) > 1:
             letter = _numbered(same.index(one.text))
@@ -238,9 +232,7 @@ def title(text: str) -> str:
     written = list(map(_kept, pieces))
     first = pieces[0]
     if first[:1].isupper() and not _has_capital(first[1:]):
-        written[0] = letters(
-            first
-        )  # it is the first of a sentence in every style
+        written[0] = letters(first)  # it is the first of a sentence in every style
     return "".join(written)
 
 
@@ -291,14 +283,9 @@ _CITED: Record[tuple[Cited, str]] = Record(
     Field("methods", array(TEXT), lambda x: list(x[0].methods)),
     Field("key", TEXT, lambda x: x[1]),
     Field("text", nullable(TEXT), lambda x: x[0].text or None),
-    Field(
-        "reference",
-        nullable(REFERENCE),
-        lambda x: reference_data(x[0].reference),
-    ),
+    Field("reference", nullable(REFERENCE), lambda x: reference_data(x[0].reference)),
     Field("bibtex", nullable(TEXT), _bibtex_or_none),
 )
 _REPORT: Record[Sequence[Cited]] = Record(
-    schema_named(SCHEMA),
-    _CITED.every("references", _with_keys),
+    schema_named(SCHEMA), _CITED.every("references", _with_keys)
 )

@@ -23,8 +23,7 @@ class _Told(NamedTuple):
 
 
 _CLAIM: Record[tuple[str, str]] = Record(
-    Field("claim", TEXT, lambda x: x[0]),
-    Field("value", TEXT, lambda x: x[1]),
+    Field("claim", TEXT, lambda x: x[0]), Field("value", TEXT, lambda x: x[1])
 )
 _FILE: Record[TrueClaims] = Record(
     Field("file", TEXT, lambda x: x.file),

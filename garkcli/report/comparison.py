@@ -92,10 +92,7 @@ def _about(result: Convergence) -> str:
 
 
 def _text(
-    named: Sequence[tuple[str, Entry]],
-    tested: Tested,
-    paint: Paint,
-    with_work: bool,
+    named: Sequence[tuple[str, Entry]], tested: Tested, paint: Paint, with_work: bool
 ) -> list[str]:
     lines = [paint("strong", f"{len(named)} methods")]
     if tested:

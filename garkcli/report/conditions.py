@@ -14,11 +14,7 @@ from garkcli.report.conditions_data import ConditionRow, Valued, shown
 from garkcli.report.symplectic import legend_lines, member_lines, summary_lines
 from garkcli.report.symplectic_subject import Subject
 from garkcli.report.trees import picture
-from garkcli.trees.notation import (
-    format_latex,
-    format_tree,
-    vertex_letters,
-)
+from garkcli.trees.notation import format_latex, format_tree, vertex_letters
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""
@@ -74,9 +70,7 @@ def render(
         yield from _text(rows, paint, width, subject, valued)
 
 
-def _csv(
-    rows: Iterable[ConditionRow], heading: Sequence[str]
-) -> Iterator[str]:
+def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
     """The rows under their keys; under ``heading`` where there are none, since no condition
     fails.
     """
@@ -266,9 +260,7 @@ def _latex_decimal(value: Number, digits: int) -> str:
     return number(to_decimal(value, digits))
 
 
-def _latex(
-    rows: Iterable[ConditionRow], subject: Subject | None = None
-) -> Iterator[str]:
+def _latex(rows: Iterable[ConditionRow], subject: Subject | None = None) -> Iterator[str]:
     if subject is not None:
         for line in legend_lines(subject):
             yield f"% {line}"

@@ -10,11 +10,7 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.notation import (
-    condition_latex,
-    condition_text,
-    vertex_letters,
-)
+from garkcli.trees.notation import condition_latex, condition_text, vertex_letters
 from garkcli.trees.tree import Tree
 
 

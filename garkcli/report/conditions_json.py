@@ -28,9 +28,7 @@ SCHEMA = "gark/conditions/1"
 
 
 def json_of(
-    rows: Iterable[ConditionRow],
-    subject: Subject | None,
-    valued: Valued | None,
+    rows: Iterable[ConditionRow], subject: Subject | None, valued: Valued | None
 ) -> Iterator[str]:
     """The table as pieces of text.
 
@@ -60,10 +58,7 @@ def row_data(row: ConditionRow) -> dict[str, Any]:
 
 def conditions_report_schema() -> Schema:
     """The JSON Schema of these reports: of all methods, or with the values of one."""
-    forms = [
-        head.with_rows("conditions", _ROWS[has_values])
-        for has_values, head in _HEADS.items()
-    ]
+    forms = [head.with_rows("conditions", _ROWS[has_values]) for has_values, head in _HEADS.items()]
     return published("report of gark conditions", one_of(*forms))
 
 
@@ -77,9 +72,7 @@ class _Scope(NamedTuple):
 _Value: TypeAlias = Callable[[ConditionRow, Condition], object]
 
 
-def _of_condition(
-    name: str, schema: Schema, value: _Value
-) -> Field[ConditionRow]:
+def _of_condition(name: str, schema: Schema, value: _Value) -> Field[ConditionRow]:
     """A field of rows that have values."""
 
     def found(row: ConditionRow) -> object:
@@ -119,16 +112,10 @@ _OF_METHOD: tuple[Field[_Scope], ...] = (
     Field("colours", array(TEXT), _names),
     Field("tolerance", nullable(TEXT), _tolerance),
 )
-_INDEPENDENT: Field[_Scope] = SUBJECT.optional(
-    "symplectic", lambda x: x.subject
-)
+_INDEPENDENT: Field[_Scope] = SUBJECT.optional("symplectic", lambda x: x.subject)
 _TREE: tuple[Field[ConditionRow], ...] = (
     Field("tree", TEXT, lambda x: format_tree(x.tree, not x.is_shape)),
-    Field(
-        "root",
-        nullable(POSITION),
-        lambda x: None if x.is_shape else x.tree.root + 1,
-    ),
+    Field("root", nullable(POSITION), lambda x: None if x.is_shape else x.tree.root + 1),
     Field("order", POSITION, lambda x: x.tree.order),
     Field("sigma", POSITION, lambda x: x.tree.symmetry),
     Field("gamma", POSITION, lambda x: x.tree.density),
@@ -138,25 +125,14 @@ _TREE: tuple[Field[ConditionRow], ...] = (
 _KIND: Schema = {"enum": ["coupling", "diagonal"]}
 _VALUES: tuple[Field[ConditionRow], ...] = (
     _of_condition("value", NUMERAL, lambda row, x: shown(x.value, row.digits)),
-    _of_condition(
-        "required", NUMERAL, lambda row, x: shown(x.required, row.digits)
-    ),
-    _of_condition(
-        "residual", NUMERAL, lambda row, x: shown(x.residual, row.digits)
-    ),
+    _of_condition("required", NUMERAL, lambda row, x: shown(x.required, row.digits)),
+    _of_condition("residual", NUMERAL, lambda row, x: shown(x.residual, row.digits)),
     _of_condition("holds", FLAG, lambda _, x: x.holds),
-    _of_condition(
-        "kind", _KIND, lambda _, x: "coupling" if x.is_coupling else "diagonal"
-    ),
+    _of_condition("kind", _KIND, lambda _, x: "coupling" if x.is_coupling else "diagonal"),
     Field("multiplicity", POSITION, _multiplicity, is_optional=True),
 )
 _CLASS: tuple[Field[ConditionRow], ...] = (
-    Field(
-        "stands_for",
-        POSITION,
-        lambda x: x.stands_for or None,
-        is_optional=True,
-    ),
+    Field("stands_for", POSITION, lambda x: x.stands_for or None, is_optional=True),
     Field("members", array(TEXT), _members, is_optional=True),
 )
 _HEADS: dict[bool, Record[_Scope]] = {

@@ -7,14 +7,7 @@ from textwrap import wrap
 
 from flint import arb
 
-from garkcli.convergence.result import (
-    CLOSE,
-    MAX_ORDER,
-    Convergence,
-    Cost,
-    Row,
-    Stiffness,
-)
+from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Cost, Row, Stiffness
 from garkcli.page.asciiplot import terminal_curves, terminal_plot
 from garkcli.page.figures import rounded, scientific
 from garkcli.page.paint import Paint, aligned, indented
@@ -99,9 +92,7 @@ def _tables(result: Convergence) -> list[list[str]]:
     slopes = ["slope"]
     slopes += [_slope(row) for row in rows]
     columns = [errors, slopes]
-    energies = [
-        row.energy_error for row in rows if row.energy_error is not None
-    ]
+    energies = [row.energy_error for row in rows if row.energy_error is not None]
     if energies:
         columns.append(["energy error", *map(rounded, energies)])
     for k, name in enumerate(invariant_names(result)):
@@ -115,9 +106,7 @@ def _tables(result: Convergence) -> list[list[str]]:
     return _fitting(steps, columns)
 
 
-def _fitting(
-    steps: Sequence[str], columns: list[list[str]]
-) -> list[list[str]]:
+def _fitting(steps: Sequence[str], columns: list[list[str]]) -> list[list[str]]:
     """Tables with the step sizes on the left and as many of the columns as fit."""
     tables = []
     while columns:
@@ -207,9 +196,7 @@ def verdict(result: Convergence, paint: Paint) -> str:
         return paint("note", "undecided")
     if result.verdict == "reduced":
         return paint("note", "reduced by stiffness")
-    return paint.verdict(
-        result.verdict == "agree", "they agree", "THEY DISAGREE"
-    )
+    return paint.verdict(result.verdict == "agree", "they agree", "THEY DISAGREE")
 
 
 def remarks(result: Convergence) -> list[str]:
@@ -227,9 +214,7 @@ def remarks(result: Convergence) -> list[str]:
     elif result.short_time is not None:
         said.append(_of_short_time(result))
     elif not result.has_settled:
-        said.append(
-            "the rounding of the coefficients comes before the slopes have settled"
-        )
+        said.append("the rounding of the coefficients comes before the slopes have settled")
     if len(result.rows) == 1 and result.verdict == "undecided":
         said.append("one step size shows no order")
     return said
@@ -239,9 +224,7 @@ def _of_stiffness(result: Convergence, stiff: Stiffness) -> str:
     """What the slopes of a stiff problem are to be held against."""
     size = scientific(arb(stiff.resolution), 1)
     if not stiff.is_stable:
-        return (
-            f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
-        )
+        return f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
     return (
         f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {predicted(result)}, "
         f"stage order {stiff.stage_order}"
@@ -296,9 +279,7 @@ def _work(result: Convergence) -> list[str]:
 def _work_plot(result: Convergence) -> list[str]:
     """The errors over what they have cost, after an empty line."""
     points = [
-        (float(row.cost.evaluations), row.error)
-        for row in result.rows
-        if row.cost is not None
+        (float(row.cost.evaluations), row.error) for row in result.rows if row.cost is not None
     ]
     plot = terminal_curves({"•": points}, "evaluations")
     return ["", *indented(plot.splitlines())]

@@ -61,16 +61,12 @@ def csv_of(result: Convergence, with_work: bool) -> str:
 
 def csv_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as CSV, a row a method and step size; methods without a result have none."""
-    tests = [
-        ([x.file, x.name], x.result) for x in entries if x.result is not None
-    ]
+    tests = [([x.file, x.name], x.result) for x in entries if x.result is not None]
     return _written(tests, ["file", "method"], with_work)
 
 
 def _written(
-    tests: Sequence[tuple[list[str], Convergence]],
-    first: list[str],
-    with_work: bool,
+    tests: Sequence[tuple[list[str], Convergence]], first: list[str], with_work: bool
 ) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -25,12 +25,7 @@ from garkcli.page.schema import (
     one_of,
     published,
 )
-from garkcli.report.convergence_data import (
-    DIGITS,
-    SLOPE_DIGITS,
-    Entry,
-    invariant_names,
-)
+from garkcli.report.convergence_data import DIGITS, SLOPE_DIGITS, Entry, invariant_names
 from garkcli.report.fault_json import FAULT
 from garkcli.report.problem_json import NAME, TERMS, Stepped
 
@@ -130,10 +125,7 @@ def _place(order: float | None) -> float | None:
 
 
 _BELOW_ROUND_OFF: Field[_Step] = Field(
-    "below_round_off",
-    array(TEXT),
-    lambda x: x.below_round_off,
-    is_optional=True,
+    "below_round_off", array(TEXT), lambda x: x.below_round_off, is_optional=True
 )
 _ERRORS: Schema = {"type": "object", "additionalProperties": SIZE}
 _STEP: Record[_Step] = Record(
@@ -153,9 +145,7 @@ _COST: Record[Cost] = Record(
     Field("jacobians", COUNT, lambda x: x.jacobians),
     Field("seconds", SIZE, lambda x: x.seconds),
 )
-_WORKED_STEP: Record[_Step] = Record(
-    *_STEP.fields, _COST.or_null("work", lambda x: x.row.cost)
-)
+_WORKED_STEP: Record[_Step] = Record(*_STEP.fields, _COST.or_null("work", lambda x: x.row.cost))
 
 
 def _steps(test: _Test) -> list[dict[str, Any]]:
@@ -239,8 +229,7 @@ _HEAD: tuple[Field[_Tried], ...] = (
     Field("ok", FLAG, lambda x: x.entry.exit_code == 0),
 )
 _TESTED: dict[type[Stepped], Record[_Tried]] = {
-    kind: Record(*_HEAD, *inside(lambda x: x.test, form.fields))
-    for kind, form in _REPORTS.items()
+    kind: Record(*_HEAD, *inside(lambda x: x.test, form.fields)) for kind, form in _REPORTS.items()
 }
 _UNTESTED: Record[_Tried] = Record(
     *_HEAD,

@@ -36,9 +36,7 @@ def costs_of(tested: Tested) -> list[str]:
     lines = indented(padded(rows, "  "))
     if not is_timed:
         lines.append(f"  {NO_TIME}")
-    tables = [
-        _at_equal_errors(tested, what) for what in ("evaluations", "seconds")
-    ]
+    tables = [_at_equal_errors(tested, what) for what in ("evaluations", "seconds")]
     for table in tables:
         if table:
             lines += ["", *indented(table)]
@@ -54,9 +52,7 @@ def amount(cost: Cost | None, what: str) -> float | None:
     return float(cost.evaluations) if what == "evaluations" else cost.seconds
 
 
-def curve(
-    result: Convergence, against: str
-) -> Iterator[tuple[float | fmpq, arb]]:
+def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb]]:
     """The points (x, error) of a plot against h, evaluations or seconds, where both are known and
     positive.
     """
@@ -116,9 +112,7 @@ def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
     return decades[::apart]
 
 
-def _between(
-    points: Sequence[tuple[float, float]], goal: float
-) -> float | None:
+def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None:
     """The second coordinate where the first is ``goal``, on the line between two neighbours."""
     for (a, x), (b, y) in pairwise(points):
         is_between = min(a, b) <= goal <= max(a, b)

@@ -95,11 +95,7 @@ class _StepOf(NamedTuple):
     @property
     def solutions(self) -> list[dict[str, Any]]:
         """All solutions, one after the other."""
-        return [
-            x
-            for found in self.step.found
-            for x in _solutions(self.shown, found)
-        ]
+        return [x for found in self.step.found for x in _solutions(self.shown, found)]
 
 
 class _Root(NamedTuple):

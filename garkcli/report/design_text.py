@@ -13,11 +13,7 @@ from garkcli.design.stable_values import StableValues
 from garkcli.design.step import Found, Step
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.page.plain import printable
 from garkcli.report.stable_values import set_lines
@@ -68,9 +64,7 @@ def render(
     """
     family = design.family
     lines = [printable(source), f"  {printable(family.name)}"]
-    unknowns = (
-        f"unknown {', '.join(family.parameters)}; order of the {design.whose}"
-    )
+    unknowns = f"unknown {', '.join(family.parameters)}; order of the {design.whose}"
     lines += wrap(unknowns, width, initial_indent="  ", subsequent_indent="  ")
     lines += [f"  {_left(choice)}" for choice in choices]
     lines.append("")
@@ -100,9 +94,7 @@ def _kind_of(step: Step) -> tuple[str, tuple[str, ...]]:
     return step.kind, tuple(map(str, step.ideal.polynomials))
 
 
-def _of_steps(
-    design: Design, steps: Sequence[Step], digits: int, width: int
-) -> Iterator[str]:
+def _of_steps(design: Design, steps: Sequence[Step], digits: int, width: int) -> Iterator[str]:
     first, last = steps[0].order, steps[-1].order
     orders = f"order {first}" if first == last else f"order {first} to {last}"
     head = f"  {orders:<15}"
@@ -132,22 +124,14 @@ def _of_steps(
             yield from _polynomials(step, width)
             for found in step.found:
                 yield from _solutions(design, found, digits, width)
-    if (
-        step.ideal is not None
-        and not step.ideal.is_proved
-        and step.kind != "undecided"
-    ):
-        said = (
-            "found by msolve: each is proved, that there are no others is not"
-        )
+    if step.ideal is not None and not step.ideal.is_proved and step.kind != "undecided":
+        said = "found by msolve: each is proved, that there are no others is not"
         yield from _said(said, width)
 
 
 def _witness(design: Design, step: Step, width: int) -> Iterator[str]:
     if step.witness is None:
-        said = (
-            "what is wanted besides cannot be met, not even by complex values"
-        )
+        said = "what is wanted besides cannot be met, not even by complex values"
         yield from _said(said, width)
         return
     text = "with the conditions before it, that of "
@@ -165,9 +149,7 @@ def _said(text: str, width: int) -> Iterator[str]:
 def _family(step: Step) -> str:
     assert step.ideal is not None
     dimension = step.ideal.dimension
-    return (
-        f"a family of dimension {dimension}: the zeros, real and complex, of"
-    )
+    return f"a family of dimension {dimension}: the zeros, real and complex, of"
 
 
 def _polynomials(step: Step, width: int) -> Iterator[str]:
@@ -177,12 +159,7 @@ def _polynomials(step: Step, width: int) -> Iterator[str]:
     shown: list[str] = []
     more = len(polynomials)
     for p in polynomials[:MAX_POLYNOMIALS]:
-        lines = wrap(
-            str(p),
-            width,
-            initial_indent=indent,
-            subsequent_indent=indent + "  ",
-        )
+        lines = wrap(str(p), width, initial_indent=indent, subsequent_indent=indent + "  ")
         if shown and len(shown) + len(lines) > MAX_LINES:
             break
         shown += lines
@@ -192,13 +169,9 @@ def _polynomials(step: Step, width: int) -> Iterator[str]:
         yield f"{INDENT}  and {counted(more, 'polynomial')} more, see --format json"
 
 
-def _solutions(
-    design: Design, found: Found, digits: int, width: int
-) -> Iterator[str]:
+def _solutions(design: Design, found: Found, digits: int, width: int) -> Iterator[str]:
     solution = found.solution
-    times = _TIMES.get(
-        solution.multiplicity, f"; {solution.multiplicity} times"
-    )
+    times = _TIMES.get(solution.multiplicity, f"; {solution.multiplicity} times")
     for index, root in enumerate(solution.real):
         said = f"{_verdict(design, found, index)}{times}"
         yield from _said(said, width)
@@ -232,14 +205,10 @@ def _order(design: Design, found: Found) -> str:
     return f"order {least}{found.order.order} of the {design.whose}"
 
 
-def _value(
-    name: str, value: RealRoot, digits: int, width: int
-) -> Iterator[str]:
+def _value(name: str, value: RealRoot, digits: int, width: int) -> Iterator[str]:
     indent = INDENT + "  "
     text = f"{name} = {_number(value, digits)}"
-    yield from wrap(
-        text, width, initial_indent=indent, subsequent_indent=indent + "  "
-    )
+    yield from wrap(text, width, initial_indent=indent, subsequent_indent=indent + "  ")
 
 
 def _number(value: RealRoot, digits: int) -> str:

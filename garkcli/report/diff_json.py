@@ -7,11 +7,7 @@ from typing import Any, NamedTuple
 from flint import arb
 
 from garkcli.check.analysis import AnyOrder
-from garkcli.comparison.comparison import (
-    Comparison,
-    OrderPair,
-    PropertyPair,
-)
+from garkcli.comparison.comparison import Comparison, OrderPair, PropertyPair
 from garkcli.comparison.differences import BlockGap, EntryGap
 from garkcli.comparison.met import Met
 from garkcli.comparison.sameness import Sameness
@@ -159,9 +155,7 @@ _METHOD: Record[_Method] = Record(
     Field("stages", array(POSITION), lambda x: list(x.method.stages)),
     Field("tolerance", nullable(EXACT), lambda x: _tolerance(x.method)),
 )
-_RELATION: Schema = {
-    "enum": ["identical", "same", "within-rounding", "different", "undecided"],
-}
+_RELATION: Schema = {"enum": ["identical", "same", "within-rounding", "different", "undecided"]}
 
 
 def _first(shown: _Shown) -> _Method:

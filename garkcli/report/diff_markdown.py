@@ -67,11 +67,7 @@ def _conditions(found: Comparison) -> Iterator[str]:
     met = found.met
     if met is None or not met.pairs:
         return
-    yield from (
-        "",
-        "| condition | order | first | second |",
-        "|---|---|---|---|",
-    )
+    yield from ("", "| condition | order | first | second |", "|---|---|---|---|")
     for one, other in met.pairs:
         tree = _code(format_tree(one.tree, found.one.tableau.size > 1))
         first = "met" if one.holds else "not met"

@@ -8,13 +8,7 @@ from garkcli.check.analysis import AnyOrder
 from garkcli.comparison.comparison import WITH_TIME, Comparison, PropertyPair
 from garkcli.comparison.differences import BlockGap
 from garkcli.order.conditions import Condition
-from garkcli.page.paint import (
-    Paint,
-    aligned,
-    counted,
-    folded,
-    indented,
-)
+from garkcli.page.paint import Paint, aligned, counted, folded, indented
 from garkcli.page.plain import printable
 from garkcli.properties.property import Verdict
 from garkcli.report.diff_words import (
@@ -46,12 +40,7 @@ def render(found: Comparison, files: tuple[str, str], paint: Paint) -> str:
     style = "good" if found.relation in _GOOD else "bad"
     lines += ["", paint(style, first), *indented(others)]
     lines += indented(tolerance_lines(found))
-    for part in (
-        _gaps(found),
-        _orders(found),
-        _conditions(found),
-        _properties(found),
-    ):
+    for part in (_gaps(found), _orders(found), _conditions(found), _properties(found)):
         if part:
             lines += ["", *part]
     return "\n".join(lines) + "\n"
@@ -136,10 +125,7 @@ def _conditions(found: Comparison) -> list[str]:
         return [f"no condition to order {met.order} is met by one alone"]
     is_one = found.one.tableau.size == 1
     lines = []
-    for which, pairs, at in (
-        ("first", met.first_only, 1),
-        ("second", met.second_only, 0),
-    ):
+    for which, pairs, at in (("first", met.first_only, 1), ("second", met.second_only, 0)):
         upto = f"conditions to order {met.order} that the {which} alone meets"
         lines.append(f"{upto}: {len(pairs) or 'none'}")
         for pair in pairs[:_MOST_SHOWN]:

@@ -11,9 +11,7 @@ from garkcli.page.plain import csv_cell
 from garkcli.report.energy_text import Report, text_of
 
 
-def render(
-    report: Report, format: str, paint: Paint, is_long: bool = True
-) -> str:
+def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:
     """The report as text, JSON or CSV; see ``text_of``."""
     if format == "json":
         from garkcli.report.energy_json import json_of
@@ -27,9 +25,7 @@ def render(
 def _csv(run: LongRun) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    names = [
-        csv_cell(history.name.replace(" ", "_")) for history in run.invariants
-    ]
+    names = [csv_cell(history.name.replace(" ", "_")) for history in run.invariants]
     writer.writerow(["t", *(f"{name}_error" for name in names)])
     columns = [history.errors for history in run.invariants]
     for t, *errors in zip(run.times, *columns, strict=True):

@@ -112,9 +112,7 @@ def _steps(run: LongRun) -> str:
     return f"{run.steps} steps, {how}"
 
 
-def _history(
-    history: InvariantHistory, run: LongRun, paint: Paint
-) -> list[str]:
+def _history(history: InvariantHistory, run: LongRun, paint: Paint) -> list[str]:
     """What became of one conserved quantity, in lines beside their labels."""
     names = [x.name for x in run.invariants]
     width = max(15, *map(len, names)) + 2
@@ -206,9 +204,7 @@ def _unstable(history: InvariantHistory, run: LongRun) -> str:
         return f": blown up after {run.steps} steps, at t = {run.end:g}"
     time = to_float(run.escaped)
     error = measured(history.errors[-1], history.round_off, 2)
-    return (
-        f": the orbit escapes after t = {time:g}, where the error is {error}"
-    )
+    return f": the orbit escapes after t = {time:g}, where the error is {error}"
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> str:
@@ -219,9 +215,7 @@ def _undecided(history: InvariantHistory, run: LongRun) -> str:
         return f"{slope}; a slow modulation may do that"
     if history.shape == "none":
         return f"the motion turns back {counted(run.turns, 'time')} only"
-    return (
-        "it moves to another level; that may happen once, or again and again"
-    )
+    return "it moves to another level; that may happen once, or again and again"
 
 
 def _cure(history: InvariantHistory) -> list[str]:
@@ -238,9 +232,7 @@ def _bounded(history: InvariantHistory, run: LongRun) -> str:
         return " for all time: det R(h) = 1 and |tr R(h)| < 2, decided exactly"
     in_all = (history.uncertainty or 0.0) * run.end
     if history.coefficients > in_all / 2:
-        return (
-            ": no drift beyond what the rounding of the coefficients can cause"
-        )
+        return ": no drift beyond what the rounding of the coefficients can cause"
     return ": no drift beyond its uncertainty"
 
 
@@ -275,9 +267,7 @@ def _determinant(stability: Stability) -> str:
     return to_decimal(difference, 4)
 
 
-def _symplectic(
-    found: Symplecticity, stability: Stability | None, paint: Paint
-) -> list[str]:
+def _symplectic(found: Symplecticity, stability: Stability | None, paint: Paint) -> list[str]:
     is_refuted = any(x.is_seen for x in found.defects)
     if stability is not None and not stability.is_symplectic:
         is_refuted = True

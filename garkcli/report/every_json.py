@@ -8,17 +8,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.exact.display import to_text
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.record import Field, Record
-from garkcli.page.schema import (
-    COUNT,
-    FLAG,
-    INTEGER,
-    POSITION,
-    TEXT,
-    TRUE,
-    Schema,
-    array,
-    nullable,
-)
+from garkcli.page.schema import COUNT, FLAG, INTEGER, POSITION, TEXT, TRUE, Schema, array, nullable
 from garkcli.properties.keys import KEYS
 from garkcli.trees.notation import format_tree
 
@@ -34,12 +24,10 @@ _VALUE: Schema = {
     "description": "The answer; null where there is none.",
 }
 _SPECIAL: Record[tuple[Any, Any]] = Record(
-    Field("at", ALGEBRAIC, lambda x: root_data(x[0])),
-    Field("value", _VALUE, lambda x: x[1]),
+    Field("at", ALGEBRAIC, lambda x: root_data(x[0])), Field("value", _VALUE, lambda x: x[1])
 )
 _ELSEWHERE: Record[tuple[str, Any]] = Record(
-    Field("zero", TEXT, lambda x: x[0]),
-    Field("value", _VALUE, lambda x: x[1]),
+    Field("zero", TEXT, lambda x: x[0]), Field("value", _VALUE, lambda x: x[1])
 )
 
 
@@ -156,11 +144,7 @@ def _verdicts(outcome: Outcome) -> dict[str, Any] | None:
 
 EVERY_VERDICTS: Field[Outcome] = Field(
     "every_property",
-    {
-        "type": "object",
-        "properties": dict.fromkeys(KEYS, _FACTS),
-        "additionalProperties": False,
-    },
+    {"type": "object", "properties": dict.fromkeys(KEYS, _FACTS), "additionalProperties": False},
     _verdicts,
     is_optional=True,
 )

@@ -10,24 +10,14 @@ from garkcli.check.every_facts import Fact, told
 from garkcli.check.every_family import EveryFamily
 from garkcli.check.every_properties import find_property
 from garkcli.check.every_words import fact_text
-from garkcli.design.stability_functions import (
-    FamilyFunction,
-    family_functions,
-)
+from garkcli.design.stability_functions import FamilyFunction, family_functions
 from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.polynomial_text import power_text
 from garkcli.page.json_text import to_json
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    EXACT,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    published,
-)
+from garkcli.page.schema import EXACT, TEXT, Schema, array, nullable, published
 from garkcli.report.every_json import FACT
 
 SCHEMA = "gark/stability-every/1"
@@ -60,9 +50,7 @@ class EveryStability:
         return {key: find_property(self.family, key, _LIMIT) for key in KINDS}
 
 
-def every_stability(
-    file: str, name: str, family: EveryFamily
-) -> EveryStability:
+def every_stability(file: str, name: str, family: EveryFamily) -> EveryStability:
     """The stability of a family."""
     functions = family_functions(family.tableau, family.ring)
     return EveryStability(file, name, family, functions)
@@ -79,10 +67,7 @@ def render(found: EveryStability, format: str) -> str:
 
 def every_stability_schema() -> Schema:
     """The JSON Schema of these reports."""
-    return published(
-        "report of gark stability for every value of parameters",
-        _REPORT.schema,
-    )
+    return published("report of gark stability for every value of parameters", _REPORT.schema)
 
 
 def _text(found: EveryStability) -> Iterator[str]:
@@ -199,10 +184,7 @@ _FUNCTION: Record[FamilyFunction] = Record(
 
 
 def _facts(found: EveryStability) -> dict[str, Any]:
-    return {
-        key.replace("-", "_"): FACT.data(fact)
-        for key, fact in found.facts.items()
-    }
+    return {key.replace("-", "_"): FACT.data(fact) for key, fact in found.facts.items()}
 
 
 _FACTS: Schema = {

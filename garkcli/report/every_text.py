@@ -23,9 +23,7 @@ _NAMED = 8
 """Most parameters that are named; the others are counted."""
 
 
-def every_lines(
-    outcome: Outcome, found: EveryValue, paint: Paint
-) -> list[str]:
+def every_lines(outcome: Outcome, found: EveryValue, paint: Paint) -> list[str]:
     """All that is told, but for the title and the claims.
 
     Args:
@@ -88,9 +86,7 @@ def _orders(outcome: Outcome, found: EveryValue, paint: Paint) -> list[str]:
     return lines + _further(found, paint, shown)
 
 
-def _further(
-    found: EveryValue, paint: Paint, shown: list[tuple[str, str]]
-) -> list[str]:
+def _further(found: EveryValue, paint: Paint, shown: list[tuple[str, str]]) -> list[str]:
     """The order on problems with time and that of the embedded weights, where these are others."""
     lines: list[str] = []
     orders = [("embedded order", found.embedded)]
@@ -176,10 +172,7 @@ def _conditions(found: EveryValue) -> list[str]:
     if simplifying is None:
         return _labelled("B, C, D", "not decided for every value")
     lines = _table("B(r)", ["  ".join(map(str, simplifying.B))])
-    for label, table in (
-        ("C(eta)", simplifying.C),
-        ("D(zeta)", simplifying.D),
-    ):
+    for label, table in (("C(eta)", simplifying.C), ("D(zeta)", simplifying.D)):
         rows = [[_cell(number) for number in row] for row in table]
         lines += _table(label, aligned(rows))
     bound = simplifying.bound

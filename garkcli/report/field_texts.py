@@ -28,10 +28,7 @@ def _walked(node: Any, path: tuple[str, ...]) -> Any:
     found = {}
     for word, part in node.items():
         if word == "properties":
-            found[word] = {
-                name: _field(value, (*path, name))
-                for name, value in part.items()
-            }
+            found[word] = {name: _field(value, (*path, name)) for name, value in part.items()}
         else:
             found[word] = _walked(part, path)
     return found
@@ -71,9 +68,7 @@ def _elsewhere() -> Mapping[str, str]:
     return found
 
 
-def fields_of(
-    node: Any, path: tuple[str, ...]
-) -> Iterator[tuple[tuple[str, ...], Any]]:
+def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
     """The path of each field of a schema, with the schema of its values."""
     if isinstance(node, list):
         for part in node:

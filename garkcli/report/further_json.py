@@ -6,16 +6,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.exact.display import to_text
 from garkcli.page.record import Field, Record, inside
-from garkcli.page.schema import (
-    COUNT,
-    EXACT,
-    FLAG,
-    POSITION,
-    TEXT,
-    TRUE,
-    array,
-    nullable,
-)
+from garkcli.page.schema import COUNT, EXACT, FLAG, POSITION, TEXT, TRUE, array, nullable
 from garkcli.report.hints_json import CONSTANTS
 from garkcli.report.order_json import order_fields
 from garkcli.trees.notation import format_tree
@@ -52,18 +43,8 @@ _DENSE: Record[DenseFacts] = Record(
     Field("smooth", nullable(FLAG), lambda x: x.is_smooth),
     Field("slope_at_start", nullable(FLAG), lambda x: x.slopes.at_start),
     Field("slope_at_end", nullable(FLAG), lambda x: x.slopes.at_end),
-    Field(
-        "order_is_lower_bound",
-        TRUE,
-        lambda x: x.order.is_lower_bound or None,
-        is_optional=True,
-    ),
-    Field(
-        "order_undecided",
-        TRUE,
-        lambda x: x.order.undecided or None,
-        is_optional=True,
-    ),
+    Field("order_is_lower_bound", TRUE, lambda x: x.order.is_lower_bound or None, is_optional=True),
+    Field("order_undecided", TRUE, lambda x: x.order.undecided or None, is_optional=True),
 )
 
 

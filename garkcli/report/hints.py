@@ -78,9 +78,7 @@ def _failing(blame: Blame, has_colours: bool) -> str:
     return text
 
 
-def misprint_lines(
-    found: Misprint, tableau: Tableau, paint: Paint
-) -> list[str]:
+def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]:
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
     names = [colour.name for colour in tableau.colours]
     residual = size(found.residual)
@@ -112,9 +110,7 @@ def _repair_lines(order: str, repair: str) -> list[str]:
     return [start, new, f"{inner}{joint}{old}"]
 
 
-def _blocks(
-    blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str
-) -> str:
+def _blocks(blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str) -> str:
     found = []
     for l, m in blocks:
         row = names[l]

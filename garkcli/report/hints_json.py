@@ -35,9 +35,7 @@ if TYPE_CHECKING:
 BLOCK: Schema = {**array(POSITION), "minItems": 1, "maxItems": 2}
 """The colours of a block A^{l,m}, or the one of weights b^{l}."""
 _BLOCKS: Schema = array(BLOCK)
-_CLAIMS: Schema = {
-    "enum": ["order", "conjugate-order", "pair-order", "embedded-order"]
-}
+_CLAIMS: Schema = {"enum": ["order", "conjugate-order", "pair-order", "embedded-order"]}
 
 
 def blocks(found: Sequence[tuple[int, int]]) -> list[list[int]]:
@@ -166,12 +164,8 @@ def _analysis(outcome: Outcome) -> Analysis | None:
     return outcome.analysis
 
 
-_OF_MISPRINT: Field[Analysis] = _MISPRINT.optional(
-    "misprint", lambda x: x.misprint
-)
-_OF_SUGGESTION: Field[Analysis] = _SUGGESTION.optional(
-    "suggestion", lambda x: x.suggestion
-)
+_OF_MISPRINT: Field[Analysis] = _MISPRINT.optional("misprint", lambda x: x.misprint)
+_OF_SUGGESTION: Field[Analysis] = _SUGGESTION.optional("suggestion", lambda x: x.suggestion)
 HINTS: tuple[Field[Outcome], ...] = (
     _BLAME.optional("blame", lambda x: x.blame),
     *inside(_analysis, [_OF_MISPRINT]),

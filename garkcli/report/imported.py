@@ -10,15 +10,7 @@ from garkcli.errors import counted
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    published,
-)
+from garkcli.page.schema import COUNT, POSITION, TEXT, Schema, array, nullable, published
 
 SCHEMA = "gark/import/1"
 _WIDTH = 80
@@ -56,8 +48,7 @@ _METHOD: Record[_Told] = Record(
     Field("notes", array(TEXT), lambda x: list(x.result.notes())),
 )
 _REPORT: Record[Sequence[_Told]] = Record(
-    schema_named(SCHEMA),
-    _METHOD.every("methods", lambda x: x),
+    schema_named(SCHEMA), _METHOD.every("methods", lambda x: x)
 )
 
 
@@ -83,9 +74,7 @@ def render_yaml(results: Sequence[Result]) -> str:
     return "---\n".join(texts)
 
 
-def render_text(
-    results: Sequence[Result], files: Mapping[int, str], verbosity: int = 0
-) -> str:
+def render_text(results: Sequence[Result], files: Mapping[int, str], verbosity: int = 0) -> str:
     """A line for each method, with what people should know below it.
 
     Args:

@@ -41,21 +41,13 @@ def render(lists: Lists, format: str, paint: Paint) -> str:
     ):
         lines += ["", paint("strong", title)]
         lines += _entries(entries)
-    lines += [
-        "",
-        "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md.",
-    ]
+    lines += ["", "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md."]
     return "\n".join(lines) + "\n"
 
 
-def _with_orders(
-    schemes: Mapping[str, Scheme] | Mapping[str, Splitting],
-) -> dict[str, str]:
+def _with_orders(schemes: Mapping[str, Scheme] | Mapping[str, Splitting]) -> dict[str, str]:
     """The summaries of schemes, with their orders."""
-    return {
-        name: f"order {scheme.order}: {scheme.summary}"
-        for name, scheme in schemes.items()
-    }
+    return {name: f"order {scheme.order}: {scheme.summary}" for name, scheme in schemes.items()}
 
 
 def _families(families: Mapping[str, Family], paint: Paint) -> list[str]:
@@ -114,8 +106,7 @@ def _entries(entries: Mapping[str, str]) -> list[str]:
 
 
 _OPTION: Record[tuple[str, str]] = Record(
-    Field("key", TEXT, lambda x: x[0]),
-    Field("values", TEXT, lambda x: x[1]),
+    Field("key", TEXT, lambda x: x[0]), Field("values", TEXT, lambda x: x[1])
 )
 
 
@@ -127,8 +118,7 @@ _FAMILY: Record[Family] = Record(
     Field("summary", TEXT, lambda x: x.summary),
 )
 _NAMED: Record[tuple[str, str]] = Record(
-    Field("name", TEXT, lambda x: x[0]),
-    Field("summary", TEXT, lambda x: x[1]),
+    Field("name", TEXT, lambda x: x[0]), Field("summary", TEXT, lambda x: x[1])
 )
 _SCHEME: Record[Scheme | Splitting] = Record(
     Field("name", TEXT, lambda x: x.name),

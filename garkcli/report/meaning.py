@@ -50,9 +50,7 @@ def explain_report_schema() -> Schema:
     return published("report of gark explain", _REPORT.schema)
 
 
-def render(
-    word: str, found: Sequence[Meaning], format: str, paint: Paint
-) -> str:
+def render(word: str, found: Sequence[Meaning], format: str, paint: Paint) -> str:
     """What a word means, as text or as JSON."""
     if format == "json":
         return _REPORT.text(_Word(word, found))

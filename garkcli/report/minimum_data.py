@@ -4,30 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple, get_args
 
-from garkcli.design.minimise.result import (
-    Candidate,
-    Extent,
-    Limit,
-    Minimum,
-    Proof,
-)
+from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.solutions import value_at
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    integral,
-    polynomial_text,
-    root_decimal,
-)
+from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.record import Field, Record
-from garkcli.page.schema import (
-    COUNT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    nullable,
-)
+from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, nullable
 
 
 class Shown(NamedTuple):
@@ -124,11 +107,7 @@ OBJECTIVE: Record[Shown] = Record(
     Field("name", TEXT, lambda x: x.minimum.objective.key),
     Field("order", POSITION, lambda x: x.minimum.step.order),
     Field("value", nullable(TEXT), _decimal),
-    Field(
-        "exact",
-        nullable(ALGEBRAIC),
-        _exact,
-    ),
+    Field("exact", nullable(ALGEBRAIC), _exact),
     Field("among", {"enum": [*get_args(Extent)]}, lambda x: x.minimum.extent),
     Field("compared", COUNT, lambda x: x.minimum.candidates),
     Field("gradient", TEXT, _gradient, is_optional=True),

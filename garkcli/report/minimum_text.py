@@ -12,11 +12,7 @@ from garkcli.design.minimise.result import Candidate, Limit, Minimum
 from garkcli.design.solutions import value_at
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 
 INDENT = " " * 4
@@ -90,24 +86,15 @@ def _among(minimum: Minimum) -> str:
             return "the best of what was found"
 
 
-def _candidate(
-    minimum: Minimum, candidate: Candidate, digits: int, width: int
-) -> Iterator[str]:
+def _candidate(minimum: Minimum, candidate: Candidate, digits: int, width: int) -> Iterator[str]:
     found = candidate.found
     root = found.solution.real[candidate.index]
     for name in minimum.design.family.parameters:
         value = value_at(found.solution.values[name], root)
         text = f"{name} = {_number_text(value, digits)}"
-        yield from wrap(
-            text,
-            width,
-            initial_indent=INDENT,
-            subsequent_indent=INDENT + "  ",
-        )
+        yield from wrap(text, width, initial_indent=INDENT, subsequent_indent=INDENT + "  ")
     if candidate.proof == "exists":
-        yield (
-            f"{INDENT}within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test"
-        )
+        yield (f"{INDENT}within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test")
     if candidate.proof == "numerical":
         yield f"{INDENT}better than what was tried around it"
     if candidate.is_constant:
@@ -115,9 +102,7 @@ def _candidate(
     if found.order is not None:
         least = "at least " if found.order.is_lower_bound else ""
         order = f"{least}{found.order.order}"
-        yield (
-            f"{INDENT}order {order} of the {minimum.design.whose}, by a certificate of its own"
-        )
+        yield (f"{INDENT}order {order} of the {minimum.design.whose}, by a certificate of its own")
 
 
 def _toward(limit: Limit, digits: int) -> str:
@@ -140,9 +125,7 @@ def _value_text(value: RealRoot | None, digits: int) -> str:
         return f"{decimals}…"
     if simple == decimals:
         return simple
-    is_whole = value.exact is not None and Fraction(decimals) == Fraction(
-        simple
-    )
+    is_whole = value.exact is not None and Fraction(decimals) == Fraction(simple)
     return f"{simple} = {decimals}" + ("" if is_whole else "…")
 
 

@@ -22,10 +22,7 @@ _TREE = 30  # columns of a tree beside its numbers
 _DIGITS = 10
 _UNDECIDED = "not decided"
 _FORMLESS = "no Hamiltonian problem has its form"
-_DERIVED = {
-    "pair": "the symplectic pair",
-    "conjugate": "the symplectic conjugate",
-}
+_DERIVED = {"pair": "the symplectic pair", "conjugate": "the symplectic conjugate"}
 
 
 def render(
@@ -53,9 +50,7 @@ def render(
             yield line + "\n"
 
 
-def text_of(
-    report: ModifiedReport, paint: Paint, is_long: bool = True
-) -> list[str]:
+def text_of(report: ModifiedReport, paint: Paint, is_long: bool = True) -> list[str]:
     """The lines of the report."""
     lines = [paint("strong", report.name or report.file)]
     lines += indented(_head(report))
@@ -93,9 +88,7 @@ def _head(report: ModifiedReport) -> list[str]:
         lines.append(f"colours: {', '.join(pairs)}")
     if report.found.tolerance is not None:
         near = decimal(report.found.tolerance)
-        lines.append(
-            f"rounded to {near}: coefficients of the digits as they are given"
-        )
+        lines.append(f"rounded to {near}: coefficients of the digits as they are given")
     return lines
 
 
@@ -141,11 +134,7 @@ def _order(reached: Reached | None, missing: str = _UNDECIDED) -> str:
 
 
 def _table(
-    report: ModifiedReport,
-    title: str,
-    terms: Iterable[TreeTerm],
-    symmetry: str,
-    paint: Paint,
+    report: ModifiedReport, title: str, terms: Iterable[TreeTerm], symmetry: str, paint: Paint
 ) -> list[str]:
     """The terms below their powers of h."""
     heading = _row("u", symmetry, "b(u)", "factor")
@@ -200,17 +189,8 @@ def _latex(report: ModifiedReport) -> Iterator[str]:
         yield from _latex_table(report, report.equation, r"\sigma(u)")
 
 
-def _latex_table(
-    report: ModifiedReport, terms: Iterable[TreeTerm], symmetry: str
-) -> Iterator[str]:
-    head = [
-        "",
-        "$u$",
-        r"$\rho(u)$",
-        f"${symmetry}$",
-        "$b(u)$",
-        f"$b(u)/{symmetry}$",
-    ]
+def _latex_table(report: ModifiedReport, terms: Iterable[TreeTerm], symmetry: str) -> Iterator[str]:
+    head = ["", "$u$", r"$\rho(u)$", f"${symmetry}$", "$b(u)$", f"$b(u)/{symmetry}$"]
     yield "\\begin{longtable}{clcccc}\n  \\hline\n"
     yield f"  {' & '.join(head)} \\\\ \\hline\n"
     has_colours = len(report.names) > 1

@@ -78,11 +78,7 @@ class ModifiedReport:
 
     def number(self, value: Number) -> str:
         """A coefficient as text."""
-        return (
-            to_text(value)
-            if self.digits is None
-            else to_decimal(value, self.digits)
-        )
+        return to_text(value) if self.digits is None else to_decimal(value, self.digits)
 
     @property
     def equation(self) -> Iterator[TreeTerm]:
@@ -108,9 +104,7 @@ class ModifiedReport:
 
 
 def _of_free_tree(term: HamiltonianTerm) -> TreeTerm:
-    return TreeTerm(
-        term.tree.representative, term.tree.symmetry, term.coefficient
-    )
+    return TreeTerm(term.tree.representative, term.tree.symmetry, term.coefficient)
 
 
 def unknowns_of(formula: ModifiedFormula) -> list[str]:
@@ -187,8 +181,7 @@ _TERM: Record[tuple[ModifiedReport, TreeTerm]] = Record(
     Field("factor", NUMERAL, lambda x: x[0].number(x[1].factor)),
 )
 _POWER: Record[PowerTerm] = Record(
-    Field("power", COUNT, lambda x: x.power),
-    Field("formulas", array(TEXT), _formulas),
+    Field("power", COUNT, lambda x: x.power), Field("formulas", array(TEXT), _formulas)
 )
 _FORMULA: Record[ModifiedFormula] = Record(
     Field("problem", TEXT, lambda x: x.problem.name),
@@ -201,11 +194,7 @@ _REPORT: Record[ModifiedReport] = Record(
     schema_named(SCHEMA),
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),
-    Field(
-        "derivation",
-        {"enum": ["", "pair", "conjugate"]},
-        lambda x: x.derivation,
-    ),
+    Field("derivation", {"enum": ["", "pair", "conjugate"]}, lambda x: x.derivation),
     Field("tolerance", nullable(TEXT), _tolerance),
     Field("colours", array(TEXT), lambda x: list(x.names)),
     Field("max_order", POSITION, lambda x: x.found.equation.max_order),

@@ -14,16 +14,7 @@ from garkcli.exact.display import to_float
 from garkcli.page.figures import scientific
 from garkcli.page.paint import Paint, folded, indented
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    EXACT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    nullable,
-    published,
-)
+from garkcli.page.schema import COUNT, EXACT, FLAG, POSITION, TEXT, Schema, nullable, published
 from garkcli.report.problem_text import describe
 
 SCHEMA = "gark/modified-energy/1"
@@ -57,9 +48,7 @@ def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     lines = [paint("strong", report.name)]
     lines += indented(folded(problem, _WIDTH - 2, "  "))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
-    lines.append(
-        "  root mean square of H(t) - H(0), and with the modified terms of H"
-    )
+    lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
     rows = run.energies[0].rows
     longest = max(len(str(row.h)) for row in rows)
     label = max(longest + 2, 8)

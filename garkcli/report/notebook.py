@@ -57,9 +57,7 @@ def _is_large(method: GarkMethod) -> bool:
     return sum(method.stages) > MAX_COLUMNS
 
 
-def _rows(
-    method: GarkMethod, stages: Sequence[int], colours: Sequence[int]
-) -> Iterator[str]:
+def _rows(method: GarkMethod, stages: Sequence[int], colours: Sequence[int]) -> Iterator[str]:
     """The stages of each colour of ``stages``, then the rows of weights."""
     entries = method.entries
     if len(colours) > 1:
@@ -138,9 +136,7 @@ def order_html(order: Order) -> str:
         holding = f"every condition up to order {order.order} holds"
         return f"<p>order at least {order.order}: {holding}</p>"
     failing = f"a condition of order {order.order + 1} fails"
-    return (
-        f"<p>order {order.order}: {failing}</p>{witness_html(order.witness)}"
-    )
+    return f"<p>order {order.order}: {failing}</p>{witness_html(order.witness)}"
 
 
 def condition_html(condition: Condition) -> str:
@@ -221,10 +217,7 @@ def _order(order: AnyOrder, many: bool) -> str:
 def _pair(fact: Fact) -> str:
     label, text = map(_text, fact)
     left = "text-align:left"
-    return (
-        f'<tr><th scope="row" style="{left}">{label}</th>'
-        f'<td style="{left}">{text}</td></tr>'
-    )
+    return f'<tr><th scope="row" style="{left}">{label}</th><td style="{left}">{text}</td></tr>'
 
 
 def _table(title: str, rows: Iterable[str]) -> str:

@@ -49,10 +49,7 @@ def function_latex(R: StabilityFunction) -> str:
     from garkcli.exact.polynomial_text import integral
     from garkcli.page.exactly import polynomial_latex
 
-    over, under = (
-        polynomial_latex(p, "z")
-        for p in integral([R.numerator, R.denominator])
-    )
+    over, under = (polynomial_latex(p, "z") for p in integral([R.numerator, R.denominator]))
     fraction = over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
     return f"$R(z) = {fraction}$"
 

@@ -53,9 +53,7 @@ _OSCILLATOR: tuple[Field[Oscillator], ...] = (
     Field("omega", EXACT, lambda x: str(x.omega)),
     Field("split", _LISTS, _split),
 )
-_HAMILTONIAN: tuple[Field[Hamiltonian], ...] = (
-    Field("hamiltonian", array(TEXT), _hamiltonians),
-)
+_HAMILTONIAN: tuple[Field[Hamiltonian], ...] = (Field("hamiltonian", array(TEXT), _hamiltonians),)
 _RIGHT_HAND_SIDE: tuple[Field[RightHandSide], ...] = (
     Field("right_hand_sides", _LISTS_OF_TEXT, _sides),
     Field("stiffness", nullable(EXACT), _stiffness),

@@ -22,16 +22,7 @@ from garkcli.exact.roots import real_roots
 from garkcli.order.certificate import Witness
 from garkcli.order.proof import Proof
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    one_of,
-    published,
-)
+from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, array, one_of, published
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Tableau

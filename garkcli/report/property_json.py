@@ -31,9 +31,7 @@ if TYPE_CHECKING:
     from garkcli.properties.subject import Subject
     from garkcli.tableau.tableau import Tableau
 
-_KIND: Schema = {
-    "enum": ["explicit", "diagonally implicit", "fully implicit", None],
-}
+_KIND: Schema = {"enum": ["explicit", "diagonally implicit", "fully implicit", None]}
 
 
 def _truth(key: str) -> Field[Analysis]:
@@ -119,16 +117,13 @@ def _names(tableau: Tableau, space: int) -> list[str]:
     return [colour.name for colour in tableau.colours if colour.space == space]
 
 
-def _system(
-    tableau: Tableau, vertices: tuple[Vertex, ...]
-) -> list[dict[str, Any]]:
+def _system(tableau: Tableau, vertices: tuple[Vertex, ...]) -> list[dict[str, Any]]:
     """A system of stages, space by space."""
     by_space: dict[int, list[int]] = {}
     for space, stage in vertices:
         by_space.setdefault(space, []).append(stage + 1)
     return [
-        {"colours": _names(tableau, space), "stages": stages}
-        for space, stages in by_space.items()
+        {"colours": _names(tableau, space), "stages": stages} for space, stages in by_space.items()
     ]
 
 
@@ -169,12 +164,7 @@ PROPERTIES: Record[Analysis] = Record(
     Field("symplectic", FLAG, lambda x: x.symplectic),
     _truth("reducible"),
     Field("stage_order", COUNT, _stage_order),
-    Field(
-        "stage_order_is_lower_bound",
-        TRUE,
-        _stage_order_is_open,
-        is_optional=True,
-    ),
+    Field("stage_order_is_lower_bound", TRUE, _stage_order_is_open, is_optional=True),
     *map(_truth, ("nodes-in-unit-interval", "positive-weights")),
     _truth("algebraically-stable"),
     _OF_COLOUR.every("by_colour", _by_colour),
@@ -193,9 +183,7 @@ def _value(found: Verdict) -> Any:
     return root_data(value.root)
 
 
-_VALUE: Schema = one_of(
-    {"type": ["boolean", "integer", "string", "null"]}, ROOT_OF
-)
+_VALUE: Schema = one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 _VERDICT: Record[tuple[str, Verdict]] = Record(
     Field("property", {"enum": list(KEYS)}, lambda x: x[0]),
     Field("value", _VALUE, lambda x: _value(x[1])),

@@ -59,9 +59,7 @@ def terminal_region(
             x = left + extent * j / (width - 1)
             z = complex(x, y)
             empty = "─" if is_axis else EMPTY
-            shaded = (
-                SHADED if is_shaded is not None and is_shaded(z) else empty
-            )
+            shaded = SHADED if is_shaded is not None and is_shaded(z) else empty
             cells.append(FULL if is_inside(z) else shaded)
         if 0 <= axis < width:
             cells[axis] = "│"
@@ -71,9 +69,7 @@ def terminal_region(
     return "\n".join(lines)
 
 
-def _scale(
-    left: float, right: float, axis: int, width: int, margin: int
-) -> list[str]:
+def _scale(left: float, right: float, axis: int, width: int, margin: int) -> list[str]:
     """The horizontal axis with its marks."""
     marks = {0: f"{left:.3g}", axis: "0"}
     marks[width - 1] = f"{right:.3g}"

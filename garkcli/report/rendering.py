@@ -157,9 +157,7 @@ def _modified_run(run: ModifiedRun, format: str, name: str) -> str:
     return written(ModifiedEnergyReport(name, run), format, _PLAIN)
 
 
-def _design(
-    design: Design, format: str, name: str, minimum: Minimum | None = None
-) -> str:
+def _design(design: Design, format: str, name: str, minimum: Minimum | None = None) -> str:
     from garkcli.report import design_data, design_text, minimum_text
 
     source = name or design.family.name
@@ -201,10 +199,7 @@ def _audited(value: Any, format: str, _: str) -> str:
 
 _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     GarkMethod: (_method, ("text", "json", "latex")),
-    Outcome: (
-        _outcomes,
-        ("text", "json", "sarif", "junit", "github", "markdown"),
-    ),
+    Outcome: (_outcomes, ("text", "json", "sarif", "junit", "github", "markdown")),
     Analysis: (_analysis, ("text", "json")),
     Stability: (_stability, ("text", "json", "latex")),
     Convergence: (_convergence, ("text", "json", "csv")),

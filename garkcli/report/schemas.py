@@ -59,10 +59,7 @@ def report_schema(command: str) -> dict[str, Any]:
     'object'
     """
     if command not in REPORTS:
-        raise UsageProblem(
-            f"no schema of a report of {command!r}",
-            did_you_mean(command, REPORTS),
-        )
+        raise UsageProblem(f"no schema of a report of {command!r}", did_you_mean(command, REPORTS))
     module, function = REPORTS[command].split(":")
     schema: dict[str, Any] = getattr(import_module(module), function)()
     return told(schema, command)

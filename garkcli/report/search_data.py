@@ -11,16 +11,7 @@ from garkcli.design.search.run import Result
 from garkcli.design.search.search import Proof, Search
 from garkcli.design.search.told import Method
 from garkcli.page.record import Field, Record, inside, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    published,
-)
+from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, array, nullable, published
 
 SCHEMA = "gark/design-search/1"
 
@@ -44,11 +35,7 @@ class _Shown:
 
 
 def render(
-    source: str,
-    search: Search,
-    result: Result,
-    files: Sequence[str | None],
-    _width: int = 0,
+    source: str, search: Search, result: Result, files: Sequence[str | None], _width: int = 0
 ) -> str:
     """The result as JSON text.
 
@@ -77,11 +64,7 @@ _RESIDUAL: Schema = {
     **TEXT,
     "description": "A power of ten that no residual is above; 0 where all vanish.",
 }
-_SECONDS: Schema = {
-    "type": "number",
-    "minimum": 0,
-    "description": "Of the processor.",
-}
+_SECONDS: Schema = {"type": "number", "minimum": 0, "description": "Of the processor."}
 _METHOD: Record[Method] = Record(
     Field("proof", {"enum": [*get_args(Proof)]}, lambda x: x.proof),
     Field("order", POSITION, lambda x: x.order),
@@ -90,8 +73,7 @@ _METHOD: Record[Method] = Record(
     Field("values", _VALUES, lambda x: dict(x.values)),
 )
 _WRITTEN: Record[_Written] = Record(
-    Field("file", nullable(TEXT), lambda x: x.path),
-    *inside(lambda x: x.method, _METHOD.fields),
+    Field("file", nullable(TEXT), lambda x: x.path), *inside(lambda x: x.method, _METHOD.fields)
 )
 _RESULT: Record[Result] = Record(
     Field("starts", COUNT, lambda x: x.starts),

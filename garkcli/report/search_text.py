@@ -19,11 +19,7 @@ SHOWN = 24
 
 
 def render(
-    source: str,
-    search: Search,
-    result: Result,
-    files: Sequence[str | None],
-    width: int,
+    source: str, search: Search, result: Result, files: Sequence[str | None], width: int
 ) -> str:
     """The result as text.
 
@@ -44,12 +40,8 @@ def render(
         solutions = counted(result.degenerate, "solution")
         lines.append(f"  {solutions} in floats with no method near")
     if not result.methods:
-        lines.append(
-            "  no method found, which does not say that there is none"
-        )
-    for number, (method, path) in enumerate(
-        zip(result.methods, files, strict=True), start=1
-    ):
+        lines.append("  no method found, which does not say that there is none")
+    for number, (method, path) in enumerate(zip(result.methods, files, strict=True), start=1):
         lines.append("")
         lines += _method(number, method, path, width)
     return "\n".join(lines) + "\n"
@@ -58,22 +50,14 @@ def render(
 def _summary(result: Result) -> str:
     starts = counted(result.starts, "start")
     end = ", then interrupted" if result.is_interrupted else ""
-    return (
-        f"{result.successes} of {starts} solve the conditions in floats{end}"
-    )
+    return f"{result.successes} of {starts} solve the conditions in floats{end}"
 
 
-def _method(
-    number: int, method: Method, path: str | None, width: int
-) -> Iterator[str]:
+def _method(number: int, method: Method, path: str | None, width: int) -> Iterator[str]:
     where = f", written to {printable(path)}" if path is not None else ""
     head = f"{number:>5}  {_verdict(method)}; start {method.start}{where}"
     yield from wrap(
-        head,
-        width,
-        initial_indent="  ",
-        subsequent_indent=INDENT,
-        break_on_hyphens=False,
+        head, width, initial_indent="  ", subsequent_indent=INDENT, break_on_hyphens=False
     )
     for line in _values(method):
         yield from wrap(
@@ -88,9 +72,7 @@ def _method(
 def _values(method: Method) -> Iterator[str]:
     """A line a parameter; a long root that is in them has a name of its own."""
     if not method.is_exact:
-        yield from (
-            f"{name} = {_short(x)}…" for name, x in method.values.items()
-        )
+        yield from (f"{name} = {_short(x)}…" for name, x in method.values.items())
         return
     roots = {root for x in method.values.values() for root in _ROOT.findall(x)}
     name_of = {}

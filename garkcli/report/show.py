@@ -72,9 +72,7 @@ def render(shown: Shown, format: str, paint: Paint, width: int) -> str:
     readable = shown.entries
     if shown.entry["exact"] is False:
         readable = tableau_text.readable(readable)
-    tableau = tableau_text.render(
-        shown.tableau, readable, shown.title, paint, width
-    )
+    tableau = tableau_text.render(shown.tableau, readable, shown.title, paint, width)
     lines = _about(shown, width)
     return f"{tableau}\n" + "\n".join(lines) + "\n"
 
@@ -115,9 +113,7 @@ def _about(shown: Shown, width: int) -> list[str]:
 
 def _lines(label: str, text: str, width: int) -> list[str]:
     """A label with its text beside it."""
-    first, *rest = wrap(
-        text, width - _LABEL, break_long_words=False, break_on_hyphens=False
-    )
+    first, *rest = wrap(text, width - _LABEL, break_long_words=False, break_on_hyphens=False)
     return [label.ljust(_LABEL) + first, *indented(rest, " " * _LABEL)]
 
 

@@ -51,9 +51,7 @@ def _radii_text(radii: Sequence[AdditiveRadius], digits: int) -> Iterator[str]:
 
 def _fraction_text(found: Colours, names: list[str]) -> str:
     if found.R is None:
-        return (
-            f"too large: {found.lines} lines determine it (limit {MOST_LINES})"
-        )
+        return f"too large: {found.lines} lines determine it (limit {MOST_LINES})"
     P, Q = integral_parts(found.R)
     top = multivariate_text(P, names)
     bottom = multivariate_text(Q, names)
@@ -92,9 +90,7 @@ def _direction_text(found: AdditiveRadius) -> str:
     return f"({point})"
 
 
-def _pair_text(
-    pair: ImexPair, found: Colours, digits: int, paint: Paint
-) -> Iterator[str]:
+def _pair_text(pair: ImexPair, found: Colours, digits: int, paint: Paint) -> Iterator[str]:
     e = f"z{pair.explicit + 1}"
     i = f"z{pair.implicit + 1}"
     title = paint("strong", "implicit-explicit pair")

@@ -10,11 +10,7 @@ from flint import fmpq
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import plain_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    integral,
-    multivariate_text,
-    polynomial_text,
-)
+from garkcli.exact.polynomial_text import integral, multivariate_text, polynomial_text
 from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.record import Field, Record
@@ -115,8 +111,7 @@ FRACTION: Record[Fraction] = Record(
     Field("lowest_terms", FLAG, lambda x: x.is_reduced),
 )
 _FACTOR: Record[tuple[Polynomial, int]] = Record(
-    Field("factor", TEXT, _factor),
-    Field("multiplicity", POSITION, lambda x: x[1]),
+    Field("factor", TEXT, _factor), Field("multiplicity", POSITION, lambda x: x[1])
 )
 
 
@@ -158,9 +153,7 @@ def _bounds(found: Bounds) -> dict[str, str | None]:
     return {"at_least": at_least, "at_most": at_most}
 
 
-def _end(
-    shown: Shown[Any], intervals: Sequence[Interval] | None
-) -> dict[str, object] | None:
+def _end(shown: Shown[Any], intervals: Sequence[Interval] | None) -> dict[str, object] | None:
     """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
     if intervals is None:
         return None
@@ -177,9 +170,7 @@ def _ray(shown: Shown[Any], ray: Ray | None) -> dict[str, object] | None:
 
 
 def _intervals(
-    shown: Shown[OscillatorStability]
-    | Shown[TwoFrequencies]
-    | Shown[SlowInterval],
+    shown: Shown[OscillatorStability] | Shown[TwoFrequencies] | Shown[SlowInterval],
 ) -> list[Shown[Interval]]:
     return [Shown(x, shown.digits) for x in shown.part.stable]
 
@@ -275,8 +266,7 @@ def _imaginary_ray(shown: Shown[Colours]) -> dict[str, object] | None:
 
 _END_OR_NULL: Schema = nullable(_END)
 RADIUS: Record[Shown[AdditiveRadius]] = Record(
-    Field("direction", array(EXACT), _direction),
-    Field("radius", _ROOT_OR_NULL, _radius),
+    Field("direction", array(EXACT), _direction), Field("radius", _ROOT_OR_NULL, _radius)
 )
 IMEX: Record[Shown[Colours]] = Record(
     Field("explicit", TEXT, _explicit),

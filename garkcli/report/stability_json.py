@@ -7,15 +7,7 @@ from itertools import product
 
 from garkcli.exact.display import decimal
 from garkcli.page.record import Field, Record, inside, schema_named
-from garkcli.page.schema import (
-    FLAG,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    one_of,
-    published,
-)
+from garkcli.page.schema import FLAG, TEXT, Schema, array, nullable, one_of, published
 from garkcli.report.stability_data import StabilityReport
 from garkcli.report.stability_fields import (
     FRACTION,
@@ -125,10 +117,7 @@ _LINEAR_PART: dict[str, _Fields] = {
     ),
 }
 """By what the colours do on the linear test equation: ``R`` has a z for each colour, or one."""
-_OSCILLATOR_PART: dict[bool, _Fields] = {
-    False: (),
-    True: inside(_oscillator, OSCILLATOR),
-}
+_OSCILLATOR_PART: dict[bool, _Fields] = {False: (), True: inside(_oscillator, OSCILLATOR)}
 """By whether the method has a split for the oscillator."""
 _FORMS: dict[tuple[str, bool], Record[StabilityReport]] = {
     (linear, oscillates): Record(
@@ -160,11 +149,8 @@ def _form(report: StabilityReport) -> Record[StabilityReport]:
 
 
 _FILE: Schema = one_of(
-    _SLOW_INTERVAL.schema,
-    _TWO_FREQUENCIES.schema,
-    *(form.schema for form in _FORMS.values()),
+    _SLOW_INTERVAL.schema, _TWO_FREQUENCIES.schema, *(form.schema for form in _FORMS.values())
 )
 _REPORT: Record[Sequence[StabilityReport]] = Record(
-    schema_named(SCHEMA),
-    Field("files", array(_FILE), lambda xs: [_form(x).data(x) for x in xs]),
+    schema_named(SCHEMA), Field("files", array(_FILE), lambda xs: [_form(x).data(x) for x in xs])
 )

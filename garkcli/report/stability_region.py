@@ -50,9 +50,7 @@ def damped_lines(pair: ImexPair, explicit: StabilityFunction) -> Iterator[str]:
     def is_bounded(z: complex) -> bool:
         return _is_bounded(P, Q, z)
 
-    picture = terminal_region(
-        is_damped, -reach, reach / 3, reach, COLUMNS, LINES, is_bounded
-    )
+    picture = terminal_region(is_damped, -reach, reach / 3, reach, COLUMNS, LINES, is_bounded)
     e = f"z{pair.explicit + 1}"
     i = f"z{pair.implicit + 1}"
     yield f"    █ {e} with every {i} damped, decided at each sign"

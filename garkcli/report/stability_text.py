@@ -112,9 +112,7 @@ def _lines(facts: Iterable[Fact]) -> Iterator[str]:
         yield from line(label, text)
 
 
-def linear_facts(
-    found: LinearStability, digits: int, paint: Paint
-) -> Iterator[Fact]:
+def linear_facts(found: LinearStability, digits: int, paint: Paint) -> Iterator[Fact]:
     """What R(z) tells, without itself."""
     if found.real is None or found.imaginary is None:
         yield "A-stable", decided(found.a_stable, paint)
@@ -159,9 +157,7 @@ def _sector_text(sector: Sector | None, digits: int) -> str:
     return f"α = {angle}°, cos α {cosine}"
 
 
-def _oscillator_text(
-    found: OscillatorStability, digits: int, paint: Paint
-) -> Iterator[str]:
+def _oscillator_text(found: OscillatorStability, digits: int, paint: Paint) -> Iterator[str]:
     title = paint("strong", "oscillator")
     yield f"  {title}, z = hω, x = z²"
     yield from line("trace", _ratio(found.trace))
@@ -169,9 +165,7 @@ def _oscillator_text(
     yield from _lines(oscillator_facts(found, digits, paint))
 
 
-def oscillator_facts(
-    found: OscillatorStability, digits: int, paint: Paint
-) -> Iterator[Fact]:
+def oscillator_facts(found: OscillatorStability, digits: int, paint: Paint) -> Iterator[Fact]:
     """What the step matrix tells, without itself."""
     [discriminant] = integral([found.discriminant])
     yield "4D² − N²", polynomial_text(discriminant, "x")
@@ -189,9 +183,7 @@ def _ratio(ratio: Ratio) -> str:
     return quotient(ratio.numerator, ratio.denominator, "x")
 
 
-def _stable_facts(
-    intervals: Sequence[Interval], digits: int
-) -> Iterator[Fact]:
+def _stable_facts(intervals: Sequence[Interval], digits: int) -> Iterator[Fact]:
     if not intervals:
         yield "stable", "for no x"
     label = "stable"
@@ -277,9 +269,7 @@ def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
     yield from _lines(_stable_facts(found.stable, digits))
 
 
-def _slow_text(
-    found: SlowInterval, digits: int, paint: Paint
-) -> Iterator[str]:
+def _slow_text(found: SlowInterval, digits: int, paint: Paint) -> Iterator[str]:
     yield ""
     yield "  two springs, x = (hω_fast)²"
     yield f"  for every a = (hω_slow)² from {found.low} to {found.high}"

@@ -12,12 +12,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.field import Algebraic
 from garkcli.exact.nodes import AlgebraicRoot, Expression
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    integral,
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal, root_text
 from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
 from garkcli.page.paint import Paint, indented
@@ -79,9 +74,7 @@ def line(label: str, text: str) -> list[str]:
     return [head.rstrip(), *indented(others, margin)]
 
 
-def quotient(
-    numerator: Polynomial, denominator: Polynomial, variable: str
-) -> str:
+def quotient(numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
     """A fraction of two polynomials."""
     p, q = integral([numerator, denominator])
     top = polynomial_text(p, variable)
@@ -147,12 +140,7 @@ def real_text(intervals: Sequence[Interval], digits: int) -> str:
 def imaginary_text(intervals: Sequence[Interval], digits: int) -> str:
     """The interval of the imaginary axis around 0, from intervals of y²."""
     first = intervals[0] if intervals else None
-    if (
-        first is None
-        or first.is_point
-        or first.start is None
-        or first.start.exact != 0
-    ):
+    if first is None or first.is_point or first.start is None or first.start.exact != 0:
         return "y = 0 only"
     if first.end is None:
         return "all y"

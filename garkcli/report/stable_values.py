@@ -10,25 +10,12 @@ from garkcli.design.springs_kind import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
-from garkcli.page.schema import (
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    one_of,
-    published,
-)
+from garkcli.page.schema import FLAG, POSITION, TEXT, Schema, array, nullable, one_of, published
 
 SCHEMA = "gark/design-stability/1"
 _STABLE: dict[Wanted, str] = {
@@ -38,9 +25,7 @@ _STABLE: dict[Wanted, str] = {
 }
 
 
-def render_text(
-    source: str, values: StableValues, digits: int, width: int
-) -> str:
+def render_text(source: str, values: StableValues, digits: int, width: int) -> str:
     """The set for people.
 
     Args:
@@ -68,18 +53,13 @@ def set_lines(values: StableValues, digits: int, width: int) -> list[str]:
         none = "no value that is decided" if values.undecided else "no value"
         lines += [f"  the {values.whose} is {stable} for {none} of {name}"]
     elif values.is_everything:
-        lines += [
-            f"  the {values.whose} is {stable} for every value of {name}"
-        ]
+        lines += [f"  the {values.whose} is {stable} for every value of {name}"]
     else:
         lines += [f"  the {values.whose} is {stable} for exactly", ""]
         for interval in values.found:
             lines += _interval(interval, name, digits, width)
     if values.undecided:
-        lines += [
-            "",
-            "  not decided, as the fields of the coefficients are too large",
-        ]
+        lines += ["", "  not decided, as the fields of the coefficients are too large"]
         for root in values.undecided:
             lines += _point(root, name, digits, width)
     return lines
@@ -105,9 +85,7 @@ def _springs_data(two_springs: TwoSprings | None) -> dict[str, Any] | None:
     }
 
 
-def _interval(
-    interval: Interval, name: str, digits: int, width: int
-) -> Iterator[str]:
+def _interval(interval: Interval, name: str, digits: int, width: int) -> Iterator[str]:
     start, end = interval.start, interval.end
     if interval.is_point:
         assert start is not None
@@ -115,9 +93,7 @@ def _interval(
         return
     text = name
     if start is not None:
-        text = (
-            f"{_number(start, digits)} {_relation(interval.has_start)} {text}"
-        )
+        text = f"{_number(start, digits)} {_relation(interval.has_start)} {text}"
     if end is not None:
         text = f"{text} {_relation(interval.has_end)} {_number(end, digits)}"
     yield f"    {text}"
@@ -125,28 +101,19 @@ def _interval(
         if root is not None and root.exact is None:
             text = _meaning(root, digits)
             indent = " " * 6
-            yield from wrap(
-                text,
-                width,
-                initial_indent=indent,
-                subsequent_indent=indent + "  ",
-            )
+            yield from wrap(text, width, initial_indent=indent, subsequent_indent=indent + "  ")
 
 
 def _relation(is_included: bool) -> str:
     return "≤" if is_included else "<"
 
 
-def _point(
-    root: RealRoot, name: str, digits: int, width: int
-) -> Iterator[str]:
+def _point(root: RealRoot, name: str, digits: int, width: int) -> Iterator[str]:
     if root.exact is not None:
         yield f"    {name} = {root_text(root)}"
         return
     text = f"{name} = {_meaning(root, digits)}"
-    yield from wrap(
-        text, width, initial_indent=" " * 4, subsequent_indent=" " * 6
-    )
+    yield from wrap(text, width, initial_indent=" " * 4, subsequent_indent=" " * 6)
 
 
 def _number(root: RealRoot, digits: int) -> str:
@@ -221,19 +188,12 @@ def stable_values_schema() -> Schema:
             "of": {"enum": ["method", "conjugate", "pair"]},
             "unknowns": array(TEXT),
             "wanted": {"enum": list(_STABLE)},
-            "springs": nullable(
-                _object(
-                    {"slow": TEXT, "fast": POSITION, "up_to": nullable(TEXT)}
-                )
-            ),
+            "springs": nullable(_object({"slow": TEXT, "fast": POSITION, "up_to": nullable(TEXT)})),
             "set": array(one_of(point, _object(ends))),
             "undecided": array(ALGEBRAIC),
         }
     )
-    return published(
-        "report of gark design with --a-stable and the like: stability",
-        document,
-    )
+    return published("report of gark design with --a-stable and the like: stability", document)
 
 
 def _object(fields: dict[str, Schema]) -> Schema:

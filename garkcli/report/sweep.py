@@ -21,11 +21,7 @@ from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
 from garkcli.sweep.row import Row
 
 SCHEMA = "gark/sweep/1"
-WORDS = {
-    "exact": "exact",
-    "exists": "proved to exist",
-    "numerical": "numerical",
-}
+WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}
 """What is known of a find, as rows and as people have it."""
 FOUND = ("seed", "proof", "values")
 """What tables have of finds beside the criteria."""
@@ -93,25 +89,16 @@ def render_text(report: SweepReport, width: int) -> str:
     if failed:
         reason = printable(str(failed[0]["failure"]))
         text = f"{len(failed)} cannot be made, the first: {reason}"
-        lines += wrap(
-            text, width, initial_indent="  ", subsequent_indent="    "
-        )
+        lines += wrap(text, width, initial_indent="  ", subsequent_indent="    ")
     if best:
         by = f", best by {', '.join(plan.best)}" if plan.best else ""
         shown = best[: report.top]
-        of = (
-            f"{len(shown)} of them"
-            if len(shown) < len(best)
-            else "all of them"
-        )
+        of = f"{len(shown)} of them" if len(shown) < len(best) else "all of them"
         lines += ["", f"  {of}{by}"]
         lines += _entries(plan, shown, width)
     if plan.pareto:
         front = report.front
-        lines += [
-            "",
-            f"  Pareto front of {', '.join(plan.pareto)}: {len(front)}",
-        ]
+        lines += ["", f"  Pareto front of {', '.join(plan.pareto)}: {len(front)}"]
         lines += _entries(plan, front[: report.top], width)
     return "\n".join(lines) + "\n"
 
@@ -120,12 +107,8 @@ def _entries(plan: Plan, rows: Sequence[Row], width: int) -> Iterator[str]:
     for number, row in enumerate(rows, start=1):
         head = f"{number:>5}  "
         key = printable(str(row["key"]))
-        yield from wrap(
-            key, width, initial_indent=head, subsequent_indent=" " * 9
-        )
-        values = [
-            f"{name} {_shown(row, name)}" for name in plan.criteria.columns
-        ]
+        yield from wrap(key, width, initial_indent=head, subsequent_indent=" " * 9)
+        values = [f"{name} {_shown(row, name)}" for name in plan.criteria.columns]
         lines = [", ".join(values)]
         if "proof" in row:
             word = WORDS[str(row["proof"])]
@@ -176,9 +159,7 @@ def render_json(report: SweepReport) -> str:
 
 def render_lines(report: SweepReport) -> str:
     """The kept rows as JSON lines, best first."""
-    return "".join(
-        f"{json.dumps(row, ensure_ascii=False)}\n" for row in report.best
-    )
+    return "".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in report.best)
 
 
 def render_csv(report: SweepReport) -> str:
@@ -204,10 +185,7 @@ def _flat(plan: Plan, row: Row) -> dict[str, Value]:
     """A row without nesting."""
     settings = row["parameters"]
     assert isinstance(settings, dict)
-    flat: dict[str, Value] = {
-        "key": str(row["key"]),
-        "method": str(row["method"]),
-    }
+    flat: dict[str, Value] = {"key": str(row["key"]), "method": str(row["method"])}
     for name in plan.grids:
         flat[name] = settings.get(name)
     if plan.has_searches:
@@ -241,8 +219,7 @@ def refuse_parquet(path: str) -> None:
 
     if find_spec("pyarrow") is None:
         raise UsageProblem(
-            "--parquet needs pyarrow",
-            "install garkcli[parquet], or take --format csv",
+            "--parquet needs pyarrow", "install garkcli[parquet], or take --format csv"
         )
     refuse_unwritable(path)
 
@@ -262,9 +239,7 @@ def write_parquet(report: SweepReport, path: str) -> None:
     rows = [_flat(report.plan, row) for row in report.best]
     table: dict[str, Any] = {}
     for name in _flat_names(report.plan):
-        table[name] = _without_text(
-            name, [row[name] for row in rows], report.plan
-        )
+        table[name] = _without_text(name, [row[name] for row in rows], report.plan)
     sink = io.BytesIO()
     pq.write_table(pa.table(table), sink)
     write_whole(path, [sink.getvalue()])

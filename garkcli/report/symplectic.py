@@ -11,16 +11,7 @@ from garkcli.page.json_text import to_json
 from garkcli.page.latex import fragment
 from garkcli.page.paint import Paint, counted
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    FLAG,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    counts_of,
-    one_of,
-    published,
-)
+from garkcli.page.schema import FLAG, POSITION, TEXT, Schema, array, counts_of, one_of, published
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DRAWN_ORDER, picture, rooted_schemas
 from garkcli.trees.drawing import draw_text
@@ -67,9 +58,7 @@ def _json_line(data: dict[str, Any]) -> str:
     return to_json(data, indent=None, ascii_only=True)
 
 
-def _csv(
-    subject: Subject, classes: Iterable[ConditionClass], with_members: bool
-) -> Iterator[str]:
+def _csv(subject: Subject, classes: Iterable[ConditionClass], with_members: bool) -> Iterator[str]:
     ending = ",members" if with_members else ""
     yield f"kind,representative,root,order,sigma,gamma,stands_for{ending}\n"
     for tree in classes:
@@ -81,9 +70,7 @@ def _csv(
         yield ",".join(map(str, data.values())) + "\n"
 
 
-def render_class_counts(
-    subject: Subject, format: str, paint: Paint
-) -> Iterator[str]:
+def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator[str]:
     """The numbers of classes alone."""
     if format in {"json", "ndjson"}:
         head = _COUNTED.data(subject)
@@ -104,9 +91,7 @@ def render_class_counts(
         yield from summary_lines(subject)
 
 
-def summary_lines(
-    subject: Subject, ending: str = "", width: int = WIDTH
-) -> Iterator[str]:
+def summary_lines(subject: Subject, ending: str = "", width: int = WIDTH) -> Iterator[str]:
     """The summary, in lines of at most ``width``."""
     for line in _wrapped(subject.summary + ending, width):
         yield line + "\n"
@@ -121,11 +106,7 @@ def legend_lines(subject: Subject, width: int = WIDTH) -> Iterator[str]:
 def _wrapped(text: str, width: int, indent: str = "") -> list[str]:
     """Lines of whole words; numbers of hundreds of digits stay whole too."""
     return wrap(
-        text,
-        width,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
+        text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
     )
 
 
@@ -157,8 +138,7 @@ _HEAD: Record[Subject] = Record(
     *SUBJECT.fields,
 )
 _COUNTED: Record[Subject] = Record(
-    *_HEAD.fields,
-    Field("by_order", counts_of("order"), _by_order, is_optional=True),
+    *_HEAD.fields, Field("by_order", counts_of("order"), _by_order, is_optional=True)
 )
 
 
@@ -192,9 +172,7 @@ _ROW: Record[_Class] = Record(
 )
 
 
-def _data(
-    subject: Subject, tree: ConditionClass, with_members: bool
-) -> dict[str, Any]:
+def _data(subject: Subject, tree: ConditionClass, with_members: bool) -> dict[str, Any]:
     return _ROW.data(_Class(subject, tree, with_members))
 
 
@@ -205,10 +183,7 @@ def trees_report_schema() -> Schema:
 
 
 def _text(
-    subject: Subject,
-    classes: Iterable[ConditionClass],
-    paint: Paint,
-    with_members: bool,
+    subject: Subject, classes: Iterable[ConditionClass], paint: Paint, with_members: bool
 ) -> Iterator[str]:
     yield from legend_lines(subject)
     for order, group in groupby(classes, key=lambda tree: tree.order):
@@ -218,9 +193,7 @@ def _text(
     yield from summary_lines(subject)
 
 
-def _entry(
-    subject: Subject, tree: ConditionClass, with_members: bool
-) -> Iterator[str]:
+def _entry(subject: Subject, tree: ConditionClass, with_members: bool) -> Iterator[str]:
     here = tree.representative
     sizes = f"σ = {here.symmetry:<4} γ = {here.density:<5}"
     trees = counted(len(tree.members), "tree")
@@ -236,9 +209,7 @@ def _entry(
         yield line.rstrip() + "\n"
 
 
-def _latex(
-    subject: Subject, classes: Iterable[ConditionClass]
-) -> Iterator[str]:
+def _latex(subject: Subject, classes: Iterable[ConditionClass]) -> Iterator[str]:
     for line in legend_lines(subject):
         yield f"% {line}"
     yield "\\begin{longtable}{clcccc}\n  \\hline\n"

@@ -138,9 +138,7 @@ class Subject:
         if self.kind == "pair":
             return f"a symplectic pair of {counted(terms, 'Hamiltonian')}"
         if self.kind == "self-conjugate":
-            return (
-                f"a self-conjugate method of {counted(terms, 'vector field')}"
-            )
+            return f"a self-conjugate method of {counted(terms, 'vector field')}"
         return _PROBLEMS[self.kind]
 
 
@@ -219,13 +217,9 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
     weights = {(x.space, x.b) for x in tableau.colours}
     spaces = {space for space, _ in weights}
     if len(weights) > len(spaces):
-        reason = (
-            "positions and momenta have different weights at the same stages"
-        )
+        reason = "positions and momenta have different weights at the same stages"
         cure = "give both the same weights"
     else:
-        reason = (
-            "its momentum blocks are not the conjugates of its position blocks"
-        )
+        reason = "its momentum blocks are not the conjugates of its position blocks"
         cure = "with --pair they become the conjugates"
     return UsageProblem(f"the method is not symplectic: {reason}", cure)

@@ -13,16 +13,7 @@ from garkcli.exact.display import to_float
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text
 from garkcli.page.record import Field, Record, inside, schema_named
-from garkcli.page.schema import (
-    FLAG,
-    NUMBER,
-    NUMERAL,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    published,
-)
+from garkcli.page.schema import FLAG, NUMBER, NUMERAL, TEXT, Schema, array, nullable, published
 from garkcli.report.check_json import COLOUR, colours_data
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
@@ -42,10 +33,7 @@ def as_data(tableau: Tableau, entries: Entries, name: str) -> dict[str, Any]:
 
 def tableau_report_schema() -> Schema:
     """The JSON Schema of tableaus, of all commands that print one."""
-    return published(
-        "tableau of gark tableau, conjugate, convert and reduce",
-        REPORT.schema,
-    )
+    return published("tableau of gark tableau, conjugate, convert and reduce", REPORT.schema)
 
 
 class _Shown(NamedTuple):
@@ -67,15 +55,12 @@ def _entry_fields(
 ) -> tuple[Field[Entries], ...]:
     """c, A, b and further weights with their entries changed into what ``entry`` describes."""
 
-    def rows(
-        entries: Entries, found: Sequence[Sequence[Cell]]
-    ) -> list[list[Any]]:
+    def rows(entries: Entries, found: Sequence[Sequence[Cell]]) -> list[list[Any]]:
         return [[change(entries, x) for x in row] for row in found]
 
     def blocks(entries: Entries) -> list[list[Any]]:
         return [
-            [None if block is None else rows(entries, block) for block in row]
-            for row in entries.A
+            [None if block is None else rows(entries, block) for block in row] for row in entries.A
         ]
 
     def embedded(entries: Entries) -> list[list[Any]] | None:
@@ -98,12 +83,8 @@ def _entry_fields(
     )
 
 
-_EXACT = _entry_fields(
-    NUMERAL, lambda entries, x: cell_text(x, entries.digits)
-)
-_FLOATS: Record[Entries] = Record(
-    *_entry_fields(NUMBER, lambda _, x: _float(x))
-)
+_EXACT = _entry_fields(NUMERAL, lambda entries, x: cell_text(x, entries.digits))
+_FLOATS: Record[Entries] = Record(*_entry_fields(NUMBER, lambda _, x: _float(x)))
 REPORT: Record[_Shown] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),

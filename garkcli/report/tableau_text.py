@@ -32,13 +32,7 @@ def readable(entries: Entries) -> Entries:
     return entries.changed(short)
 
 
-def render(
-    tableau: Tableau,
-    entries: Entries,
-    title: str,
-    paint: Paint,
-    width: int = 80,
-) -> str:
+def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80) -> str:
     """The whole tableau.
 
     Args:
@@ -69,11 +63,7 @@ def _title_lines(title: str, width: int) -> list[str]:
     from textwrap import wrap  # slow to import, and most titles fit
 
     return wrap(
-        title,
-        width,
-        subsequent_indent="  ",
-        break_long_words=False,
-        break_on_hyphens=False,
+        title, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
     )
 
 
@@ -110,9 +100,7 @@ def _node_column(entries: Entries, shown: list[int]) -> list[str]:
     return aligned([[text] for text in cells])
 
 
-def _colour_column(
-    tableau: Tableau, entries: Entries, shown: list[int], m: int
-) -> list[str]:
+def _colour_column(tableau: Tableau, entries: Entries, shown: list[int], m: int) -> list[str]:
     """The name of a colour, its blocks under each other, and its weights."""
     digits = entries.digits
     weights = _texts(entries.b[m], digits)
@@ -195,9 +183,7 @@ def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
     return lines
 
 
-def _columns_that_fit(
-    cells: Sequence[Sequence[str]], width: int
-) -> list[range]:
+def _columns_that_fit(cells: Sequence[Sequence[str]], width: int) -> list[range]:
     """The columns of a block in groups that each fit between the margin and ``width``."""
     gap = len(_GAP)
     room = width - len(_MARGIN) + gap  # the last column has no gap behind it

@@ -75,9 +75,7 @@ def render(
         yield from _text(query, rows, counts, paint)
 
 
-def render_counts(
-    query: Query, counts: Counts, format: str, paint: Paint
-) -> Iterator[str]:
+def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> Iterator[str]:
     """The counts alone."""
     if format in {"json", "ndjson"}:
         head = _COUNTED.data(_Found(query, counts))
@@ -170,9 +168,7 @@ def rooted_schemas() -> list[Schema]:
     return [_HEAD.with_rows("trees", _ROW), _COUNTED.schema]
 
 
-def _json(
-    query: Query, rows: Iterable[TreeRow], counts: Counts | None
-) -> Iterator[str]:
+def _json(query: Query, rows: Iterable[TreeRow], counts: Counts | None) -> Iterator[str]:
     if counts is None:
         rows = list(rows)
         counts = _counted(query, rows)

@@ -129,9 +129,7 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
     return None
 
 
-def _eliminate(
-    rows: list[list[Number]], pivot: int, remaining: list[int]
-) -> None:
+def _eliminate(rows: list[list[Number]], pivot: int, remaining: list[int]) -> None:
     """Take multiples of the row of the pivot from the others, among the remaining columns."""
     pivot_row = rows[pivot]
     for i in remaining:

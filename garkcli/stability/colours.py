@@ -9,11 +9,7 @@ from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.stability.damping import ImexPair, Ray, imex_pair
-from garkcli.stability.fraction import (
-    Fraction,
-    lines_needed,
-    stability_fraction,
-)
+from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.ssp import AdditiveRadius, additive_radius
 from garkcli.tableau.tableau import Tableau
@@ -65,25 +61,19 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
         lines=lines_needed(tableau),
         radii=_radii(tableau, ratios),
         pair=pair,
-        explicit_alone=stability_function(
-            tableau, _unit(tableau.size, explicit)
-        ),
+        explicit_alone=stability_function(tableau, _unit(tableau.size, explicit)),
         real=None if pair is None else pair.real_ray(),
         imaginary=None if pair is None else pair.imaginary_ray(),
     )
 
 
-def _radii(
-    tableau: Tableau, ratios: Sequence[fmpq]
-) -> tuple[AdditiveRadius, ...]:
+def _radii(tableau: Tableau, ratios: Sequence[fmpq]) -> tuple[AdditiveRadius, ...]:
     """On the axes, on the diagonal and on the lines that are asked for."""
     size = tableau.size
     directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
     directions.append([ONE] * size)
     directions += [[ONE, ratio] for ratio in ratios]
-    return tuple(
-        additive_radius(tableau, direction) for direction in directions
-    )
+    return tuple(additive_radius(tableau, direction) for direction in directions)
 
 
 def _unit(size: int, l: int) -> list[Number]:

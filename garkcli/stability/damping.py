@@ -30,16 +30,9 @@ from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.graph import components
-from garkcli.stability.critical import (
-    MOST_POINTS,
-    critical_polynomials,
-    roots_between,
-)
+from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
 from garkcli.stability.fraction import Fraction
-from garkcli.stability.half_plane import (
-    ball_roots_are_right,
-    exact_roots_are_right,
-)
+from garkcli.stability.half_plane import ball_roots_are_right, exact_roots_are_right
 from garkcli.stability.linear import poles_are_right
 from garkcli.tableau.tableau import Tableau
 
@@ -104,11 +97,7 @@ class ImexPair:
     @cached_property
     def _enclosed(self) -> _Enclosed:
         _, (u, v) = self.parts
-        return _Enclosed(
-            E=_in_balls(self.margin),
-            u=_in_balls(u),
-            v=_in_balls(v),
-        )
+        return _Enclosed(E=_in_balls(self.margin), u=_in_balls(u), v=_in_balls(v))
 
     def is_damped(self, a: fmpq, b: fmpq) -> bool:
         """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided.
@@ -258,9 +247,7 @@ def _on_axis(p: Multivariate, axis: int) -> Polynomial:
     return p.along(direction)
 
 
-def _split(
-    p: Multivariate, explicit: int
-) -> tuple[Multivariate, Multivariate]:
+def _split(p: Multivariate, explicit: int) -> tuple[Multivariate, Multivariate]:
     """The real and imaginary parts of p(a + ib, iy) as polynomials in (a, b, y)."""
     real: dict[Exponents, Number] = {}
     imaginary: dict[Exponents, Number] = {}

@@ -21,12 +21,7 @@ from math import comb
 from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.multivariate import (
-    Exponents,
-    Multivariate,
-    from_lines,
-    lattice,
-)
+from garkcli.exact.multivariate import Exponents, Multivariate, from_lines, lattice
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.stability.step_function import StepFunction, unreduced
 from garkcli.stepping.stage_system import stage_system
@@ -52,9 +47,7 @@ class Fraction:
     denominator: Multivariate
     is_reduced: bool
 
-    def with_fixed(
-        self, index: int, value: Number
-    ) -> tuple[Polynomial, Polynomial]:
+    def with_fixed(self, index: int, value: Number) -> tuple[Polynomial, Polynomial]:
         """P and Q of two colours as polynomials in the other variable, for z_index = value."""
         over = _fixed(self.numerator, index, value)
         under = _fixed(self.denominator, index, value)
@@ -137,9 +130,7 @@ def _direction(point: Sequence[int], offset: int) -> list[Number]:
     return [ONE, *others]
 
 
-def _cancelled(
-    P: Multivariate, Q: Multivariate, offset: int
-) -> Fraction | None:
+def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None:
     """P/Q in lowest terms from the quotients on lines; None where a line is special.
 
     Lines with the fraction in lowest terms have denominators of one degree but for special ones.

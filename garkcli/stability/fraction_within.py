@@ -38,9 +38,7 @@ class BallFraction:
     Q: list[arb]
 
 
-def fraction_within(
-    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
-) -> BallFraction:
+def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> BallFraction:
     """P and Q of a method with rounded coefficients.
 
     Args:

@@ -49,14 +49,10 @@ class StabilityFunction:
         """R(∞); None where R is unbounded."""
         if self.numerator.degree > self.denominator.degree:
             return None
-        return (
-            self.numerator[self.denominator.degree] / self.denominator.leading
-        )
+        return self.numerator[self.denominator.degree] / self.denominator.leading
 
     def __repr__(self) -> str:
-        P, Q = (
-            polynomial_text(x, "z") for x in (self.numerator, self.denominator)
-        )
+        P, Q = (polynomial_text(x, "z") for x in (self.numerator, self.denominator))
         return f"<R(z) = {P}>" if Q == "1" else f"<R(z) = ({P})/({Q})>"
 
     def _repr_latex_(self) -> str:

@@ -119,9 +119,7 @@ class OscillatorStability:
         return alpha, beta, gamma
 
 
-def oscillator_stability(
-    tableau: Tableau, problem: Oscillator
-) -> OscillatorStability:
+def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
     """What a method does to q̈ = −ω²q for every step size.
 
     Args:
@@ -137,9 +135,7 @@ def oscillator_stability(
     return analysed(tableau, fields)
 
 
-def analysed(
-    tableau: Tableau, fields: Sequence[Matrix]
-) -> OscillatorStability:
+def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
     """The same for given fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
     step = step_function(stage_system(tableau, fields))
     (a, b), (c, d) = step.numerators
@@ -168,10 +164,7 @@ def _even(p: Polynomial) -> Polynomial:
 
 
 def stable_set(
-    trace: Ratio,
-    determinant: Ratio,
-    off_diagonal: Sequence[Polynomial],
-    poles: Polynomial,
+    trace: Ratio, determinant: Ratio, off_diagonal: Sequence[Polynomial], poles: Polynomial
 ) -> tuple[Interval, ...]:
     """The x ≥ 0 for which all powers of M are bounded.
 

@@ -19,11 +19,7 @@ from garkcli.exact.cells import between
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
-from garkcli.stability.critical import (
-    MOST_POINTS,
-    critical_polynomials,
-    roots_between,
-)
+from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
 from garkcli.stability.linear import StabilityFunction, is_a_stable
 
 

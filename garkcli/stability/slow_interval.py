@@ -23,11 +23,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import PLANE, curves, projected
 from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot
-from garkcli.stability.two_frequencies import (
-    SplitSprings,
-    plane_of_determinants,
-    stable_where,
-)
+from garkcli.stability.two_frequencies import SplitSprings, plane_of_determinants, stable_where
 from garkcli.tableau.tableau import Tableau
 
 MOST_DEGREE = 4
@@ -78,9 +74,7 @@ class SlowInterval:
         return f"<SlowInterval {self.low} to {self.high}: stable in {parts}>"
 
 
-def slow_interval(
-    tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq
-) -> SlowInterval:
+def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) -> SlowInterval:
     """The fast frequencies that are stable for all slow ones of [low, high].
 
     Raises:
@@ -126,9 +120,7 @@ def _is_rational(p: Multivariate) -> bool:
     return all(isinstance(a, fmpq) for _, a in p.terms)
 
 
-def _critical(
-    plane: Sequence[Multivariate], low: fmpq, high: fmpq
-) -> list[Polynomial]:
+def _critical(plane: Sequence[Multivariate], low: fmpq, high: fmpq) -> list[Polynomial]:
     """The polynomials in x between whose roots one x decides."""
     return projected(_curves(plane), [low, high])
 

@@ -40,11 +40,7 @@ class SpringsPlane:
 
 
 def springs_plane(
-    tableau: Tableau,
-    split: SplitSprings,
-    slow_end: float,
-    fast_end: float,
-    points: int = 160,
+    tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
 ) -> SpringsPlane:
     """The half trace on a grid.
 
@@ -84,10 +80,7 @@ def springs_plane(
 
 
 def plane_with_ends_of(
-    tableau: Tableau,
-    split: SplitSprings,
-    stable: Sequence[Interval],
-    slow: fmpq,
+    tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
     """The plane as far as something happens for the slow frequency that was decided.
 

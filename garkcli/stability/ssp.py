@@ -72,9 +72,7 @@ def ssp_coefficient(
     return _radius(tableau, ratios, driven)
 
 
-def additive_radius(
-    tableau: Tableau, ratios: Sequence[Number]
-) -> AdditiveRadius:
+def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
     """How far the region of absolute monotonicity reaches in one direction.
 
     Args:
@@ -104,9 +102,7 @@ def _radius(
     return SspCoefficient(smallest)
 
 
-def stacked(
-    tableau: Tableau, ratios: Sequence[Number]
-) -> tuple[Matrix, list[Matrix]]:
+def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
     """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them.
 
     K_l has the columns of colour l only; stages that colours share are one row.
@@ -164,9 +160,7 @@ def conditions_at(tableau: Tableau) -> list[Polynomial]:
     return found
 
 
-def _conditions(
-    whole: Matrix, parts: Sequence[Matrix]
-) -> Iterator[Polynomial]:
+def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
     """Polynomials in r that must not be negative from 0 to the radius.
 
     (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a
@@ -184,10 +178,7 @@ def _conditions(
 
 
 def _entries(
-    denominator: Polynomial,
-    minus_whole: Matrix,
-    vector: Sequence[Number],
-    n: int,
+    denominator: Polynomial, minus_whole: Matrix, vector: Sequence[Number], n: int
 ) -> list[Polynomial]:
     """The numerators of (I + rK)⁻¹ v."""
     series: list[list[Number]] = [[] for _ in range(n)]

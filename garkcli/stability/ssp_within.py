@@ -22,9 +22,7 @@ DIGITS = 64
 """Digits of the balls."""
 
 
-def ssp_within(
-    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
-) -> Bounds:
+def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> Bounds:
     """The first failure of any condition, between bounds.
 
     Args:
@@ -62,9 +60,7 @@ def _widened(matrix: Matrix, tolerance: fmpq) -> arb_mat:
 def _columns(matrix: arb_mat) -> list[list[arb]]:
     """The columns that are not zero."""
     columns = matrix.transpose().tolist()
-    return [
-        column for column in columns if not all(x.is_zero() for x in column)
-    ]
+    return [column for column in columns if not all(x.is_zero() for x in column)]
 
 
 def _reciprocal(pattern: Matrix, matrix: arb_mat) -> list[arb]:
@@ -74,9 +70,7 @@ def _reciprocal(pattern: Matrix, matrix: arb_mat) -> list[arb]:
         edges[i] = [j for j, x in enumerate(row) if x]
     result = arb_poly([1])
     for component in components(edges):
-        block = arb_mat(
-            [[-matrix[i, j] for j in component] for i in component]
-        )
+        block = arb_mat([[-matrix[i, j] for j in component] for i in component])
         factor = [arb(1), -block[0, 0]]
         if len(component) > 1:
             characteristic = list(block.charpoly().coeffs())
@@ -85,9 +79,7 @@ def _reciprocal(pattern: Matrix, matrix: arb_mat) -> list[arb]:
     return [result[k] for k in range(len(result))]
 
 
-def _entries(
-    denominator: list[arb], matrix: arb_mat, vector: list[arb]
-) -> list[list[arb]]:
+def _entries(denominator: list[arb], matrix: arb_mat, vector: list[arb]) -> list[list[arb]]:
     """The numerators of (I + rK)⁻¹ v, polynomials in r."""
     n = len(vector)
     state = arb_mat([[x] for x in vector])

@@ -53,9 +53,7 @@ def unreduced(system: StageSystem) -> StepFunction:
     return StepFunction(denominator, tuple(numerators))
 
 
-def _series(
-    system: StageSystem, column: Vector, terms: int
-) -> list[list[Number]]:
+def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number]]:
     """The coefficients of z, z², … in one column of M, a list for each row."""
     found: list[list[Number]] = [[] for _ in system.B]
     state = column
@@ -66,9 +64,7 @@ def _series(
     return found
 
 
-def _numerator(
-    denominator: Polynomial, series: Polynomial, degree: int
-) -> Polynomial:
+def _numerator(denominator: Polynomial, series: Polynomial, degree: int) -> Polynomial:
     """The first terms of D · M_ij, which are all there are."""
     product = denominator * series
     lowest = product.coefficients[: degree + 1]

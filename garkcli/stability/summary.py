@@ -25,10 +25,7 @@ from garkcli.stability.linear import (
     real_set,
     stability_function,
 )
-from garkcli.stability.oscillator import (
-    OscillatorStability,
-    oscillator_stability,
-)
+from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
@@ -127,9 +124,7 @@ class Stability:
 
 
 def stability(
-    tableau: Tableau,
-    problem: Oscillator | None = None,
-    ratios: Sequence[fmpq] = (),
+    tableau: Tableau, problem: Oscillator | None = None, ratios: Sequence[fmpq] = ()
 ) -> Stability:
     """Decide everything that ``gark stability`` reports.
 
@@ -153,11 +148,7 @@ def stability(
     if linear and tableau.size > 1:
         colours = several_colours(tableau, ratios)
     return Stability(
-        tableau=tableau,
-        linear=linear,
-        oscillator=oscillator,
-        algebraic=algebraic,
-        colours=colours,
+        tableau=tableau, linear=linear, oscillator=oscillator, algebraic=algebraic, colours=colours
     )
 
 
@@ -189,14 +180,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
         )
         found.append(one)
     algebraic = algebraic_within(tableau, tolerance) if found else None
-    return Stability(
-        tableau,
-        tuple(found),
-        None,
-        None,
-        tolerance,
-        algebraic_within=algebraic,
-    )
+    return Stability(tableau, tuple(found), None, None, tolerance, algebraic_within=algebraic)
 
 
 def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
@@ -223,9 +207,7 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     return found
 
 
-def linear_stability(
-    tableau: Tableau, name: str, shares: Sequence[Number]
-) -> LinearStability:
+def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
     """What the stability function in one direction of (λ_1, …, λ_N) tells."""
     R = stability_function(tableau, shares)
     return LinearStability(

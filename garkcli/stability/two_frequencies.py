@@ -115,9 +115,7 @@ def _slow_terms(terms: int, fast: int, with_force: set[int]) -> list[int]:
     return later or others
 
 
-def two_frequencies(
-    tableau: Tableau, split: SplitSprings, slow: fmpq
-) -> TwoFrequencies:
+def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFrequencies:
     """The exact intervals of the fast frequency for one slow one.
 
     Raises:
@@ -146,9 +144,7 @@ def unknowns_of(tableau: Tableau, split: SplitSprings) -> int:
     return len(_system(tableau, split, ZERO, ZERO).W)
 
 
-def line_of_determinants(
-    tableau: Tableau, split: SplitSprings, slow: fmpq
-) -> list[Polynomial]:
+def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> list[Polynomial]:
     """det(I − W) and, times it, the entries of M, as polynomials in x for one slow frequency."""
     unknowns = len(_system(tableau, split, slow, ZERO).W)
     points = [fmpq(k) for k in range(unknowns + 1)]
@@ -160,9 +156,7 @@ def line_of_determinants(
     return [interpolated(points, column) for column in columns]
 
 
-def plane_of_determinants(
-    tableau: Tableau, split: SplitSprings
-) -> tuple[Multivariate, ...]:
+def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
     """det(I − W) and, times it, the entries of M, as polynomials in (a, x).
 
     W is linear in (a, x), so that its determinants have at most its size as total degree.
@@ -207,9 +201,7 @@ class _StepMatrix:
 
     def stable(self) -> tuple[Interval, ...]:
         """The x ≥ 0 with all powers of M bounded."""
-        return stable_set(
-            self.trace, self.determinant, self.off_diagonal, self.denominator
-        )
+        return stable_set(self.trace, self.determinant, self.off_diagonal, self.denominator)
 
 
 def _reduced(polynomials: Sequence[Polynomial]) -> _StepMatrix:
@@ -235,9 +227,7 @@ def _like_an_oscillator(split: SplitSprings) -> Oscillator:
     return Oscillator(ONE, tuple(shares))
 
 
-def _system(
-    tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq
-) -> StageSystem:
+def _system(tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq) -> StageSystem:
     # both springs are kept in the structure of the system, whatever their strengths
     fields = [split.matrix(colour, slow, x) for colour in tableau.colours]
     kept = [split.matrix(colour, ONE, ONE) for colour in tableau.colours]

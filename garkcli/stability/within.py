@@ -24,11 +24,7 @@ from garkcli.stability.ball_signs import (
     squared_on_axis,
 )
 from garkcli.stability.bounds import OPEN, Bounds, first_failure
-from garkcli.stability.fraction_within import (
-    BITS,
-    BallFraction,
-    fraction_within,
-)
+from garkcli.stability.fraction_within import BITS, BallFraction, fraction_within
 from garkcli.stability.ssp_within import ssp_within
 from garkcli.tableau.tableau import Tableau
 

@@ -12,13 +12,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
-from garkcli.stepping.dependency import (
-    DependencyGraph,
-    FieldEvaluation,
-    Stage,
-    StageBlock,
-    Vertex,
-)
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock, Vertex
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -33,9 +27,7 @@ class _Layer:
     """Stage values or field evaluations that do not depend on each other."""
 
     stages: Sequence[Stage]
-    entries: Sequence[
-        _Entry
-    ]  # of the matrix W whose sums of w f the stages are
+    entries: Sequence[_Entry]  # of the matrix W whose sums of w f the stages are
     evaluations: Sequence[FieldEvaluation]
 
 
@@ -71,11 +63,7 @@ class ChainRule:
         inside = {*stages, *self.unknowns}
         arguments = []
         for evaluation in self.evaluations:
-            seen = [
-                stage
-                for stage in graph.arguments[evaluation]
-                if stage in inside
-            ]
+            seen = [stage for stage in graph.arguments[evaluation] if stage in inside]
             arguments += [(evaluation, stage) for stage in seen]
         self.arguments = tuple(arguments)
 
@@ -97,9 +85,7 @@ class ChainRule:
                     found.append((row, column, place))
         return found
 
-    def inverse(
-        self, derivatives: Sequence[float], weights: Sequence[float]
-    ) -> Floats:
+    def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
         """(I − J)⁻¹, shape (n, n).
 
         Args:
@@ -120,9 +106,7 @@ class ChainRule:
         w = np.array(weights)
         for layer in self._layers:
             if layer.entries:
-                found = _combined(
-                    len(layer.stages), layer.entries, w, of_fields
-                )
+                found = _combined(len(layer.stages), layer.entries, w, of_fields)
                 stages.update(zip(layer.stages, found, strict=True))
             for x in layer.evaluations:
                 total = np.zeros((d, n))
@@ -138,9 +122,7 @@ class ChainRule:
         return np.asarray(inverse, dtype=np.float64)
 
 
-def _sorted_out(
-    vertices: Iterable[Vertex],
-) -> tuple[list[Stage], list[FieldEvaluation]]:
+def _sorted_out(vertices: Iterable[Vertex]) -> tuple[list[Stage], list[FieldEvaluation]]:
     """Stage values, and field evaluations, each in their order."""
     stages: list[Stage] = []
     evaluations: list[FieldEvaluation] = []
@@ -152,9 +134,7 @@ def _sorted_out(
     return stages, evaluations
 
 
-def _combined(
-    count: int, entries: Sequence[_Entry], w: Floats, of_fields: Floats
-) -> Floats:
+def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Floats) -> Floats:
     """The derivatives of ``count`` sums of w f, shape (count, d, n)."""
     import numpy as np
 

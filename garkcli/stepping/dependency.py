@@ -133,9 +133,7 @@ class DependencyGraph:
                 busiest = max(component, key=ways.__getitem__)
                 cut.add(busiest)
 
-    def _predecessors(
-        self, stages: Sequence[Stage]
-    ) -> dict[Stage, set[Stage]]:
+    def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
         """Which of ``stages`` the evaluations look at that each of them sums."""
         inside = set(stages)
         before: dict[Stage, set[Stage]] = {}
@@ -191,12 +189,7 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
     return DependencyGraph(tuple(arguments), arguments, sums, coefficients)
 
 
-def entry(
-    tableau: Tableau,
-    entries: Entries,
-    stage: Stage | None,
-    value: FieldEvaluation,
-) -> Any:
+def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation) -> Any:
     """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no
     stage its weight.
     """

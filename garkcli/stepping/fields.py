@@ -11,13 +11,7 @@ from garkcli.order.nonautonomous import with_time
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock
-from garkcli.problems.vectorfield import (
-    GROUPS,
-    TIME,
-    Group,
-    VectorField,
-    is_constant,
-)
+from garkcli.problems.vectorfield import GROUPS, TIME, Group, VectorField, is_constant
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
 Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
@@ -166,9 +160,7 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
         colour = tableau.colours[m]
         part: Part = "y" if group == TIME else group
         is_linear = field.is_linear
-        colours.append(
-            replace(colour, space=k, part=part, is_linear=is_linear)
-        )
+        colours.append(replace(colour, space=k, part=part, is_linear=is_linear))
         spaces.append(tableau.space(m))
     blocks = {}
     for k, ((l, _), field) in enumerate(fields.items()):
@@ -193,19 +185,12 @@ def visible_trees(fields: Fields) -> str:
                 "alternate and velocities do not branch"
             )
         return "a separable problem sees the trees in which velocities and forces alternate"
-    parts = [
-        f"it sees the trees of all colours of the method{_branching(fields)}"
-    ]
+    parts = [f"it sees the trees of all colours of the method{_branching(fields)}"]
     dependences = {field.depends for field in fields.values()}
-    alone = (
-        ("positions", ("q",), "velocities"),
-        ("momenta", ("p",), "forces"),
-    )
+    alone = (("positions", ("q",), "velocities"), ("momenta", ("p",), "forces"))
     for x, groups, branch in alone:
         if groups in dependences:
-            parts.append(
-                f"what depends on {x} alone has only {branch} as branches"
-            )
+            parts.append(f"what depends on {x} alone has only {branch} as branches")
     return "; ".join(parts)
 
 
@@ -225,9 +210,7 @@ def _is_linear_but_for_time(fields: Fields) -> bool:
 
 def _is_separable(fields: Fields) -> bool:
     """Whether velocities depend on momenta alone, and forces on positions."""
-    return all(
-        group not in field.depends for (_, group), field in fields.items()
-    )
+    return all(group not in field.depends for (_, group), field in fields.items())
 
 
 def _branching(fields: Fields) -> str:

@@ -17,17 +17,8 @@ from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.problem import Problem
 from garkcli.problems.straightline import define, enclosed
-from garkcli.stepping.dependency import (
-    DependencyGraph,
-    dependency_graph,
-    entry,
-)
-from garkcli.stepping.fields import (
-    Fields,
-    fields_of,
-    stepped_terms,
-    with_clock,
-)
+from garkcli.stepping.dependency import DependencyGraph, dependency_graph, entry
+from garkcli.stepping.fields import Fields, fields_of, stepped_terms, with_clock
 from garkcli.stepping.matching import split_into
 from garkcli.stepping.newton import MAX_ITERATIONS
 from garkcli.stepping.program import Program, write
@@ -45,8 +36,7 @@ Real: TypeAlias = Any
 Recorder: TypeAlias = Callable[[list[Real]], None]
 """Is given the unknowns after a step: (q, p), shape (2d,), or y, shape (d,)."""
 StepProgram: TypeAlias = Callable[
-    [list[Real], list[Real], int, int, Recorder | None],
-    tuple[list[Real], list[int], int],
+    [list[Real], list[Real], int, int, Recorder | None], tuple[list[Real], list[int], int]
 ]
 """See ``Program.source``."""
 
@@ -120,33 +110,21 @@ class Binding:
         """The steps with numbers of ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
         digits = max(digits, FLOAT_DIGITS)
         is_for_balls = digits > FLOAT_DIGITS
-        program = (
-            self._program_for_balls
-            if is_for_balls
-            else self._program_for_floats
-        )
+        program = self._program_for_balls if is_for_balls else self._program_for_floats
         entries = numeric_entries(self.tableau, digits + 5)
         with _precision(digits):
             coefficients = tuple(
-                entry(self.tableau, entries, stage, value)
-                for stage, value in program.coefficients
+                entry(self.tableau, entries, stage, value) for stage, value in program.coefficients
             )
             names: dict[str, Any] = {
                 **enclosed(program.codes),
                 "NotSolved": NotSolved,
                 "nan": math.nan,
-                "precision": arb(10) ** -digits
-                if is_for_balls
-                else FLOAT_PRECISION,
+                "precision": arb(10) ** -digits if is_for_balls else FLOAT_PRECISION,
                 "iterations": MAX_ITERATIONS + (digits if is_for_balls else 0),
                 "inverted": _inverted,
-                **{
-                    f"chain{i}": chain.inverse
-                    for i, chain in program.chains.items()
-                },
-                "corrections": _corrections_of_balls
-                if is_for_balls
-                else _corrections,
+                **{f"chain{i}": chain.inverse for i, chain in program.chains.items()},
+                "corrections": _corrections_of_balls if is_for_balls else _corrections,
             }
             run = define(program.source, "run", names)
         return Integrator(self.problem, digits, program, coefficients, run)
@@ -159,15 +137,11 @@ class Binding:
     # one text serves any number of digits: its coefficients and constants have names
     @cached_property
     def _program_for_floats(self) -> Program:
-        return write(
-            self.graph, self.fields, self.problem.layout, is_for_balls=False
-        )
+        return write(self.graph, self.fields, self.problem.layout, is_for_balls=False)
 
     @cached_property
     def _program_for_balls(self) -> Program:
-        return write(
-            self.graph, self.fields, self.problem.layout, is_for_balls=True
-        )
+        return write(self.graph, self.fields, self.problem.layout, is_for_balls=True)
 
     def __repr__(self) -> str:
         return f"<Binding {self.problem.name}: {self.tableau!r}>"

@@ -59,9 +59,7 @@ class JacobianWriter:
                 places[stage, evaluation] = int(name.removeprefix("w"))
         return places
 
-    def _matrices(
-        self, evaluation: FieldEvaluation, seen: Sequence[Stage]
-    ) -> list[str]:
+    def _matrices(self, evaluation: FieldEvaluation, seen: Sequence[Stage]) -> list[str]:
         """The entries of the derivative (d, d) by each stage value, row by row."""
         d = self._stages.d
         by = [(stage, k) for stage in seen for k in range(d)]
@@ -113,9 +111,7 @@ class JacobianWriter:
             terms.append((w, slope))
         return _sums(terms)
 
-    def _slopes_of_field(
-        self, evaluation: FieldEvaluation, slopes: _Slopes
-    ) -> list[Slope]:
+    def _slopes_of_field(self, evaluation: FieldEvaluation, slopes: _Slopes) -> list[Slope]:
         by = []
         for stage in self._stages.graph.arguments[evaluation]:
             components = [(stage, k) for k in range(self._stages.d)]

@@ -18,14 +18,7 @@ from flint import arb, arb_mat, fmpq, fmpq_mat
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, NumberField, coordinates
-from garkcli.exact.matrix import (
-    Matrix,
-    identity,
-    multiply,
-    scale,
-    subtract,
-    transpose,
-)
+from garkcli.exact.matrix import Matrix, identity, multiply, scale, subtract, transpose
 from garkcli.problems.oscillator import Oscillator, check_structure
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -66,9 +59,7 @@ class LinearStep:
         try:
             X = system.solve(self.E)
         except ZeroDivisionError:
-            message = (
-                f"the stage equations have no unique solution for h = {h}"
-            )
+            message = f"the stage equations have no unique solution for h = {h}"
             raise UsageProblem(message, "choose another step size") from None
         increment = self.B * X * h
         (a, b), (c, d) = self._numbers(increment)
@@ -119,9 +110,7 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
 def _over_rationals(rows: Matrix, field: NumberField | None) -> fmpq_mat:
     """Each number replaced by its multiplication matrix over ℚ."""
     if field is None:
-        return fmpq_mat(
-            [[x for x in row if isinstance(x, fmpq)] for row in rows]
-        )
+        return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
     d = field.degree
     powers = []  # 1, θ, … θ^{d−1}
     for k in range(d):

@@ -35,9 +35,7 @@ def split_into(problem: Problem, terms: int) -> Problem:
         cure += f", or choose a method for {found}"
     elif isinstance(problem, Hamiltonian):
         cure += ": no sum of parts with and without momenta"
-    message = (
-        f"{problem.name} has {found} term{plural}, the method is for {terms}"
-    )
+    message = f"{problem.name} has {found} term{plural}, the method is for {terms}"
     raise UsageProblem(message, cure)
 
 

@@ -197,9 +197,7 @@ class NewtonWriter:
             self._lines.write("jacobians += 1")
         residuals = ", ".join(names("r", n))
         corrections = ", ".join(names("c", n))
-        self._lines.write(
-            f"{corrections}, = corrections(inverse, [{residuals}])"
-        )
+        self._lines.write(f"{corrections}, = corrections(inverse, [{residuals}])")
 
     def _ending(self, is_direct: bool) -> None:
         """Whether the next correction would be below round-off, and whether the Jacobian still

@@ -17,12 +17,7 @@ from itertools import product
 from garkcli.problems.straightline import Code
 from garkcli.problems.vectorfield import Layout
 from garkcli.stepping.chainrule import ChainRule
-from garkcli.stepping.dependency import (
-    DependencyGraph,
-    FieldEvaluation,
-    Stage,
-    StageBlock,
-)
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.fields import Fields
 from garkcli.stepping.jacobian import JacobianWriter
 from garkcli.stepping.newton import NewtonWriter
@@ -64,16 +59,12 @@ class Program:
         """Evaluations of vector fields in one iteration of each implicit block."""
         counts = []
         for block in self.implicit:
-            is_evaluation = [
-                isinstance(x, FieldEvaluation) for x in block.order
-            ]
+            is_evaluation = [isinstance(x, FieldEvaluation) for x in block.order]
             counts.append(sum(is_evaluation))
         return tuple(counts)
 
 
-def write(
-    graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
-) -> Program:
+def write(graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool) -> Program:
     """The program of one step of the method with this ``graph`` on states with this ``layout``."""
     return _ProgramWriter(graph, fields, layout, is_for_balls).program()
 
@@ -82,16 +73,10 @@ class _ProgramWriter:
     """Writes all of a step, with the help of those who write its parts."""
 
     def __init__(
-        self,
-        graph: DependencyGraph,
-        fields: Fields,
-        layout: Layout,
-        is_for_balls: bool,
+        self, graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
     ) -> None:
         self.body = Lines(_INSIDE)
-        self.stages = StageWriter(
-            graph, fields, layout, is_for_balls, self.body
-        )
+        self.stages = StageWriter(graph, fields, layout, is_for_balls, self.body)
         self.jacobians = JacobianWriter(self.stages)
         self.newton = NewtonWriter(self.stages, self.jacobians)
         self.graph = graph
@@ -100,9 +85,7 @@ class _ProgramWriter:
         self.is_for_balls = is_for_balls
         self.blocks = graph.blocks()
         self.implicit = tuple(block for block in self.blocks if block.unknowns)
-        self.unknowns = [
-            stage for block in self.blocks for stage in block.unknowns
-        ]
+        self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
 
     def program(self) -> Program:
         """Write everything."""

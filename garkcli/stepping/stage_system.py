@@ -50,9 +50,7 @@ class _Term:
 
 
 def stage_system(
-    tableau: Tableau,
-    fields: Sequence[Matrix],
-    pattern: Sequence[Matrix] | None = None,
+    tableau: Tableau, fields: Sequence[Matrix], pattern: Sequence[Matrix] | None = None
 ) -> StageSystem:
     """The linear system of the stages.
 
@@ -86,9 +84,7 @@ def stage_system(
     return StageSystem(_frozen(W), _frozen(E), _frozen(B))
 
 
-def _terms(
-    fields: Sequence[Matrix], pattern: Sequence[Matrix]
-) -> Iterator[_Term]:
+def _terms(fields: Sequence[Matrix], pattern: Sequence[Matrix]) -> Iterator[_Term]:
     """The entries of all L^m that are not zero in the pattern."""
     for m, (L, kept) in enumerate(zip(fields, pattern, strict=True)):
         for i, row in enumerate(kept):
@@ -122,9 +118,7 @@ def _frozen(rows: _Rows) -> Matrix:
     return tuple(tuple(row) for row in rows)
 
 
-def _add(
-    matrix: _Rows, row: int, column: int, factor: Number, block: Matrix
-) -> None:
+def _add(matrix: _Rows, row: int, column: int, factor: Number, block: Matrix) -> None:
     """Add a multiple of a block whose upper left corner is at (row, column)."""
     for i, entries in enumerate(block, start=row):
         for j, x in enumerate(entries, start=column):

@@ -8,12 +8,7 @@ from dataclasses import dataclass
 
 from garkcli.problems.straightline import Code, code_of
 from garkcli.problems.vectorfield import Group, Layout
-from garkcli.stepping.dependency import (
-    DependencyGraph,
-    FieldEvaluation,
-    Stage,
-    StageBlock,
-)
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.fields import Fields
 
 
@@ -102,14 +97,10 @@ class StageWriter:
                 self._place(vertex)
 
     def _evaluate(self, evaluation: FieldEvaluation) -> None:
-        components = self.fields[
-            evaluation.colour, evaluation.group
-        ].components
+        components = self.fields[evaluation.colour, evaluation.group].components
         code = self.code(components, evaluation, self.is_for_balls)
         prefix = f"f{self.number[evaluation]}_"
-        self.values[evaluation] = self.emit(
-            code, self.arguments(evaluation), prefix
-        )
+        self.values[evaluation] = self.emit(code, self.arguments(evaluation), prefix)
 
     def _place(self, stage: Stage) -> None:
         """The stage value itself, y_0 and the sum."""
@@ -134,10 +125,7 @@ class StageWriter:
         return found
 
     def total(
-        self,
-        stage: Stage | None,
-        evaluations: Sequence[FieldEvaluation],
-        group: Group,
+        self, stage: Stage | None, evaluations: Sequence[FieldEvaluation], group: Group
     ) -> Sum:
         """The sums of w f over ``evaluations``, which drive ``group``; from a sum that is known,
         where that has at least two of the terms.
@@ -161,17 +149,13 @@ class StageWriter:
             texts.append(" + ".join(parts))
         return Sum(terms, texts)
 
-    def _largest_part(
-        self, terms: dict[FieldEvaluation, str], size: int
-    ) -> Sum:
+    def _largest_part(self, terms: dict[FieldEvaluation, str], size: int) -> Sum:
         """The known sum with the most of these terms and no others; an empty one where none has
         two.
         """
         largest = Sum({}, [""] * size)
         for known in self._known_sums:
-            is_part = (
-                len(known.terms) > 1 and known.terms.items() <= terms.items()
-            )
+            is_part = len(known.terms) > 1 and known.terms.items() <= terms.items()
             if is_part and len(known.terms) > len(largest.terms):
                 largest = known
         return largest
@@ -186,10 +170,7 @@ class StageWriter:
         return self.weights[text]
 
     def code(
-        self,
-        expressions: Sequence[object],
-        evaluation: FieldEvaluation,
-        is_for_balls: bool,
+        self, expressions: Sequence[object], evaluation: FieldEvaluation, is_for_balls: bool
     ) -> Code:
         """The code of expressions in what the field of an evaluation depends on."""
         arguments = self.fields[evaluation.colour, evaluation.group].arguments
@@ -197,9 +178,7 @@ class StageWriter:
         self.codes.append(made)
         return made
 
-    def emit(
-        self, code: Code, arguments: Sequence[str], prefix: str
-    ) -> list[str]:
+    def emit(self, code: Code, arguments: Sequence[str], prefix: str) -> list[str]:
         """Write ``code`` for these arguments; the names of its results."""
         lines, results = code.lines(arguments, prefix)
         for line in lines:

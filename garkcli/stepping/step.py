@@ -39,13 +39,9 @@ class StepFailed(GarkError):
         else:
             what = "the numbers leave the vector fields"
             cure = (
-                "choose a smaller step size, or an earlier final time: "
-                "the solution may end there"
+                "choose a smaller step size, or an earlier final time: the solution may end there"
             )
-        super().__init__(
-            f"step {number} of size {h}: {what} (residual {residual:.1e})",
-            cure,
-        )
+        super().__init__(f"step {number} of size {h}: {what} (residual {residual:.1e})", cure)
         self.number = number
         self.h = h
         self.residual = residual
@@ -100,10 +96,7 @@ def trajectory(
 
 
 def integrate(
-    integrator: Integrator,
-    h: fmpq,
-    count: int,
-    initial: Sequence[Any] | None = None,
+    integrator: Integrator, h: fmpq, count: int, initial: Sequence[Any] | None = None
 ) -> list[Real]:
     """(q, p) after ``count`` steps; see ``trajectory``."""
     stepper = Stepper(integrator, h, initial)
@@ -133,11 +126,7 @@ class Stepper:
 
     def __post_init__(self) -> None:
         integrator = self.integrator
-        start = (
-            integrator.problem.initial
-            if self.initial is None
-            else self.initial
-        )
+        start = integrator.problem.initial if self.initial is None else self.initial
         with ctx.workprec(integrator.bits):
             numbers = [integrator.number(x) for x in start]
             # time begins at 0; nothing has been lost or missed before the first step
@@ -155,14 +144,9 @@ class Stepper:
     def work(self) -> Work:
         """What all steps so far have cost."""
         program = self.integrator.program
-        repeated = sum(
-            n * k
-            for n, k in zip(self._iterations, program.repeated, strict=True)
-        )
+        repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
         return Work(
-            self.done * program.evaluations + repeated,
-            sum(self._iterations),
-            self._jacobians,
+            self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians
         )
 
     def advance(self, count: int, record: Recorder | None = None) -> None:
@@ -174,26 +158,18 @@ class Stepper:
         try:
             made = self._run(count, record)
         except NotSolved as failure:
-            raise StepFailed(
-                failure.number, self.h, failure.residual
-            ) from None
+            raise StepFailed(failure.number, self.h, failure.residual) from None
         self._numbers, iterations, jacobians = made
         pairs = zip(self._iterations, iterations, strict=True)
         self._iterations = [before + more for before, more in pairs]
         self._jacobians += jacobians
         self.done += count
 
-    def _run(
-        self, count: int, record: Recorder | None
-    ) -> tuple[list[Real], list[int], int]:
+    def _run(self, count: int, record: Recorder | None) -> tuple[list[Real], list[int], int]:
         """What the program of the steps gives, with balls at their precision."""
         integrator = self.integrator
         first = self.done + 1
         if not integrator.is_for_balls:
-            return integrator.run(
-                self._numbers, self._weights, first, count, record
-            )
+            return integrator.run(self._numbers, self._weights, first, count, record)
         with ctx.workprec(integrator.bits):
-            return integrator.run(
-                self._numbers, self._weights, first, count, record
-            )
+            return integrator.run(self._numbers, self._weights, first, count, record)

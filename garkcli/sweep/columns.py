@@ -62,14 +62,10 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
     if is_largest:
         if norms.worst_value is None:
             return 0.0
-        return abs(
-            _rounded(ball_decimal(to_ball(norms.worst_value, 20), DIGITS))
-        )
+        return abs(_rounded(ball_decimal(to_ball(norms.worst_value, 20), DIGITS)))
     if norms.two_squared is None:
         return None
-    return _rounded(
-        ball_decimal(to_ball(norms.two_squared, 30).sqrt(), DIGITS)
-    )
+    return _rounded(ball_decimal(to_ball(norms.two_squared, 30).sqrt(), DIGITS))
 
 
 def _rounded(text: str) -> float:
@@ -123,34 +119,14 @@ def _bound(found: Simplifying | None, is_sharp: bool) -> int | None:
 _PLAIN = (
     Column("order", lambda m: m.order.order, "the exact order"),
     Column(
-        "conjugate-order",
-        lambda m: _order(m.conjugate_order),
-        "that of the symplectic conjugate",
+        "conjugate-order", lambda m: _order(m.conjugate_order), "that of the symplectic conjugate"
     ),
+    Column("pair-order", lambda m: _order(m.pair_order), "that of the symplectic pair"),
+    Column("symplectic", lambda m: is_symplectic(m.tableau), "is it its own conjugate"),
+    Column("bound", lambda m: _bound(m.simplifying, False), "the paper's lower bound"),
+    Column("sharp-bound", lambda m: _bound(m.simplifying, True), "the sharper bound"),
     Column(
-        "pair-order",
-        lambda m: _order(m.pair_order),
-        "that of the symplectic pair",
-    ),
-    Column(
-        "symplectic",
-        lambda m: is_symplectic(m.tableau),
-        "is it its own conjugate",
-    ),
-    Column(
-        "bound",
-        lambda m: _bound(m.simplifying, False),
-        "the paper's lower bound",
-    ),
-    Column(
-        "sharp-bound",
-        lambda m: _bound(m.simplifying, True),
-        "the sharper bound",
-    ),
-    Column(
-        "pair-bound",
-        lambda m: _bound(m.pair_simplifying, False),
-        "the lower bound of the pair",
+        "pair-bound", lambda m: _bound(m.pair_simplifying, False), "the lower bound of the pair"
     ),
     Column(
         "pair-sharp-bound",
@@ -163,23 +139,14 @@ _PLAIN = (
         "the principal error: the 2-norm of its coefficients",
         False,
     ),
-    Column(
-        "error-largest",
-        lambda m: _error(m.constants, True),
-        "its largest coefficient",
-        False,
-    ),
+    Column("error-largest", lambda m: _error(m.constants, True), "its largest coefficient", False),
     Column(
         "pair-error",
         lambda m: _error(m.pair_constants, False),
         "the principal error of the pair",
         False,
     ),
-    Column(
-        "phase-order",
-        _phase_order,
-        "the order of the phase error on the oscillator",
-    ),
+    Column("phase-order", _phase_order, "the order of the phase error on the oscillator"),
     Column("phase-constant", _phase_constant, "the constant of it", False),
     Column(
         "stages",
@@ -187,9 +154,7 @@ _PLAIN = (
         "stages of all stage spaces",
         False,
     ),
-    Column(
-        "colours", lambda m: m.tableau.size, "parts of the vector field", False
-    ),
+    Column("colours", lambda m: m.tableau.size, "parts of the vector field", False),
 )
 _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 
@@ -211,8 +176,5 @@ def property_kind(name: str) -> str:
         return find(name).kind
     if name == "symplectic":
         return "truth"
-    is_real = (
-        name.removeprefix("pair-").startswith("error")
-        or name == "phase-constant"
-    )
+    is_real = name.removeprefix("pair-").startswith("error") or name == "phase-constant"
     return "number" if is_real else "count"

@@ -63,11 +63,7 @@ class Judged:
     @cached_property
     def pair_simplifying(self) -> Simplifying | None:
         """The same of the pair."""
-        return (
-            None
-            if self.pair is None
-            else simplifying(self.pair, DEFAULT_LIMIT)
-        )
+        return None if self.pair is None else simplifying(self.pair, DEFAULT_LIMIT)
 
     @cached_property
     def constants(self) -> ErrorConstants | None:
@@ -84,9 +80,7 @@ class Judged:
     @cached_property
     def subject(self) -> Subject:
         """The method as its properties are decided."""
-        return Subject(
-            self.tableau, self.order.order, self.simplifying, DEFAULT_LIMIT
-        )
+        return Subject(self.tableau, self.order.order, self.simplifying, DEFAULT_LIMIT)
 
     @cached_property
     def phase(self) -> PhaseError | None:

@@ -156,9 +156,7 @@ class Plan:
         return self._starts[-1]
 
     def _size(self, template: Template) -> int:
-        count = math.prod(
-            len(self.grids[name]) for name in template.parameters
-        )
+        count = math.prod(len(self.grids[name]) for name in template.parameters)
         return count * len(template.seeds) if template.is_searched else count
 
     def points(self) -> Iterator[Point]:
@@ -184,9 +182,7 @@ class Plan:
             settings[name] = values[place]
         in_order = {name: settings[name] for name in template.parameters}
         values_text = ", ".join(f"{name}={x}" for name, x in in_order.items())
-        parts = (
-            [template.name, values_text] if values_text else [template.name]
-        )
+        parts = [template.name, values_text] if values_text else [template.name]
         if seed is not None:
             parts.append(f"seed {seed}")
         return Point("; ".join(parts), template, in_order, seed)

@@ -45,9 +45,7 @@ def is_row(row: Any) -> TypeGuard[Row]:
 
 
 def _is_settings(found: object) -> bool:
-    return isinstance(found, dict) and all(
-        isinstance(value, str) for value in found.values()
-    )
+    return isinstance(found, dict) and all(isinstance(value, str) for value in found.values())
 
 
 def row_of(criteria: Criteria, point: Point) -> Row:
@@ -78,10 +76,7 @@ def row_of(criteria: Criteria, point: Point) -> Row:
 
 def crashed_row(criteria: Criteria, point: Point, why: str) -> Row:
     """The row of a method that ended the process it was judged in."""
-    return {
-        **_start(criteria, point),
-        "failure": f"its process was ended {why}",
-    }
+    return {**_start(criteria, point), "failure": f"its process was ended {why}"}
 
 
 def _start(criteria: Criteria, point: Point) -> Row:
@@ -108,8 +103,7 @@ def _tableau(point: Point) -> Tableau:
     family = _family(point.template.text, point.template.parameters)
     if family is not None:
         values: Mapping[str, Number] = {
-            name: fmpq(*map(int, text.split("/")))
-            for name, text in point.settings.items()
+            name: fmpq(*map(int, text.split("/"))) for name, text in point.settings.items()
         }
         return member(family.tableau, family.ring, values)
     method = loads(point.template.text, point.key, point.settings)

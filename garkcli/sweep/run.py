@@ -35,9 +35,7 @@ class Progress:
     seconds: float = 0.0
 
 
-def sweep(
-    plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = ""
-) -> Iterator[Progress]:
+def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> Iterator[Progress]:
     """Add the rows that are missing, in the order in which they come.
 
     Args:

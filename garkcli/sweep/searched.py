@@ -17,9 +17,7 @@ def first_find(point: Point) -> Method | None:
     """
     template = point.template
     assert point.seed is not None
-    for result in results(
-        _asked(point).search, template.starts, point.seed, most=1
-    ):
+    for result in results(_asked(point).search, template.starts, point.seed, most=1):
         if result.methods:
             return result.methods[0]
     return None

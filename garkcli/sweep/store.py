@@ -70,9 +70,7 @@ class RowStore:
         with suppress(OSError):
             if os.path.samestat(status, os.stat(os.devnull)):
                 return False
-        raise UsageProblem(
-            f"{self.path} is not a regular file", "choose another --rows"
-        )
+        raise UsageProblem(f"{self.path} is not a regular file", "choose another --rows")
 
     def _lock(self) -> None:
         with suppress(ImportError):
@@ -82,9 +80,7 @@ class RowStore:
                 # of this process alone: workers that outlive it do not keep the lock
                 fcntl.lockf(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except (BlockingIOError, PermissionError):
-                raise UsageProblem(
-                    f"another sweep writes to {self.path}", "wait for it"
-                ) from None
+                raise UsageProblem(f"another sweep writes to {self.path}", "wait for it") from None
             except OSError:
                 return  # a file system without locks
 
@@ -98,9 +94,7 @@ class RowStore:
                 "--resume does what is missing in it; or choose another --rows",
             )
         whole = data.rfind(b"\n") + 1
-        for number, line in enumerate(
-            bytes(data[:whole]).splitlines(), start=1
-        ):
+        for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
             row = self._row(line, number)
             self.rows.setdefault(str(row["key"]), row)
         if whole < len(data):

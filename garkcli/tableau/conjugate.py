@@ -22,11 +22,7 @@ from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 
 def conjugate_block(
-    block: Matrix,
-    here: StageSpace,
-    b: Vector,
-    other: StageSpace,
-    b_other: Vector,
+    block: Matrix, here: StageSpace, b: Vector, other: StageSpace, b_other: Vector
 ) -> Matrix:
     """Â^{l,m} from A^{m,l}, with l ``here`` and m the ``other`` colour.
 

@@ -152,9 +152,7 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
     return replace(tableau, colours=tuple(colours))
 
 
-def from_colours(
-    tableau: Tableau, further: Further
-) -> tuple[Tableau, Further]:
+def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
     """The tableau and the further weights again, from what was made of ``as_colours``.
 
     Args:

@@ -56,9 +56,7 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     known to ``MAX_DIGITS`` digits at most.
     """
     digits = int((bits + GUARD) * DIGITS_OF_A_BIT)
-    is_spelled_out = all(
-        isinstance(space, PointSpace) for space in tableau.spaces
-    )
+    is_spelled_out = all(isinstance(space, PointSpace) for space in tableau.spaces)
     with ctx.workprec(bits + GUARD):
         if is_spelled_out:
             A, b = _spelled_out(tableau, digits)

@@ -48,11 +48,7 @@ class Stability:
     def __str__(self) -> str:
         """As people write it, such as A-stable."""
         name = self.kind[0].upper() + self.kind[1:]
-        return (
-            name
-            if self.colour is None
-            else f"{name} in colour {self.colour + 1}"
-        )
+        return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

@@ -16,14 +16,7 @@ from flint import fmpq
 from garkcli.errors import LimitExceeded
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import Algebraic, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    apply,
-    apply_left,
-    identity,
-    multiply,
-)
+from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression, Root
 from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.rewriting import format_expression
@@ -121,18 +114,13 @@ class _Into:
             return x
         parts = []
         for p in (x.numerator, x.denominator):
-            terms = {
-                (*map(int, e), *self._zeros): a for e, a in p.to_dict().items()
-            }
+            terms = {(*map(int, e), *self._zeros): a for e, a in p.to_dict().items()}
             parts.append(self.larger.context.from_dict(terms))
         return Parametric(self.larger, *parts)
 
 
 def _at_points(
-    tableau: Tableau,
-    nodes: dict[int, tuple[Expression, ...]],
-    domain: Domain,
-    into: _Into,
+    tableau: Tableau, nodes: dict[int, tuple[Expression, ...]], domain: Domain, into: _Into
 ) -> Tableau:
     spaces: list[PointSpace] = []
     forth: list[Matrix] = []
@@ -160,9 +148,7 @@ def _at_points(
         b = tuple(map(into.function, colour.b))
         c = tuple(map(into.function, colour.c))
         k = colour.space
-        colours.append(
-            replace(colour, b=apply_left(b, back[k]), c=apply(forth[k], c))
-        )
+        colours.append(replace(colour, b=apply_left(b, back[k]), c=apply(forth[k], c)))
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 

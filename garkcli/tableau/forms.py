@@ -79,9 +79,7 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
     return apply(block, PointSpace(block[0]).one)
 
 
-def additive(
-    A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None
-) -> Tableau:
+def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
     """An additive method: one set of stages, a matrix and a row of weights a colour."""
     nodes = c
     if nodes is None:
@@ -139,9 +137,7 @@ def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
     return replace(tableau, colours=tuple(colours))
 
 
-def symplectic_pair(
-    tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]
-) -> Tableau:
+def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]) -> Tableau:
     """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields that the
     problem has.
 
@@ -162,10 +158,7 @@ def symplectic_pair(
         MethodError: the tableau is partitioned already.
     """
     if tableau.is_partitioned:
-        raise MethodError(
-            "the method is partitioned already",
-            "give the tableau of the positions",
-        )
+        raise MethodError("the method is partitioned already", "give the tableau of the positions")
     driven = {*velocities, *forces}
     used = [l for l in range(tableau.size) if l in driven]
     spaces = tuple(tableau.space(l) for l in used)

@@ -56,9 +56,7 @@ class GarkMethod:
     @cached_property
     def entries(self) -> Entries:
         """All entries together, those of embedded weights and dense output among them."""
-        from garkcli.tableau import (
-            pointwise,
-        )  # loaded when entries are asked for
+        from garkcli.tableau import pointwise  # loaded when entries are asked for
 
         return pointwise.entries(self.tableau).beside(self.further)
 
@@ -72,11 +70,7 @@ class GarkMethod:
             return blocks[0][0]
         numbered = enumerate(blocks, start=1)
         return ByColour(
-            {
-                (l, m): block
-                for l, row in numbered
-                for m, block in enumerate(row, start=1)
-            }
+            {(l, m): block for l, row in numbered for m, block in enumerate(row, start=1)}
         )
 
     @property

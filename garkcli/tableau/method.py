@@ -36,9 +36,7 @@ class Method:
         return self.space.nodes
 
 
-def butcher(
-    A: Matrix, b: Vector, c: Vector | None = None, name: str = ""
-) -> Method:
+def butcher(A: Matrix, b: Vector, c: Vector | None = None, name: str = "") -> Method:
     """The method with a spelled-out Butcher tableau; ``c`` defaults to the row sums of ``A``."""
     nodes = c
     if nodes is None:

@@ -13,13 +13,7 @@ from flint import fmpq, fmpq_poly, fmpz
 
 from garkcli.errors import CoincidingNodes
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    SingularMatrixError,
-    Vector,
-    is_rational,
-    transpose,
-)
+from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, is_rational, transpose
 from garkcli.tableau.stages import StageSpace, in_flint
 
 MAX_BITS_COMPARED = 5_000_000
@@ -83,9 +77,7 @@ class PointSpace(StageSpace):
     def basis_polynomials(self) -> Iterator[Vector]:
         self._check_distinct()
         if is_rational((self.points,)):
-            yield from _rational_lagrange(
-                cast("tuple[fmpq, ...]", self.points)
-            )
+            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
         else:
             yield from _lagrange(self.points)
 

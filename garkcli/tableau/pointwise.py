@@ -17,14 +17,7 @@ from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    apply,
-    apply_left,
-    identity,
-    multiply,
-)
+from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.method import Method
@@ -85,9 +78,7 @@ class Entries:
         dense = self.dense
         if dense is not None:
             dense = tuple(tuple(map(row, rows)) for rows in dense)
-        return replace(
-            self, c=c, A=tuple(A), b=b, embedded=embedded, dense=dense
-        )
+        return replace(self, c=c, A=tuple(A), b=b, embedded=embedded, dense=dense)
 
     def beside(self, further: Further) -> Entries:
         """The entries with embedded weights and dense output."""
@@ -184,9 +175,7 @@ class _Frame:
 
 
 def _at_points(
-    tableau: Tableau,
-    radical_nodes: Mapping[int, Sequence[Expression]],
-    domain: Domain,
+    tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]], domain: Domain
 ) -> Tableau:
     """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes."""
     embed = _embedding(tableau, domain)
@@ -232,9 +221,7 @@ def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
             return number
         total: Number = ZERO
         coefficients = field.in_radicals(number)
-        for coefficient, word in zip(
-            coefficients, field.monomials, strict=True
-        ):
+        for coefficient, word in zip(coefficients, field.monomials, strict=True):
             term: Number = ONE * coefficient
             for index in word:
                 term = term * radicals[index]
@@ -296,14 +283,7 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
             _, back = frames[other.space]
             blocks.append(_in_values(V, exact, back))
         A.append(tuple(blocks))
-    return Entries(
-        tuple(c),
-        tuple(A),
-        tuple(b),
-        is_exact=False,
-        digits=digits,
-        have_radicals=False,
-    )
+    return Entries(tuple(c), tuple(A), tuple(b), is_exact=False, digits=digits, have_radicals=False)
 
 
 def _in_values(V: arb_mat, block: Matrix, back: arb_mat) -> Block:

@@ -103,11 +103,7 @@ class StageSpace(ABC):
         return multiply(self.gram(weights), block)
 
     def adjoint(
-        self,
-        block: Matrix,
-        weights: Vector,
-        source: StageSpace,
-        source_weights: Vector,
+        self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector
     ) -> Matrix:
         """The map A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from
         ``source`` to here.

@@ -79,9 +79,7 @@ class Tableau:
         for (k, m), block in self.blocks.items():
             rows = self.spaces[k].stages
             columns = self.space(m).stages
-            if len(block) == rows and all(
-                len(row) == columns for row in block
-            ):
+            if len(block) == rows and all(len(row) == columns for row in block):
                 continue
             seen = counted(columns, "stage")
             seeing = counted(rows, "stage")

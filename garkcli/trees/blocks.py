@@ -78,9 +78,7 @@ def iter_blocks(
     if block_size < 1:
         raise ValueError(f"a block holds at least one tree, not {block_size}")
     admissible = Admissible.of(colours, edges, linear)
-    wanted = [
-        root for root in range(colours) if roots is None or root in roots
-    ]
+    wanted = [root for root in range(colours) if roots is None or root in roots]
     lower = TreeTable.of(admissible, max(order - 1, 1))
     if order == 1:
         for root in wanted:
@@ -123,9 +121,7 @@ def select(
         named.add(root)
     for colour in named:
         if not 0 <= colour < colours:
-            raise ValueError(
-                f"there is no colour {colour} among the {colours} colours 0, 1, …"
-            )
+            raise ValueError(f"there is no colour {colour} among the {colours} colours 0, 1, …")
     within = set(range(colours))
     if only is not None:
         within = set(only)
@@ -140,9 +136,7 @@ def select(
     bits[wanted] = 1 << np.arange(len(wanted))
     # for every tree of the lower orders which of the colours occur
     used: Column | None = None
-    for block in iter_blocks(
-        colours, order, block_size, narrowed, linear, roots
-    ):
+    for block in iter_blocks(colours, order, block_size, narrowed, linear, roots):
         if used is None:
             used = _used_by_all(block.lower, bits)
         occurring = _used(block.columns, bits, used)
@@ -154,9 +148,7 @@ def select(
             yield Block(kept, block.lower)
 
 
-def _narrowed(
-    colours: int, edges: Edges | None, within: Collection[int]
-) -> list[list[bool]]:
+def _narrowed(colours: int, edges: Edges | None, within: Collection[int]) -> list[list[bool]]:
     """The edges between the colours ``within``, as a matrix over all colours."""
     narrowed = [[False] * colours for _ in range(colours)]
     for above in within:

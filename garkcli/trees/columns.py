@@ -125,9 +125,7 @@ class Growth:
     of the possible parents, of one order and root colour each.
     """
 
-    def __init__(
-        self, lower: Columns, order: int, stems: range, branches: range
-    ) -> None:
+    def __init__(self, lower: Columns, order: int, stems: range, branches: range) -> None:
         self.lower = lower
         self.order = order
         self.stems = stems

@@ -52,10 +52,7 @@ class Admissible:
 
     @classmethod
     def of(
-        cls,
-        colours: int,
-        edges: Edges | None = None,
-        linear: Collection[int] = (),
+        cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> Admissible:
         """Check and freeze; no ``edges`` means every edge.
 
@@ -63,18 +60,14 @@ class Admissible:
         exist.
         """
         if colours < 1:
-            raise TreeError(
-                f"an N-tree needs at least one colour, not {colours}"
-            )
+            raise TreeError(f"an N-tree needs at least one colour, not {colours}")
         everything = range(colours)
         rows: list[Colours] = [tuple(everything)] * colours
         if edges is not None:
             lengths = {len(edges), *map(len, edges)}
             if lengths != {colours}:
                 shape = f"a {colours} by {colours} matrix"
-                raise TreeError(
-                    f"edges must be {shape}, one row for each colour"
-                )
+                raise TreeError(f"edges must be {shape}, one row for each colour")
             rows = []
             for row in edges:
                 below = [m for m in everything if row[m]]
@@ -82,9 +75,7 @@ class Admissible:
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
-                raise TreeError(
-                    f"{what} is not one of the {colours} colours 0, 1, …"
-                )
+                raise TreeError(f"{what} is not one of the {colours} colours 0, 1, …")
         return cls(colours, tuple(rows), frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:
@@ -125,10 +116,7 @@ def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
 
 
 def count_by_root(
-    colours: int,
-    order: int,
-    edges: Edges | None = None,
-    linear: Collection[int] = (),
+    colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
 ) -> Counts:
     """The number of N-trees of one order for each root colour.
 
@@ -144,9 +132,7 @@ def count_by_root(
     return tuple(map(int, last))
 
 
-def _forests(
-    admissible: Admissible, leaders: Sequence[int], order: int
-) -> dict[int, list[fmpz]]:
+def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:
     """For each leader the numbers of forests f(0), …, f(order - 1) that may stand on it."""
     if order < 1:
         raise TreeError(f"the order of a tree is at least 1, not {order}")
@@ -174,9 +160,7 @@ def _forests(
 class _Growing:
     """The forests on a colour, f(0), f(1), …, as far as they are counted."""
 
-    def __init__(
-        self, order: int, branches: Counter[int], is_linear: bool
-    ) -> None:
+    def __init__(self, order: int, branches: Counter[int], is_linear: bool) -> None:
         self.branches = branches
         self.is_linear = is_linear
         self.f = [fmpz(1)]
@@ -224,9 +208,7 @@ class _Growing:
         length, hence below ``start``.
         """
         done = end // block
-        half = (
-            done & -done
-        ) * block  # the largest power of two that divides ``done``
+        half = (done & -done) * block  # the largest power of two that divides ``done``
         start = end - half
         stop = min(end + half, len(self.c))
         if self.is_linear or stop <= end:
@@ -249,10 +231,7 @@ class _Growing:
 
 
 def count_trees(
-    colours: int,
-    order: int,
-    edges: Edges | None = None,
-    linear: Collection[int] = (),
+    colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
 ) -> int:
     """The number of N-trees of one order.
 

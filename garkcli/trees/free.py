@@ -54,16 +54,11 @@ class Structure:
             raise ValueError("two colours are the same part of the same term")
         parts = {part for _, part in self.colours}
         if "y" in parts and len(parts) > 1:
-            raise ValueError(
-                "colours drive positions and momenta, or all of them everything"
-            )
+            raise ValueError("colours drive positions and momenta, or all of them everything")
 
     @classmethod
     def pair(
-        cls,
-        velocities: Collection[int],
-        forces: Collection[int],
-        quadratic: Collection[int] = (),
+        cls, velocities: Collection[int], forces: Collection[int], quadratic: Collection[int] = ()
     ) -> Structure:
         """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this
         order.
@@ -151,9 +146,7 @@ class Structure:
         branch = tree.branches[index]
         colour = self._turned(tree.root, branch.root)
         if colour is None:
-            raise ValueError(
-                f"colour {tree.root + 1} does not see colour {branch.root + 1}"
-            )
+            raise ValueError(f"colour {tree.root + 1} does not see colour {branch.root + 1}")
         others = list(tree.branches)
         del others[index]
         rest = Tree(colour, others)
@@ -222,9 +215,7 @@ class Grower:
     """
 
     structure: Structure
-    _planted: dict[_Kind, Forest] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    _planted: dict[_Kind, Forest] = field(default_factory=dict, repr=False, compare=False)
 
     def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
         """The free trees with one centroid, rooted there, in the order of trees."""
@@ -269,9 +260,7 @@ class Grower:
             self._planted[key] = tuple(trees)
         return self._planted[key]
 
-    def _forests(
-        self, root: int, total: int, largest: int, edges: int
-    ) -> Iterator[Forest]:
+    def _forests(self, root: int, total: int, largest: int, edges: int) -> Iterator[Forest]:
         """The branches that a root may have: ``total`` vertices, ``largest`` and ``edges`` at
         most.
         """

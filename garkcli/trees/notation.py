@@ -81,12 +81,8 @@ class _Reader:
         self.coloured: bool | None = None  # settled by the first vertex closed
 
     def read(self) -> Tree:
-        self._take(
-            "[", "a tree begins with '['", "write a tree as [[]_2,[]_2]_1"
-        )
-        stack: list[list[Tree]] = [
-            []
-        ]  # for each open bracket the branches read so far
+        self._take("[", "a tree begins with '['", "write a tree as [[]_2,[]_2]_1")
+        stack: list[list[Tree]] = [[]]  # for each open bracket the branches read so far
         while True:
             opens = self._next() == "["
             if opens and not stack[-1]:
@@ -103,18 +99,12 @@ class _Reader:
                 self.position += 1
                 self._open(stack)
         if self.position < len(self.text):
-            raise NotationError(
-                "text after the end of the tree",
-                "give one tree",
-                self.position,
-            )
+            raise NotationError("text after the end of the tree", "give one tree", self.position)
         return tree
 
     def _open(self, stack: list[list[Tree]]) -> None:
         at = self.position
-        self._take(
-            "[", "a branch is missing", "a branch is a tree, such as []_1"
-        )
+        self._take("[", "a branch is missing", "a branch is a tree, such as []_1")
         if len(stack) >= MAX_DEPTH:
             cure = f"at most {MAX_DEPTH} vertices may follow each other"
             raise NotationError("the tree is too deep", cure, at)
@@ -156,9 +146,7 @@ class _Reader:
         number = digits.group() if digits else ""
         if not number:
             message = "a colour is missing after '_'"
-            raise NotationError(
-                message, "colours are numbers from 1", self.position
-            )
+            raise NotationError(message, "colours are numbers from 1", self.position)
         # the length comes first: Python reads no integer of many thousands of digits
         longest = len(str(MAX_COLOUR))
         is_short = len(number) <= longest
@@ -256,9 +244,7 @@ def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
     >>> print(condition_latex(Tree(0, [Tree(1)])))
     {b^{\{1\}}}^T A^{\{1,2\}} \mathbbm{1}^{\{2\}} = \frac12
     """
-    formula = _Formula(
-        r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters
-    )
+    formula = _Formula(r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters)
     root, weight = formula.of(tree)
     required = _latex_inverse(tree.density)
     weights = rf"{{b^{{\{{{root}\}}}}}}^T"
@@ -279,9 +265,7 @@ class _Formula:
     meets them.
     """
 
-    def __init__(
-        self, block: str, one: str, times: str, letters: Sequence[str] | None
-    ) -> None:
+    def __init__(self, block: str, one: str, times: str, letters: Sequence[str] | None) -> None:
         self.block = block
         self.one = one
         self.times = times

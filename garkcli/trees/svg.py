@@ -18,22 +18,16 @@ STEP_Y = 36
 RADIUS = 11
 DIAMETER = 2 * RADIUS
 MARGIN = 16
-ROW_GAP = (
-    24  # between the captions of one row and the highest tree of the next
-)
+ROW_GAP = 24  # between the captions of one row and the highest tree of the next
 CAPTION_SIZE = 12  # type size of the captions, in pixels
 CAPTION_STEP = 17  # from one line of a caption to the next
-CHARACTER = (
-    0.62 * CAPTION_SIZE
-)  # width of a character of the captions, in pixels
+CHARACTER = 0.62 * CAPTION_SIZE  # width of a character of the captions, in pixels
 FONTS = "DejaVu Sans, Helvetica, Arial, sans-serif"
 Vertices: TypeAlias = "Sequence[Vertex]"
 Pixels: TypeAlias = list[float]
 
 
-def draw_svg_sheet(
-    trees: Sequence[Tree], captions: Lines | None = None, columns: int = 6
-) -> str:
+def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns: int = 6) -> str:
     """An SVG document with the trees in rows of ``columns``, beneath each its caption, σ and γ.
 
     The dots carry the colours' numbers, from 1, and fills of ``drawing.PALETTE``. ``captions``: a
@@ -135,10 +129,7 @@ def _svg_dot(colour: int, x: float, y: float) -> list[str]:
     base = _pixels(x=x, y=y + 4.3)
     disc = f'r="{RADIUS}" fill="{fill}" stroke="#333333"'
     font = f'font-weight="bold" fill="{ink}"'
-    return [
-        f"<circle {centre} {disc}/>",
-        f"<text {base} {font}>{number}</text>",
-    ]
+    return [f"<circle {centre} {disc}/>", f"<text {base} {font}>{number}</text>"]
 
 
 def _svg_caption(lines: Lines, middle: float, top: float) -> list[str]:

@@ -53,9 +53,7 @@ from garkcli.trees.count import counts_upto
 from garkcli.trees.free import Grower, Structure
 from garkcli.trees.tree import Tree
 
-Kind: TypeAlias = Literal[
-    "pair", "self-conjugate", "semi-separable", "separable", "nystrom"
-]
+Kind: TypeAlias = Literal["pair", "self-conjugate", "semi-separable", "separable", "nystrom"]
 """Symplectic methods with a name; :class:`Structure` has all of them."""
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -144,9 +142,7 @@ class ConditionClass:
         return Tree(self.centred.root, rest) == half
 
 
-def independent_classes(
-    structure: Structure, order: int
-) -> Iterator[ConditionClass]:
+def independent_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
     """The independent conditions of one order, each once, sorted by the trees rooted at the
     centroid.
 
@@ -165,9 +161,7 @@ def independent_classes(
             yield ConditionClass(tree, structure)
 
 
-def superfluous_classes(
-    structure: Structure, order: int
-) -> Iterator[ConditionClass]:
+def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
     """The free trees u∘u of one order, whose conditions hold once those of lower order do; none for
     a pair.
 

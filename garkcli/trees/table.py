@@ -53,22 +53,14 @@ class TreeTable:
     # [order - 1][root]: the first id; one more entry for the end
     starts: tuple[tuple[int, ...], ...]
     segments: tuple[Segment, ...]
-    _texts: dict[bool, Texts] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    _texts: dict[bool, Texts] = field(default_factory=dict, repr=False, compare=False)
 
     # those that are branches of trees asked for, up to MOST_KEPT
-    _branches: dict[int, Tree] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    _branches: dict[int, Tree] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def upto(
-        cls,
-        colours: int,
-        order: int,
-        edges: Edges | None = None,
-        linear: Collection[int] = (),
+        cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
         """Generate the table; ``edges`` and ``linear`` as in :class:`Admissible`.
 
@@ -89,9 +81,7 @@ class TreeTable:
         segments: list[Segment] = []
         for n in range(2, order + 1):
             segments += _fill(columns, admissible, starts, n)
-        return cls(
-            admissible, order, columns.freeze(), starts, tuple(segments)
-        )
+        return cls(admissible, order, columns.freeze(), starts, tuple(segments))
 
     def __len__(self) -> int:
         return len(self.columns)
@@ -146,9 +136,7 @@ class TreeTable:
     def tree(self, tree_id: int) -> Tree:
         """The tree with an id; raises ``IndexError`` when there is none."""
         if not 0 <= tree_id < len(self):
-            raise IndexError(
-                f"no tree {tree_id} in a table of {len(self)} trees"
-            )
+            raise IndexError(f"no tree {tree_id} in a table of {len(self)} trees")
         stem = self.columns.stem
         branch = self.columns.branch
         branches = []
@@ -168,9 +156,7 @@ class TreeTable:
                 self._branches[tree_id] = known
         return known
 
-    def notation(
-        self, ids: Iterable[int] | Column, colours: bool = True
-    ) -> list[str]:
+    def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
         """Bracket text of many trees, the same as ``format_tree``, built from the texts of their
         parents.
         """
@@ -200,9 +186,7 @@ def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
     )
 
 
-def first_ids(
-    admissible: Admissible, order: int
-) -> tuple[tuple[int, ...], ...]:
+def first_ids(admissible: Admissible, order: int) -> tuple[tuple[int, ...], ...]:
     """The first id of each order and root colour, as in ``TreeTable.starts``."""
     starts: list[tuple[int, ...]] = []
     first = 0
@@ -213,11 +197,7 @@ def first_ids(
 
 
 def segments_of(
-    admissible: Admissible,
-    starts: Sequence[Sequence[int]],
-    order: int,
-    lower: Columns,
-    root: int,
+    admissible: Admissible, starts: Sequence[Sequence[int]], order: int, lower: Columns, root: int
 ) -> list[tuple[Segment, Growth]]:
     """The segments of one order and root colour that are not empty, with what makes their trees."""
     made = []
@@ -235,19 +215,14 @@ def segments_of(
             if not len(growth):
                 continue
             ids = range(start, start + len(growth))
-            segment = Segment(
-                order, root, branch_order, colour, ids, stems, branches
-            )
+            segment = Segment(order, root, branch_order, colour, ids, stems, branches)
             made.append((segment, growth))
             start = ids.stop
     return made
 
 
 def _fill(
-    columns: Columns,
-    admissible: Admissible,
-    starts: Sequence[Sequence[int]],
-    order: int,
+    columns: Columns, admissible: Admissible, starts: Sequence[Sequence[int]], order: int
 ) -> list[Segment]:
     """Write the trees of one order into the table; the lower orders are there already."""
     segments = []

@@ -20,10 +20,7 @@ CHUNK = 1 << 16
 
 
 def elementary_weights(
-    table: TreeTable,
-    rows: Sequence[int],
-    blocks: Blocks,
-    weights: Sequence[Floats],
+    table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]
 ) -> Floats:
     """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au and
     bA).
@@ -44,10 +41,7 @@ def elementary_weights(
 
 
 def _check(
-    table: TreeTable,
-    rows: Sequence[int],
-    blocks: Blocks,
-    weights: Sequence[Floats],
+    table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]
 ) -> None:
     if not len(rows) == len(weights) == table.colours:
         raise ValueError(
@@ -58,18 +52,14 @@ def _check(
         space = rows[l]
         first = weights[rows.index(space)]
         if b.shape != first.shape or b.ndim != 1:
-            raise ValueError(
-                f"the weights of colour {l} do not fit its stage space {space}"
-            )
+            raise ValueError(f"the weights of colour {l} do not fit its stage space {space}")
         if table.max_order == 1:
             continue  # no branches, no blocks
         for m in branches:
             which = f"stage space {space} and colour {m}"
             block = blocks.get((space, m))
             if block is None:
-                raise ValueError(
-                    f"no block for {which}; give the table edges without it"
-                )
+                raise ValueError(f"no block for {which}; give the table edges without it")
             shape = len(b), len(weights[m])
             if block.shape != shape:
                 found = f"has shape {block.shape}, not {shape}"
@@ -85,11 +75,7 @@ class _Evaluation:
     """
 
     def __init__(
-        self,
-        table: TreeTable,
-        rows: Sequence[int],
-        blocks: Blocks,
-        weights: Sequence[Floats],
+        self, table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]
     ) -> None:
         self.table = table
         self.rows = rows
@@ -139,9 +125,7 @@ class _Evaluation:
         b = self.weights[root]
         stem_order = segment.order - segment.branch_order
         stems = self.vectors[stem_order, root]
-        branches = self.applied[
-            space, segment.branch_order, segment.branch_root
-        ]
+        branches = self.applied[space, segment.branch_order, segment.branch_root]
         first_stem = segment.stems.start
         first_branch = segment.branches.start
         ids = segment.ids

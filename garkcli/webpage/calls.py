@@ -9,9 +9,7 @@ from garkcli.webpage.page import render
 from garkcli.webpage.reported import reported
 
 
-def report_page(
-    *methods: AnyMethod, order: Whole | None = None, pictures: bool = True
-) -> str:
+def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool = True) -> str:
     """All that is found of methods as one HTML page, which needs nothing else: ``gark report``.
 
     Args:

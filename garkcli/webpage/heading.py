@@ -153,10 +153,7 @@ def _cells(data: dict[str, Any]) -> dict[str, str]:
         "pair": data["pair_order"],
         "stage order": properties["stage_order"],
     }
-    cells = {
-        key: "–" if number is None else str(number)
-        for key, number in found.items()
-    }
+    cells = {key: "–" if number is None else str(number) for key, number in found.items()}
     stages = [str(colour["stages"]) for colour in data["colours"]]
     cells["stages"] = ", ".join(stages)
     cells["symplectic"] = _WORDS[data["symplectic"]]
@@ -172,10 +169,7 @@ def _of_family(every: EveryValue) -> dict[str, str]:
         "conjugate": every.conjugate,
         "pair": every.pair,
     }
-    cells = {
-        key: "–" if order is None else str(order.order)
-        for key, order in found.items()
-    }
+    cells = {key: "–" if order is None else str(order.order) for key, order in found.items()}
     tableau = every.tableau
     stages = [str(tableau.space(l).stages) for l in range(tableau.size)]
     return {**cells, "how": "for every value", "stages": ", ".join(stages)}

@@ -28,10 +28,7 @@ def convergence_html(result: Convergence) -> str:
         heads.append("energy error")
     rows = [_step(row) for row in result.rows]
     observed = order_text(result.observed_order)
-    said = (
-        f"observed order {observed}, order of the method {predicted(result)}: "
-        f"{result.verdict}"
-    )
+    said = f"observed order {observed}, order of the method {predicted(result)}: {result.verdict}"
     name = getattr(result.problem, "name", "oscillator")
     table = _table(f"{name}, to t = {result.t_end}", heads, rows)
     texts = _texts([said, *remarks(result)])
@@ -72,9 +69,7 @@ def _shown(parts: list[str], draw: Callable[[T], str], result: T) -> str:
     return "\n".join(parts)
 
 
-def _table(
-    title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]
-) -> str:
+def _table(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     head = [f'<th scope="col">{_text(x)}</th>' for x in heads]
     lines = [_row(head)]
     for row in rows:

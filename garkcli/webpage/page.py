@@ -34,9 +34,7 @@ def render(methods: Sequence[Reported]) -> str:
     has_several = len(methods) > 1
     room = min(MOST_CONDITIONS, MOST_ROWS // max(len(methods), 1))
     methods = [replace(x, most_conditions=room) for x in methods]
-    shown = [
-        _method(method, number) for number, method in enumerate(methods, 1)
-    ]
+    shown = [_method(method, number) for number, method in enumerate(methods, 1)]
     compared = [comparison_row(x) for x in methods] if has_several else []
     sizes = [x.tableau.size for x in methods if x.tableau is not None]
     script = _static("page.js")
@@ -64,11 +62,7 @@ def _title(methods: Sequence[Reported]) -> str:
 def _method(method: Reported, number: int) -> Content:
     """A method with its sections."""
     place = f"m{number}"
-    return {
-        "place": place,
-        "heading": heading(method),
-        "sections": list(_sections(method)),
-    }
+    return {"place": place, "heading": heading(method), "sections": list(_sections(method))}
 
 
 def _sections(method: Reported) -> Iterator[tuple[Section, Content]]:

@@ -135,9 +135,7 @@ def reported(
         return _of_file(method, wishes)
     name = method.name or "the method"
     outcome = Outcome(name, name, analysis=analyse(method))
-    return Reported(
-        outcome, method, wanted_order=order, has_pictures=has_pictures
-    )
+    return Reported(outcome, method, wanted_order=order, has_pictures=has_pictures)
 
 
 def _of_path(path: str, wishes: _Wishes) -> Reported:
@@ -159,12 +157,7 @@ def _of_family(error: HasFreeParameters, wishes: _Wishes) -> Reported:
     if not outcome.is_read:
         return Reported(outcome)
     line, fields = reference_of(error.text, error.source)
-    return Reported(
-        outcome,
-        reference=line,
-        bibliography=fields,
-        wanted_order=wishes.order,
-    )
+    return Reported(outcome, reference=line, bibliography=fields, wanted_order=wishes.order)
 
 
 def _of_file(method: MethodFile, wishes: _Wishes) -> Reported:

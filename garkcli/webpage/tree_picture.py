@@ -47,10 +47,7 @@ def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
     edges = f'<path d="{path}"/>' if path else ""
     drawn = "".join(dots)
     said = escape(title)
-    return Markup(
-        f'<svg class="tree" role="img" {size}>'
-        f"<title>{said}</title>{edges}{drawn}</svg>"
-    )
+    return Markup(f'<svg class="tree" role="img" {size}><title>{said}</title>{edges}{drawn}</svg>')
 
 
 def dot_name(colour: int, has_colours: bool) -> str:
@@ -73,6 +70,5 @@ def dots(counts: Iterable[int]) -> Markup:
         found.append(f'<g id="dot{colour + 1}">{disc}{number}</g>')
     defined = "".join(found)
     return Markup(
-        '<svg class="defs" width="0" height="0" aria-hidden="true">'
-        f"<defs>{defined}</defs></svg>"
+        f'<svg class="defs" width="0" height="0" aria-hidden="true"><defs>{defined}</defs></svg>'
     )

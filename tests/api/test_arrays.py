@@ -14,13 +14,7 @@ from flint import fmpq, fmpq_mat, fmpz
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from garkcli import (
-    MethodFileError,
-    diagonal_method,
-    find_order,
-    from_arrays,
-    loads,
-)
+from garkcli import MethodFileError, diagonal_method, find_order, from_arrays, loads
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_text
 from garkcli.families.registry import BY_STAGES
@@ -53,17 +47,13 @@ def test_arrays_are_the_file_that_says_the_same(
 
 @given(arrays())
 @settings(max_examples=25, deadline=None)
-def test_entries_go_round(
-    given_arrays: tuple[list[list[Fraction]], list[Fraction]],
-) -> None:
+def test_entries_go_round(given_arrays: tuple[list[list[Fraction]], list[Fraction]]) -> None:
     """A, b and c of the method are the numbers that were given, and make it again."""
     A, b = given_arrays
     made = from_arrays(A, b)
     assert [[Fraction(int(x.p), int(x.q)) for x in row] for row in made.A] == A
     assert [Fraction(int(x.p), int(x.q)) for x in made.b] == b
-    assert [Fraction(int(x.p), int(x.q)) for x in made.c] == [
-        sum(row) for row in A
-    ]
+    assert [Fraction(int(x.p), int(x.q)) for x in made.c] == [sum(row) for row in A]
     assert from_arrays(made.A, made.b, made.c).tableau == made.tableau
     assert loads(made.text).tableau == made.tableau
 
@@ -94,32 +84,14 @@ def kinds() -> dict[str, tuple[Any, Any]]:
         "floats": ([[0.0, 0.0], [0.5, 0.0]], [0.0, 1.0]),
         "Decimals": ([[0, 0], [Decimal("0.5"), 0]], [Decimal(0), Decimal(1)]),
         "FLINT": ([[fmpz(0), 0], [fmpq(1, 2), 0]], [fmpz(0), fmpq(1)]),
-        "FLINT's matrices": (
-            fmpq_mat([[0, 0], [fmpq(1, 2), 0]]),
-            fmpq_mat([[0, 1]]),
-        ),
+        "FLINT's matrices": (fmpq_mat([[0, 0], [fmpq(1, 2), 0]]), fmpq_mat([[0, 1]])),
         "NumPy": (np.array([[0, 0], [0.5, 0]]), np.array([0, 1])),
-        "NumPy's objects": (
-            np.array([[0, 0], [Fraction(1, 2), 0]], dtype=object),
-            (0, 1),
-        ),
-        "NumPy's numbers": (
-            [[np.int64(0), 0], [np.float64(0.5), 0]],
-            [np.int8(0), np.float32(1)],
-        ),
-        "NumPy's short floats": (
-            np.array([[0, 0], [0.5, 0]], dtype=np.float32),
-            [0, 1],
-        ),
+        "NumPy's objects": (np.array([[0, 0], [Fraction(1, 2), 0]], dtype=object), (0, 1)),
+        "NumPy's numbers": ([[np.int64(0), 0], [np.float64(0.5), 0]], [np.int8(0), np.float32(1)]),
+        "NumPy's short floats": (np.array([[0, 0], [0.5, 0]], dtype=np.float32), [0, 1]),
         "SymPy": ([[0, 0], [half, 0]], [sympy.Integer(0), sympy.S.One]),
-        "SymPy's matrices": (
-            sympy.Matrix([[0, 0], [half, 0]]),
-            sympy.Matrix([0, 1]),
-        ),
-        "generators": (
-            (row for row in ((0, 0), (Fraction(1, 2), 0))),
-            iter([0, 1]),
-        ),
+        "SymPy's matrices": (sympy.Matrix([[0, 0], [half, 0]]), sympy.Matrix([0, 1])),
+        "generators": ((row for row in ((0, 0), (Fraction(1, 2), 0))), iter([0, 1])),
         "a triangle": ([[], [Fraction(1, 2)]], [0, 1]),
     }
 
@@ -137,10 +109,7 @@ def test_radicals_of_sympy_stay_exact() -> None:
 
     x = sympy.sqrt(3) / 6
     quarter, half = sympy.Rational(1, 4), sympy.Rational(1, 2)
-    made = from_arrays(
-        sympy.Matrix([[quarter, quarter - x], [quarter + x, quarter]]),
-        [half, half],
-    )
+    made = from_arrays(sympy.Matrix([[quarter, quarter - x], [quarter + x, quarter]]), [half, half])
     wanted = diagonal_method("gauss", 2).A
     assert [[to_text(x) for x in row] for row in made.A] == [
         [to_text(x) for x in row] for row in wanted
@@ -157,12 +126,7 @@ def test_radicals_of_sympy_stay_exact() -> None:
 
 def test_exact_entries_of_a_method_make_it_again() -> None:
     """The printed entries of a family are coefficients: with them as arrays its order is the same."""
-    for name, stages in (
-        ("gauss", 3),
-        ("lobatto-iiia", 4),
-        ("radau-iia", 2),
-        ("rk4", 4),
-    ):
+    for name, stages in (("gauss", 3), ("lobatto-iiia", 4), ("radau-iia", 2), ("rk4", 4)):
         family = diagonal_method(name, stages)
         made = from_arrays(family.A, family.b, family.c)
         assert find_order(made).order == find_order(family).order
@@ -204,9 +168,7 @@ def test_embedded_weights_of_every_kind() -> None:
     A, b = [[0, 0], [1, 0]], [0.5, 0.5]
     for row in (np.array([1.0, 0.0]), sympy.Matrix([1, 0]), ("1", 0)):
         assert from_arrays(A, b, embedded=row).embedded == ((1, 0),)
-    two = from_arrays(
-        [[[[0]], None], [[[1]], [["1/2"]]]], [[1], [1]], embedded=[[0], [1]]
-    )
+    two = from_arrays([[[[0]], None], [[[1]], [["1/2"]]]], [[1], [1]], embedded=[[0], [1]])
     assert two.embedded == ((0,), (1,))
     with pytest.raises(MethodError, match=r"^embedded, entry 2: 0\.3333"):
         from_arrays(A, b, embedded=[1, 1 / 3])
@@ -219,9 +181,7 @@ def test_rounded_floats_ask_for_a_tolerance() -> None:
     x = 3**0.5 / 6
     A, b = [[0.25, 0.25 - x], [0.25 + x, 0.25]], [0.5, 0.5]
     with pytest.raises(MethodError, match="rounded number"):
-        from_arrays(
-            [[5e-324]], [1]
-        )  # the only digit that so small a float has
+        from_arrays([[5e-324]], [1])  # the only digit that so small a float has
     with pytest.raises(MethodError, match="rounded number") as caught:
         from_arrays(A, b)
     assert caught.value.message.startswith("A, row 1, entry 2")
@@ -234,18 +194,7 @@ def test_rounded_floats_ask_for_a_tolerance() -> None:
 
 @pytest.mark.parametrize(
     "entry",
-    [
-        True,
-        1j,
-        float("nan"),
-        float("inf"),
-        Decimal("NaN"),
-        object(),
-        b"1",
-        None,
-        {},
-        {1: 2},
-    ],
+    [True, 1j, float("nan"), float("inf"), Decimal("NaN"), object(), b"1", None, {}, {1: 2}],
 )
 def test_what_is_no_number_is_refused(entry: Any) -> None:
     """Neither truth values nor complex numbers nor anything else passes for a coefficient."""
@@ -257,13 +206,7 @@ def test_sympy_that_is_no_real_radical_is_refused() -> None:
     """Symbols, transcendental numbers, floats and roots of negative numbers have no exact text."""
     import sympy
 
-    for entry in (
-        sympy.Symbol("x"),
-        sympy.pi,
-        sympy.Float(0.1),
-        sympy.root(-8, 3),
-        sympy.I,
-    ):
+    for entry in (sympy.Symbol("x"), sympy.pi, sympy.Float(0.1), sympy.root(-8, 3), sympy.I):
         with pytest.raises(MethodError):
             from_arrays([[entry]], [1])
 
@@ -307,9 +250,7 @@ def test_random_order_four_methods_keep_their_order() -> None:
 def test_every_family_shows_its_entries() -> None:
     """The entries of families are those of the tableau as it is printed, not of a polynomial basis."""
     for name, family in BY_STAGES.items():
-        method = diagonal_method(
-            name, max(2, family.smallest) if family.largest > 4 else None
-        )
+        method = diagonal_method(name, max(2, family.smallest) if family.largest > 4 else None)
         s = method.stages[0]
         assert len(method.A) == len(method.b) == len(method.c) == s
         assert sum(method.b[1:], start=method.b[0]) == 1

@@ -101,11 +101,7 @@ def test_within_a_tolerance() -> None:
     with 0 exactly.
     """
     x = 3**0.5 / 6
-    gauss = {
-        "A": [[0.25, 0.25 - x], [0.25 + x, 0.25]],
-        "b": [0.5, 0.5],
-        "tolerance": "1e-15",
-    }
+    gauss = {"A": [[0.25, 0.25 - x], [0.25 + x, 0.25]], "b": [0.5, 0.5], "tolerance": "1e-15"}
     assert_order(gauss, 4, conjugate=4, pair=4)
     with pytest.raises(AssertionError, match="has order"):
         assert_order(gauss, 4, tolerance=0)
@@ -141,9 +137,7 @@ def test_conjugates_are_named_after_their_method() -> None:
         (3, {"order": 1}, "not int"),
     ],
 )
-def test_mistakes_are_no_failures(
-    method: Any, orders: dict[str, Any], why: str
-) -> None:
+def test_mistakes_are_no_failures(method: Any, orders: dict[str, Any], why: str) -> None:
     """What is asked wrongly is an error of its own, with a cure."""
     with pytest.raises(MethodError, match=why) as caught:
         assert_order(method, **orders)
@@ -152,9 +146,7 @@ def test_mistakes_are_no_failures(
 
 def test_files_that_are_not_there(tmp_path: Path) -> None:
     """A name that nobody knows, a file that is no method."""
-    with pytest.raises(
-        MethodFileError, match="did you mean 'stoermer-verlet'"
-    ):
+    with pytest.raises(MethodFileError, match="did you mean 'stoermer-verlet'"):
         assert_order("stoermer-verlat", 4)
     path = tmp_path / "empty.gark.yaml"
     path.write_text("", encoding="utf-8")

@@ -104,9 +104,7 @@ def test_the_entries_of_conjugate_and_pair_are_those_printed() -> None:
     method = METHODS["catalogue"]
     A = [[_fraction(x) for x in row] for row in method.A]
     b = [_fraction(x) for x in method.b]
-    wanted = [
-        [b[j] - b[j] * A[j][i] / b[i] for j in range(4)] for i in range(4)
-    ]
+    wanted = [[b[j] - b[j] * A[j][i] / b[i] for j in range(4)] for i in range(4)]
     found = method.conjugate.A
     assert [[_fraction(x) for x in row] for row in found] == wanted
     both = method.pair

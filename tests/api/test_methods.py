@@ -61,9 +61,7 @@ def test_every_kind_of_method_is_taken(kind: str) -> None:
     assert find_order(pair(method)).order == 4
     assert simplifying(method).B == (4,)
     assert elementary_weight(method, tree) == fmpq(1, tree.density)
-    assert all(
-        not condition.residual for condition in conditions(method, _trees())
-    )
+    assert all(not condition.residual for condition in conditions(method, _trees()))
 
 
 def _trees() -> list[garkcli.Tree]:
@@ -106,10 +104,7 @@ def test_a_conjugate_goes_back() -> None:
 def test_convergence_takes_a_method() -> None:
     """``converge`` runs with the method as it was loaded."""
     oscillator = Oscillator.default(1, fmpq(1))
-    found, wanted = (
-        converge(pair(GAUSS), oscillator),
-        converge(pair(GAUSS.tableau), oscillator),
-    )
+    found, wanted = (converge(pair(GAUSS), oscillator), converge(pair(GAUSS.tableau), oscillator))
     assert [(row.h, str(row.error)) for row in found.rows] == [
         (row.h, str(row.error)) for row in wanted.rows
     ]
@@ -117,10 +112,7 @@ def test_convergence_takes_a_method() -> None:
 
 def test_gark_puts_diagonal_methods_together() -> None:
     """By a rule, or with the blocks that the rule makes; and what does not go is refused."""
-    gauss, lobatto = (
-        diagonal_method("gauss", 2),
-        diagonal_method("lobatto-iiia", 3),
-    )
+    gauss, lobatto = (diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3))
     l, m = of_registry("gauss", 2), of_registry("lobatto-iiia", 3)
     rule = RULES["interpolation"]
     wanted = forms.gark([l, m], {(0, 1): rule(l, m), (1, 0): rule(m, l)})
@@ -140,9 +132,7 @@ def test_what_is_no_method_is_refused() -> None:
     """A path to nowhere, or nothing at all, is no method; the error says how to get one."""
     with pytest.raises(MethodFileError, match="no such file"):
         find_order("methods/no-such.gark.yaml")
-    with pytest.raises(
-        MethodError, match="a method is expected, not NoneType"
-    ) as caught:
+    with pytest.raises(MethodError, match="a method is expected, not NoneType") as caught:
         simplifying(None)  # type: ignore[arg-type]
     assert "load(path)" in caught.value.help
 
@@ -150,9 +140,7 @@ def test_what_is_no_method_is_refused() -> None:
 def test_entries_are_those_that_are_printed() -> None:
     """One colour gives a matrix and rows, several give blocks; without simple radicals enclosures."""
     assert [str(x) for x in GAUSS.c] == ["1/2 - sqrt(3)/6", "1/2 + sqrt(3)/6"]
-    two = loads(
-        "methods: [{family: gauss, stages: 1}, {family: kutta}]\ntransfer: collocation"
-    )
+    two = loads("methods: [{family: gauss, stages: 1}, {family: kutta}]\ntransfer: collocation")
     assert two.stages == (1, 3)
     assert len(two.A[2, 1]) == 3
     assert two.b[1] == (1,)

@@ -109,9 +109,7 @@ def test_a_fraction_and_its_text_are_one_number(x: Fraction) -> None:
         (None, "h: None of type NoneType"),
     ],
 )
-def test_what_is_no_rational_number_is_refused(
-    given_number: Any, said: str
-) -> None:
+def test_what_is_no_rational_number_is_refused(given_number: Any, said: str) -> None:
     """The error names the argument, the place in a text, and the cure."""
     with pytest.raises(MethodError) as caught:
         rational_of(given_number, "h")
@@ -137,9 +135,6 @@ def test_a_wrong_call_is_said_by_the_function() -> None:
 
 def test_help_shows_the_arguments() -> None:
     """A function that takes any number has the signature and the docstring of its own."""
-    assert list(inspect.signature(garkcli.load).parameters) == [
-        "path",
-        "settings",
-    ]
+    assert list(inspect.signature(garkcli.load).parameters) == ["path", "settings"]
     assert "Args:" in (inspect.getdoc(garkcli.load) or "")
     assert garkcli.load.__name__ == "load"

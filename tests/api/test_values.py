@@ -17,9 +17,7 @@ from hypothesis import strategies as st
 import garkcli
 from garkcli import GarkError, MethodError, Tree, TreeError, load, loads
 
-FAMILY = (
-    "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
-)
+FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
 HEUN = ([[0, 0], [1, 0]], ["1/2", "1/2"])
 VERLET = load("stoermer-verlet")
 OF_A_METHOD: dict[str, Callable[[Any], Any]] = {
@@ -274,23 +272,12 @@ def test_errors_reach_another_process(call: Callable[[], object]) -> None:
         (lambda: loads(b"A: [[0]]"), "a text is expected, not bytes"),  # type: ignore[arg-type]
         (lambda: garkcli.found_methods(None), "not NoneType"),  # type: ignore[arg-type]
         (lambda: garkcli.from_arrays([[0]], None), "b is missing"),
-        (
-            lambda: garkcli.from_arrays([{0, 1}, {1, 0}], [0, 1]),
-            "a set is no array",
-        ),
-        (
-            lambda: garkcli.from_arrays({(3, 3): [[0]]}, {1: [1], 3: [1]}),
-            "b: nothing for colour 2",
-        ),
-        (
-            lambda: garkcli.from_arrays([[10**5000]], [1]),
-            "more than 1000 digits",
-        ),
+        (lambda: garkcli.from_arrays([{0, 1}, {1, 0}], [0, 1]), "a set is no array"),
+        (lambda: garkcli.from_arrays({(3, 3): [[0]]}, {1: [1], 3: [1]}), "b: nothing for colour 2"),
+        (lambda: garkcli.from_arrays([[10**5000]], [1]), "more than 1000 digits"),
     ],
 )
-def test_what_is_of_another_kind_is_said(
-    call: Callable[[], object], said: str
-) -> None:
+def test_what_is_of_another_kind_is_said(call: Callable[[], object], said: str) -> None:
     """What Python lets through is refused in the words of the interface."""
     with pytest.raises(GarkError) as caught:
         call()

@@ -46,9 +46,7 @@ FAMILY = "parameters: {a: 1/2}\nA: [[a]]\nb: [1]"
 def orders() -> list[int]:
     """Of whatever stands for a method, within tolerances of every kind."""
     heun = ([[0, 0], [1, 0]], [0.5, "1/2"])
-    arrays = from_arrays(
-        np.array([[0, 0], [1, 0]]), np.array([0.5, 0.5]), name="Heun"
-    )
+    arrays = from_arrays(np.array([[0, 0], [1, 0]]), np.array([0.5, 0.5]), name="Heun")
     for tolerance in (0, 1e-9, "1e-9", Fraction(1, 10**9), Decimal("1e-9")):
         assert find_order(arrays, tolerance=tolerance).order == 2
     assert find_order(arrays, tolerance=fmpq(1, 10**9)).order == 2
@@ -71,8 +69,7 @@ def parameters() -> set[str]:
     )
     made = [loads(FAMILY, settings={"a": x}) for x in quarter]
     whole = [
-        diagonal_method("gauss", stages)
-        for stages in (1, np.int64(1), fmpz(1), sympy.Integer(1))
+        diagonal_method("gauss", stages) for stages in (1, np.int64(1), fmpz(1), sympy.Integer(1))
     ]
     assert {str(method.A) for method in whole} == {"((1/2,),)"}
     return {str(method.A) for method in made}

@@ -43,9 +43,7 @@ def test_symplectic_euler() -> None:
     """On separable problems it is the Störmer–Verlet method in other coordinates, else it is not of
     order 2 in any.
     """
-    assert _found(f"{{{EULER}, structure: separable}}", 5) == EffectiveOrder(
-        2, True
-    )
+    assert _found(f"{{{EULER}, structure: separable}}", 5) == EffectiveOrder(2, True)
     assert _found(f"{{{EULER}}}", 4) == EffectiveOrder(1, True)
 
 
@@ -55,17 +53,13 @@ def test_the_order_can_be_all_there_is() -> None:
     """
     for path in ("rk4", "rectangular"):
         tableau = load(f"methods/{path}.gark.yaml").tableau
-        assert effective_order(
-            modified_equation(tableau, 6)
-        ) == EffectiveOrder(4, True)
+        assert effective_order(modified_equation(tableau, 6)) == EffectiveOrder(4, True)
     assert _found("{A: [[1/2]], b: [1/2]}", 3) == EffectiveOrder(0, True)
 
 
 def test_up_to_the_largest_trees() -> None:
     """Where all orders asked for can be reached nothing is proved about the next."""
-    assert _found(
-        "methods: [{family: gauss, stages: 3}]", 4
-    ) == EffectiveOrder(4, False)
+    assert _found("methods: [{family: gauss, stages: 3}]", 4) == EffectiveOrder(4, False)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -88,9 +82,7 @@ def test_a_change_of_coordinates_with_radicals() -> None:
     equation = modified_equation(tableau, 6)
     assert tableau.field is not None
     root = tableau.field.from_coordinates([fmpq(1, 2), fmpq(1, 3)])
-    change = [
-        root if tree.order < 4 else fmpq(0) for tree in equation.forest.trees
-    ]
+    change = [root if tree.order < 4 else fmpq(0) for tree in equation.forest.trees]
     moved = transported(equation.forest, equation.coefficients, change, 1)
     other = replace(equation, coefficients=tuple(moved))
     assert other.order < 4
@@ -100,9 +92,7 @@ def test_a_change_of_coordinates_with_radicals() -> None:
 def test_midpoint_and_trapezoidal_rule_are_conjugate() -> None:
     """The change of coordinates between them is half a step of the explicit Euler method."""
     midpoint = modified_equation(loads("{A: [[1/2]], b: [1]}").tableau, 7)
-    trapezoidal = modified_equation(
-        loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau, 7
-    )
+    trapezoidal = modified_equation(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau, 7)
     forest = midpoint.forest
     half_step = [fmpq(0)] * len(forest.trees)
     half_step[0] = fmpq(1, 2)

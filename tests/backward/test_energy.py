@@ -16,11 +16,7 @@ from jsonschema import Draft7Validator
 from garkcli import hamiltonian, load, loads
 from garkcli.backward import energy
 from garkcli.backward.energy import ModifiedRun, modified_run
-from garkcli.backward.formulas import (
-    ModifiedFormula,
-    PowerTerm,
-    modified_formula,
-)
+from garkcli.backward.formulas import ModifiedFormula, PowerTerm, modified_formula
 from garkcli.errors import UsageProblem
 from garkcli.report.modified_energy import modified_energy_schema
 from garkcli.stepping.step import StepFailed
@@ -36,10 +32,7 @@ def _verlet() -> Tableau:
 
 
 def _orders(run: ModifiedRun) -> list[tuple[int, int, bool, str]]:
-    return [
-        (x.power, x.exact_order, x.is_lower_bound, x.verdict)
-        for x in run.energies
-    ]
+    return [(x.power, x.exact_order, x.is_lower_bound, x.verdict) for x in run.energies]
 
 
 def test_stoermer_verlet_on_the_pendulum() -> None:
@@ -52,9 +45,7 @@ def test_stoermer_verlet_on_the_pendulum() -> None:
         (6, 8, False, "agree"),
     ]
     for column in run.energies:
-        assert column.observed_order == pytest.approx(
-            column.exact_order, abs=1e-3
-        )
+        assert column.observed_order == pytest.approx(column.exact_order, abs=1e-3)
         slopes = [row.slope for row in column.rows if row.slope is not None]
         assert slopes[-1] == pytest.approx(column.exact_order, abs=1e-3)
     first = [column.rows[0].error for column in run.energies]
@@ -119,9 +110,7 @@ def test_what_has_no_modified_hamiltonian() -> None:
     with pytest.raises(UsageProblem, match="not consistent"):
         modified_run(half, pendulum, 3)
     with pytest.raises(UsageProblem, match="steps"):
-        modified_run(
-            _verlet(), hamiltonian("pendulum", 2), 3, longest=fmpq(1, 10_000)
-        )
+        modified_run(_verlet(), hamiltonian("pendulum", 2), 3, longest=fmpq(1, 10_000))
 
 
 def test_the_command() -> None:
@@ -134,9 +123,7 @@ def test_the_command() -> None:
     assert "to h^6  agree: observed 8.000 ± 0.001, order 8" in run.out
     lines = run.out.splitlines()
     assert all(len(line) <= 80 and line == line.rstrip() for line in lines)
-    report = json.loads(
-        gark(*arguments, "--modified", "3", "--format", "json").out
-    )
+    report = json.loads(gark(*arguments, "--modified", "3", "--format", "json").out)
     schema = modified_energy_schema()
     assert not list(Draft7Validator(schema).iter_errors(report))
     printed = json.loads(gark("schema", "--report", "modified-energy").out)

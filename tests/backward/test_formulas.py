@@ -47,10 +47,7 @@ def _bracket(f: fmpq_mpoly, g: fmpq_mpoly) -> fmpq_mpoly:
 
 def _in_ring(formula: Any, problem: Hamiltonian) -> fmpq_mpoly:
     """A formula of sympy in x, p, sin x, cos x."""
-    (x,), (p,) = (
-        symbols(problem.variables, "q"),
-        symbols(problem.variables, "p"),
-    )
+    (x,), (p,) = (symbols(problem.variables, "q"), symbols(problem.variables, "p"))
     s, c = sympy.symbols("s c")
     written = sympy.sympify(formula).subs({sympy.sin(x): s, sympy.cos(x): c})
     polynomial = sympy.Poly(written, x, p, s, c)
@@ -68,9 +65,7 @@ def _check(
     order: int,
 ) -> list[int]:
     """Compare all powers of h; those that are not zero."""
-    known = bch.in_brackets(
-        bch.logarithm(flows, order), letters, _bracket, RING.constant(0)
-    )
+    known = bch.in_brackets(bch.logarithm(flows, order), letters, _bracket, RING.constant(0))
     found = modified_formula(tableau, problem, order).expanded()
     assert found.of == "hamiltonian"
     by_power = {x.power: x.formulas[0] for x in found.terms}
@@ -106,9 +101,7 @@ def test_symplectic_euler_has_all_powers() -> None:
     """
     euler = "{prk: {q: {A: [[0]], b: [1]}, p: {A: [[1]], b: [1]}}, structure: separable}"
     (x,), (p,) = symbols(("x",), "q"), symbols(("x",), "p")
-    problem = Hamiltonian(
-        "quartic", ("x",), (p**2 / 2, x**4 / 4), (fmpq(1), fmpq(0)), fmpq(1)
-    )
+    problem = Hamiltonian("quartic", ("x",), (p**2 / 2, x**4 / 4), (fmpq(1), fmpq(0)), fmpq(1))
     letters = {"T": P**2 / 2, "U": X**4 / 4}
     tableau = loads(euler).tableau
     # the force at the old position comes first; as operators on functions flows compose in this
@@ -132,14 +125,8 @@ def test_a_composition() -> None:
     flows = _yoshida()
     kicks = [c for c, letter in flows if letter == "U"]
     drifts = [c for c, letter in flows if letter == "T"]
-    A_q = [
-        [c if j < i else 0 for j, c in enumerate(drifts)]
-        for i in range(len(kicks))
-    ]
-    A_p = [
-        [c if j <= i else 0 for j, c in enumerate(kicks)]
-        for i in range(len(drifts))
-    ]
+    A_q = [[c if j < i else 0 for j, c in enumerate(drifts)] for i in range(len(kicks))]
+    A_p = [[c if j <= i else 0 for j, c in enumerate(kicks)] for i in range(len(drifts))]
     text = f"""
 prk:
   q: {{A: {A_q}, b: {drifts}}}
@@ -170,9 +157,7 @@ def test_unsplit_problems_and_methods_of_one_vector_field() -> None:
 def test_coefficients_in_a_number_field() -> None:
     """Radicals come into the formula as they are."""
     tableau = load("methods/rectangular.gark.yaml").tableau
-    irrational = next(
-        x for row in tableau.blocks[0, 1] for x in row if not hasattr(x, "p")
-    )
+    irrational = next(x for row in tableau.blocks[0, 1] for x in row if not hasattr(x, "p"))
     value = in_sympy(irrational)
     assert value.has(sympy.sqrt(3))
     assert float(value) == pytest.approx(float(sympy.N(value)))

@@ -87,9 +87,7 @@ class _Polynomials:
                 total[key] += value * (b / tree.symmetry)
         return total
 
-    def flow(
-        self, fields: Sequence[Field]
-    ) -> dict[series.Component, list[fmpq]]:
+    def flow(self, fields: Sequence[Field]) -> dict[series.Component, list[fmpq]]:
         """x(h) from 0 for h f̃ = Σ h^n fields[n − 1]: Σ_j 1/j! (Σ h^n L_n)^j x."""
         order = len(fields)
         origin = [fmpq(0)] * len(self.components)
@@ -100,15 +98,11 @@ class _Polynomials:
             for j in range(order + 1):
                 for k, value in enumerate(levels):
                     values[k] += value(*origin) / factorial(j)
-                levels = [
-                    self._lie(fields, levels, k) for k in range(order + 1)
-                ]
+                levels = [self._lie(fields, levels, k) for k in range(order + 1)]
             found[key] = values
         return found
 
-    def _lie(
-        self, fields: Sequence[Field], levels: Sequence[fmpq_mpoly], k: int
-    ) -> fmpq_mpoly:
+    def _lie(self, fields: Sequence[Field], levels: Sequence[fmpq_mpoly], k: int) -> fmpq_mpoly:
         """The coefficient of h^k after one more derivative along the field."""
         total = self.ring.constant(0)
         for n in range(1, k + 1):
@@ -151,9 +145,7 @@ def test_its_flow_is_the_step_of_other_forms() -> None:
     coupled = everywhere(interpolation, "gauss 1", "lobatto-iiia 2")
     _check_on_a_random_field(coupled, 4)
     _check_on_a_random_field(pair(coupled), 3)
-    ark = (
-        "{ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}}"
-    )
+    ark = "{ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}}"
     _check_on_a_random_field(loads(ark).tableau, 4)
 
 
@@ -176,14 +168,10 @@ def test_known_coefficients() -> None:
     midpoint = modified_equation(loads("{A: [[1/2]], b: [1]}").tableau, 4)
     assert str(midpoint[parse_tree("[[],[]]")]) == "-1/12"
     assert str(midpoint[parse_tree("[[[]]]")]) == "1/12"
-    assert not list(
-        midpoint.terms(4)
-    )  # a symmetric method has odd orders alone
+    assert not list(midpoint.terms(4))  # a symmetric method has odd orders alone
 
 
-@pytest.mark.parametrize(
-    "path", ["rk4", "collocation", "rectangular", "ark-ars222"]
-)
+@pytest.mark.parametrize("path", ["rk4", "collocation", "rectangular", "ark-ars222"])
 def test_the_order_is_that_of_the_certificate(path: str) -> None:
     """The first order with a coefficient is one above the order of the method."""
     tableau = load(f"methods/{path}.gark.yaml").tableau
@@ -196,9 +184,7 @@ def test_elementary_weights() -> None:
     tableau = load("methods/rectangular.gark.yaml").tableau
     forest = Forest.seen_by(tableau, 5)
     weights = Weights(tableau)
-    for tree, weight in zip(
-        forest.trees, elementary_weights(tableau, forest), strict=True
-    ):
+    for tree, weight in zip(forest.trees, elementary_weights(tableau, forest), strict=True):
         assert weight == weights.weight(plain(tree))
 
 
@@ -207,9 +193,7 @@ FOREST = Forest.of(Admissible.of(2, [[True, True], [True, False]]), 4)
 
 def _random_coefficients(seed: int) -> list[fmpq]:
     dice = Random(seed)
-    return [
-        fmpq(dice.randint(-4, 4), dice.choice([1, 2, 3])) for _ in FOREST.trees
-    ]
+    return [fmpq(dice.randint(-4, 4), dice.choice([1, 2, 3])) for _ in FOREST.trees]
 
 
 COEFFICIENTS = st.integers(0, 10**9).map(_random_coefficients)
@@ -225,9 +209,7 @@ def test_logarithm_and_exponential(b: list[fmpq]) -> None:
 
 @given(COEFFICIENTS, COEFFICIENTS, COEFFICIENTS)
 @settings(max_examples=20, deadline=None)
-def test_the_product_is_pre_lie(
-    a: list[fmpq], b: list[fmpq], c: list[fmpq]
-) -> None:
+def test_the_product_is_pre_lie(a: list[fmpq], b: list[fmpq], c: list[fmpq]) -> None:
     """(a ◁ b) ◁ c − a ◁ (b ◁ c) is symmetric in b and c: the second derivative of a field along two
     others.
     """
@@ -266,9 +248,7 @@ def test_too_many_trees() -> None:
 
 def test_trees_that_are_not_there() -> None:
     """A tree that the method does not see has no coefficient, one that is too large no answer."""
-    equation = modified_equation(
-        load("methods/stoermer-verlet.gark.yaml").tableau, 3
-    )
+    equation = modified_equation(load("methods/stoermer-verlet.gark.yaml").tableau, 3)
     assert not equation[Tree(0, [Tree(0)])]
     with pytest.raises(KeyError):
         equation[Tree(0, [Tree(1), Tree(1), Tree(1)])]

@@ -11,11 +11,7 @@ from flint import fmpq, fmpq_poly
 
 from garkcli import load, loads
 from garkcli.backward.free_trees import free_trees, hamiltonian_structure
-from garkcli.backward.hamiltonian import (
-    energy_order,
-    modified_hamiltonian,
-    symplectic_order,
-)
+from garkcli.backward.hamiltonian import energy_order, modified_hamiltonian, symplectic_order
 from garkcli.backward.modified import modified_equation
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
@@ -81,9 +77,7 @@ def test_orders_of_symplecticity_and_energy(text: str, limit: int) -> None:
     structure = hamiltonian_structure(tableau)
     assert structure is not None
     problem = oracle.random_problem(tableau, limit + 1, seed=3)
-    assert symplectic_order(equation, structure) == oracle.symplectic_order(
-        problem
-    )
+    assert symplectic_order(equation, structure) == oracle.symplectic_order(problem)
     assert energy_order(equation, structure) == oracle.energy_order(problem)
 
 
@@ -102,14 +96,7 @@ def _brute_symplectic_order(tableau: Tableau, limit: int) -> int:
 
 
 @pytest.mark.parametrize(
-    "text",
-    [
-        RK4,
-        THREE_EIGHTHS,
-        TRAPEZOIDAL,
-        MIDPOINT,
-        "methods: [{family: radau-iia, stages: 2}]",
-    ],
+    "text", [RK4, THREE_EIGHTHS, TRAPEZOIDAL, MIDPOINT, "methods: [{family: radau-iia, stages: 2}]"]
 )
 def test_pseudo_symplectic_conditions(text: str) -> None:
     """With elementary weights the order of symplecticity is that of Aubry and Chartier."""
@@ -159,15 +146,10 @@ def _check_hamiltonian(tableau: Tableau, order: int) -> None:
     change = problem.cut(changes[1] - changes[0])
     assert oracle.lowest_power([change], order + 1) == order + 1
     if equation.order < order:
-        assert (
-            oracle.energy_order(problem) < order
-        )  # H itself is not kept so well
+        assert oracle.energy_order(problem) < order  # H itself is not kept so well
 
 
-@pytest.mark.parametrize(
-    ("name", "order"),
-    [("stoermer-verlet", 5), ("prk-lobatto-iiia-iiib", 4)],
-)
+@pytest.mark.parametrize(("name", "order"), [("stoermer-verlet", 5), ("prk-lobatto-iiia-iiib", 4)])
 def test_the_modified_hamiltonian_is_conserved(name: str, order: int) -> None:
     """Truncated after h^(n−1) it changes by O(h^(n+1)) a step, on random problems, exactly."""
     _check_hamiltonian(load(f"methods/{name}.gark.yaml").tableau, order)
@@ -209,9 +191,7 @@ def test_elementary_hamiltonians_are_their_gradients() -> None:
 
 def test_no_structure() -> None:
     """Where roots cannot move there is no order of symplecticity."""
-    one_way = (
-        "{tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}}"
-    )
+    one_way = "{tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}}"
     assert hamiltonian_structure(loads(one_way).tableau) is None
 
 
@@ -226,9 +206,7 @@ def test_random_pairs_have_a_modified_hamiltonian(seed: int) -> None:
         return str(fmpq(dice.randint(-3, 3), dice.choice([2, 3])))
 
     def block(rows: int, columns: int) -> str:
-        text = [
-            ", ".join(small() for _ in range(columns)) for _ in range(rows)
-        ]
+        text = [", ".join(small() for _ in range(columns)) for _ in range(rows)]
         return "[" + ", ".join(f"[{row}]" for row in text) + "]"
 
     stages = [2, 1]

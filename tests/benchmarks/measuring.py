@@ -33,9 +33,7 @@ def seconds(run: Callable[[], object], repeat: int = 5) -> float:
 
 def _processor_time() -> float:
     """Of this process and of all children that have ended, to the microsecond."""
-    used = map(
-        resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    )
+    used = map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(one.ru_utime + one.ru_stime for one in used)
 
 
@@ -44,14 +42,10 @@ def process(command: Sequence[str]) -> Callable[[], object]:
 
     Byte code is kept, as it is where a package is installed, and made by a first run.
     """
-    kept = {
-        k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"
-    }
+    kept = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
 
     def run() -> object:
-        return subprocess.run(
-            command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, env=kept
-        )
+        return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, env=kept)
 
     run()
     return run
@@ -70,11 +64,7 @@ def peak_megabytes(code: str) -> float:
     usage = "resource.getrusage(resource.RUSAGE_SELF).ru_maxrss"
     script = f"{code}\nimport resource; print({usage} / {UNIT})"
     out = subprocess.run(
-        [*PYTHON, "-c", script],
-        cwd=ROOT,
-        check=True,
-        capture_output=True,
-        text=True,
+        [*PYTHON, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True
     ).stdout
     return float(out.split()[-1])
 

@@ -8,12 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.benchmarks.measuring import (
-    GARK,
-    assert_ratio,
-    peak_of_children,
-    seconds,
-)
+from tests.benchmarks.measuring import GARK, assert_ratio, peak_of_children, seconds
 
 
 @pytest.mark.parametrize(
@@ -30,19 +25,11 @@ def test_collocation_pair(
     methods = f"[{{family: gauss, stages: {gauss}}}, {{family: lobatto-iiia, stages: {gauss + 1}}}]"
     file.write_text(f"methods: {methods}\ntransfer: collocation\n")
     command = [*GARK, "check", str(file), "--format", "json"]
-    found = json.loads(
-        subprocess.run(
-            command, check=True, capture_output=True, text=True
-        ).stdout
-    )["files"][0]
-    assert (found["order"], found["conjugate_order"], found["pair_order"]) == (
-        order,
-        order,
-        order,
-    )
-    time = seconds(
-        lambda: subprocess.run(command, check=True, capture_output=True), 3
-    )
+    found = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)[
+        "files"
+    ][0]
+    assert (found["order"], found["conjugate_order"], found["pair_order"]) == (order, order, order)
+    time = seconds(lambda: subprocess.run(command, check=True, capture_output=True), 3)
     memory = peak_of_children()
     assert_ratio(
         f"gark check, Gauss {gauss} and Lobatto {gauss + 1} / {limit:g} s",
@@ -50,9 +37,4 @@ def test_collocation_pair(
         1.0,
         f"{time:.3f} s",
     )
-    assert_ratio(
-        f"its memory / {megabytes:g} MB",
-        memory / megabytes,
-        1.0,
-        f"{memory:.0f} MB",
-    )
+    assert_ratio(f"its memory / {megabytes:g} MB", memory / megabytes, 1.0, f"{memory:.0f} MB")

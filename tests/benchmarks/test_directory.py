@@ -17,13 +17,7 @@ from garkcli.methodfile.load import load
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES
-from tests.benchmarks.measuring import (
-    GARK,
-    assert_ratio,
-    interleaved,
-    process,
-    seconds,
-)
+from tests.benchmarks.measuring import GARK, assert_ratio, interleaved, process, seconds
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 
@@ -38,11 +32,7 @@ MEMBERS = [
 def family_files() -> list[str]:
     """Pairs of Gauss, Radau and Lobatto methods of 2 to 4 stages, coupled by every rule in turn."""
     rules = (*RULES, *PAIR_RULES)
-    pairs = [
-        (one, other)
-        for one, other in product(MEMBERS, MEMBERS)
-        if one != other
-    ]
+    pairs = [(one, other) for one, other in product(MEMBERS, MEMBERS) if one != other]
     return [
         f"methods: [{one}, {other}]\ntransfer: {rules[k % len(rules)]}\n"
         for k, (one, other) in enumerate(pairs)
@@ -58,14 +48,10 @@ def rational_file(k: int) -> str:
 
     def entry(i: int, j: int) -> str:
         return (
-            f"{(3 * i + 5 * j + k) % 7 + 1}/{(i + 2 * j + k) % 5 + 2}"
-            if j < i + implicit
-            else "0"
+            f"{(3 * i + 5 * j + k) % 7 + 1}/{(i + 2 * j + k) % 5 + 2}" if j < i + implicit else "0"
         )
 
-    rows = ", ".join(
-        f"[{', '.join(entry(i, j) for j in range(s))}]" for i in range(s)
-    )
+    rows = ", ".join(f"[{', '.join(entry(i, j) for j in range(s))}]" for i in range(s))
     weights = ", ".join(f"{2 * (i + 1)}/{s * (s + 1)}" for i in range(s))
     return f"methods: [{{A: [{rows}], b: [{weights}]}}]\n"
 
@@ -100,9 +86,7 @@ def test_a_directory_costs_its_certificates(directory: Path) -> None:
     orders = seconds(lambda: [find_order(tableau) for tableau in tableaus], 3)
     start = seconds(process([*GARK, "check", str(paths[0])]), 5)
     whole = seconds(process([*GARK, "check", str(directory)]), 3)
-    detail = (
-        f"{whole:.2f} s, certificates {orders:.2f} s, start-up {start:.2f} s"
-    )
+    detail = f"{whole:.2f} s, certificates {orders:.2f} s, start-up {start:.2f} s"
     assert_ratio(
         f"gark check of {FILES} files / certificates and start-up",
         whole / (orders + start),
@@ -120,9 +104,7 @@ def test_two_workers_cost_little_more(tmp_path: Path) -> None:
     command = [*GARK, "check", "-q", str(tmp_path)]
     two, one = interleaved(process([*command, "-j", "2"]), process(command), 4)
     detail = f"{two:.2f} s, {one:.2f} s"
-    assert_ratio(
-        "processor time of gark check -j 2 / -j 1", two / one, 1.2, detail
-    )
+    assert_ratio("processor time of gark check -j 2 / -j 1", two / one, 1.2, detail)
 
 
 def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
@@ -130,21 +112,12 @@ def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
     catalogue = entries()
     assert len(catalogue) == 94
     for name, entry in catalogue.items():
-        (tmp_path / f"{name}.gark.yaml").write_text(
-            method_file(entry), encoding="utf-8"
-        )
+        (tmp_path / f"{name}.gark.yaml").write_text(method_file(entry), encoding="utf-8")
     start = perf_counter()
     done = subprocess.run(
-        [*GARK, "check", "-j", "2", str(tmp_path)],
-        capture_output=True,
-        text=True,
+        [*GARK, "check", "-j", "2", str(tmp_path)], capture_output=True, text=True
     )
     time = perf_counter() - start
     assert done.returncode == 0, done.stdout[-2000:]
     assert "94 files, 94 claims: all hold" in done.stdout
-    assert_ratio(
-        "gark check -j 2 of the catalogue / 20 s",
-        time / 20,
-        1.0,
-        f"{time:.1f} s",
-    )
+    assert_ratio("gark check -j 2 of the catalogue / 20 s", time / 20, 1.0, f"{time:.1f} s")

@@ -16,21 +16,10 @@ from garkcli.methodfile.problem import loads_problem
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.step import StepFailed
 from tests.benchmarks.measuring import ROOT
-from tests.longtime.planets import (
-    GAUSS_2,
-    RALSTON,
-    RK4,
-    STOERMER_VERLET,
-    YOSHIDA_4,
-    two_planets,
-)
+from tests.longtime.planets import GAUSS_2, RALSTON, RK4, STOERMER_VERLET, YOSHIDA_4, two_planets
 
 SYSTEMS = 80
-SYMPLECTIC = {
-    "Störmer-Verlet": STOERMER_VERLET,
-    "Yoshida 4": YOSHIDA_4,
-    "Gauss 2": GAUSS_2,
-}
+SYMPLECTIC = {"Störmer-Verlet": STOERMER_VERLET, "Yoshida 4": YOSHIDA_4, "Gauss 2": GAUSS_2}
 OTHERS = {"RK4": RK4, "Ralston": RALSTON}
 
 

@@ -4,20 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from tests.benchmarks.measuring import (
-    GARK,
-    PYTHON,
-    assert_ratio,
-    interleaved,
-    process,
-)
+from tests.benchmarks.measuring import GARK, PYTHON, assert_ratio, interleaved, process
 
 SYMPY = process([*PYTHON, "-c", "import sympy"])
 
 
 @pytest.mark.parametrize(
-    ("arguments", "target"),
-    [(["check", "methods/collocation.gark.yaml"], 0.5), (["--help"], 0.3)],
+    ("arguments", "target"), [(["check", "methods/collocation.gark.yaml"], 0.5), (["--help"], 0.3)]
 )
 def test_startup(arguments: list[str], target: float) -> None:
     """A check of the collocation example, and the help, cost a fraction of importing sympy."""

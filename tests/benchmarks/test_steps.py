@@ -30,8 +30,7 @@ def test_pendulum_against_leapfrog() -> None:
     of leapfrog.
     """
     made = bind(
-        load(str(ROOT / "methods/rectangular.gark.yaml")).tableau,
-        hamiltonian("pendulum", 2),
+        load(str(ROOT / "methods/rectangular.gark.yaml")).tableau, hamiltonian("pendulum", 2)
     ).at()
 
     def leapfrog() -> None:
@@ -41,14 +40,9 @@ def test_pendulum_against_leapfrog() -> None:
             q += h * p
             p -= h / 2 * sin(q)
 
-    ours, theirs = interleaved(
-        lambda: Stepper(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3
-    )
+    ours, theirs = interleaved(lambda: Stepper(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3)
     assert_ratio(
-        "rectangular pendulum / leapfrog loop",
-        ours / theirs,
-        40,
-        f"{ours:.2f} s, {theirs:.3f} s",
+        "rectangular pendulum / leapfrog loop", ours / theirs, 40, f"{ours:.2f} s, {theirs:.3f} s"
     )
 
 
@@ -68,24 +62,14 @@ def test_kepler_against_scipy() -> None:
     ours = {n: _ours(n) for n in PER_PERIOD}
     theirs = [_scipy("DOP853", 2.3e-14, 1e-16), _scipy("LSODA", 1e-13, 1e-13)]
     (seconds, error), best = ours[110], min(theirs, key=_a_digit)
-    detail = (
-        f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
-    )
+    detail = f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
     assert_ratio(
-        "Kepler to 1e-8, time a digit / scipy",
-        _a_digit(ours[110]) / _a_digit(best),
-        1.0,
-        detail,
+        "Kepler to 1e-8, time a digit / scipy", _a_digit(ours[110]) / _a_digit(best), 1.0, detail
     )
     (seconds, error), fastest = ours[60], min(theirs)
     assert error < fastest[1]
     detail = f"{seconds:.2f} s to {error:.1e}, {fastest[0]:.1f} s to {fastest[1]:.1e}"
-    assert_ratio(
-        "Kepler at equal error, time / scipy",
-        seconds / fastest[0],
-        1.0,
-        detail,
-    )
+    assert_ratio("Kepler at equal error, time / scipy", seconds / fastest[0], 1.0, detail)
 
 
 def _a_digit(run: tuple[float, float]) -> float:
@@ -99,17 +83,11 @@ def _ours(per_period: int) -> tuple[float, float]:
     ten.
     """
     entry = json.loads(
-        (ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(
-            encoding="utf-8"
-        )
+        (ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(encoding="utf-8")
     )
-    made = bind(
-        loads(method_file(entry)).tableau, hamiltonian("kepler", 2)
-    ).at()
+    made = bind(loads(method_file(entry)).tableau, hamiltonian("kepler", 2)).at()
     with ctx.workprec(120):
-        period = fmpq(
-            int((2 * arb.pi() * 10**30).floor().unique_fmpz()), 10**30
-        )
+        period = fmpq(int((2 * arb.pi() * 10**30).floor().unique_fmpz()), 10**30)
     h = period / per_period
     start = process_time()
     state = Stepper(made, h)
@@ -145,18 +123,10 @@ def _scipy(method: str, rtol: float, atol: float) -> tuple[float, float]:
     times = [2 * pi * k for k in (PERIODS // 100, PERIODS)]
     start = process_time()
     solved = solve_ivp(
-        field,
-        (0, times[-1]),
-        START,
-        method=method,
-        rtol=rtol,
-        atol=atol,
-        t_eval=times,
+        field, (0, times[-1]), START, method=method, rtol=rtol, atol=atol, t_eval=times
     )
     seconds = process_time() - start
-    early, late = (
-        abs(energy(y.tolist()) - energy(list(START))) for y in solved.y.T
-    )
+    early, late = (abs(energy(y.tolist()) - energy(list(START))) for y in solved.y.T)
     error = float(np.linalg.norm(solved.y[:, -1] - START))
     print(
         f"  scipy {method}: {seconds:.1f} s, error {error:.1e}; energy error {early:.1e}, then {late:.1e}"

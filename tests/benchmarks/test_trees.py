@@ -9,12 +9,7 @@ from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.trees.table import TreeTable
 from garkcli.trees.weights import elementary_weights
-from tests.benchmarks.measuring import (
-    ROOT,
-    assert_ratio,
-    peak_megabytes,
-    seconds,
-)
+from tests.benchmarks.measuring import ROOT, assert_ratio, peak_megabytes, seconds
 
 
 def test_against_kauri() -> None:
@@ -48,10 +43,7 @@ def test_memory() -> None:
     code = "from garkcli.trees.table import TreeTable\nt = TreeTable.upto(4, 8)\nassert len(t) == 4529000"
     megabytes = peak_megabytes(code)
     assert_ratio(
-        "memory of 4 colours to order 8 / 2000 MB",
-        megabytes / 2000,
-        1.0,
-        f"{megabytes:.0f} MB",
+        "memory of 4 colours to order 8 / 2000 MB", megabytes / 2000, 1.0, f"{megabytes:.0f} MB"
     )
 
 
@@ -63,16 +55,11 @@ def test_weights() -> None:
     edges, linear = coupling_graph(tableau)
     entries = numeric_entries(tableau)
     rows = [colour.space for colour in tableau.colours]
-    blocks = {
-        (rows[l], m): np.array(entries.A[l][m], dtype=float)
-        for l, m in tableau.edges()
-    }
+    blocks = {(rows[l], m): np.array(entries.A[l][m], dtype=float) for l, m in tableau.edges()}
     weights = [np.array(row, dtype=float) for row in entries.b]
     table = TreeTable.upto(4, 7, edges, linear)
     making = seconds(lambda: TreeTable.upto(4, 7, edges, linear), 7)
-    weighing = seconds(
-        lambda: elementary_weights(table, rows, blocks, weights), 7
-    )
+    weighing = seconds(lambda: elementary_weights(table, rows, blocks, weights), 7)
     assert_ratio(
         "weights / table, 4 colours to order 7",
         weighing / making,

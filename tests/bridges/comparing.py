@@ -65,15 +65,11 @@ def own_errors(method: MethodFile, payload: Payload) -> list[float]:
     trial = trial_of(payload)
     problem = loads_problem(trial.file)
     steps = [fmpq(trial.t_end, n) for n in STEPS]
-    found = converge(
-        method.tableau, problem, steps=steps, tolerance=method.tolerance
-    )
+    found = converge(method.tableau, problem, steps=steps, tolerance=method.tolerance)
     return [float(row.error.mid()) for row in found.rows]
 
 
-def allowed(
-    payload: Payload, steps: int, solver: float = 0.0, reading: float = 0.0
-) -> float:
+def allowed(payload: Payload, steps: int, solver: float = 0.0, reading: float = 0.0) -> float:
     """How far the errors of another code may be from ours, see above.
 
     Args:
@@ -90,9 +86,7 @@ def allowed(
     return 2**0.5 * (ours + others + (2 + reading) * UNIT * size)
 
 
-def _rounding(
-    payload: Payload, trial: Trial, steps: int, solver: float
-) -> float:
+def _rounding(payload: Payload, trial: Trial, steps: int, solver: float) -> float:
     sizes = SIZES[trial.name]
     h = trial.t_end / steps
     stages = max(payload.stages) * payload.size

@@ -22,9 +22,7 @@ ark:
   A: [[[0, 0], [1/2, 0]], [[0, 0], [0, 1/2]]]
   b: [0, 1]
 """
-SDIRK = (
-    "parameters: {g: 1 - sqrt(2)/2}\nA: [[g, 0], [1 - g, g]]\nb: [1 - g, g]\n"
-)
+SDIRK = "parameters: {g: 1 - sqrt(2)/2}\nA: [[g, 0], [1 - g, g]]\nb: [1 - g, g]\n"
 VERLET = """\
 name: Störmer-Verlet
 prk:

@@ -38,9 +38,7 @@ class Tool:
 
 
 OCTAVE = Tool("Octave", ("octave-cli", "--version"), "octave")
-DESOLVE = Tool(
-    "deSolve of R", ("Rscript", "-e", "library(deSolve)"), "r-cran-desolve"
-)
+DESOLVE = Tool("deSolve of R", ("Rscript", "-e", "library(deSolve)"), "r-cran-desolve")
 CC = Tool("a C compiler", ("cc", "--version"), "gcc libc6-dev")
 CXX = Tool("a C++ compiler", ("c++", "--version"), "g++")
 FORTRAN = Tool("gfortran", ("gfortran", "--version"), "gfortran")
@@ -78,11 +76,7 @@ def works(command: Sequence[str]) -> bool:
     """Whether a command runs and succeeds."""
     try:
         done = subprocess.run(
-            command,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            timeout=_MINUTES,
-            check=False,
+            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_MINUTES, check=False
         )
     except (OSError, subprocess.TimeoutExpired):
         return False
@@ -113,9 +107,7 @@ def _updated() -> None:
     done(["apt-get", "update", "-q"])
 
 
-def done(
-    command: Sequence[str], variables: dict[str, str] | None = None
-) -> str:
+def done(command: Sequence[str], variables: dict[str, str] | None = None) -> str:
     """Run something that has to succeed; what it prints.
 
     Raises:

@@ -80,9 +80,7 @@ def cells_of(payload: Payload) -> dict[str, list[Cell]]:
         if payload.embedded is not None:
             found[f"embedded{number}"] = list(payload.embedded[l])
         if payload.dense is not None:
-            found[f"dense{number}"] = [
-                x for row in payload.dense[l] for x in row
-            ]
+            found[f"dense{number}"] = [x for row in payload.dense[l] for x in row]
         for m, block in enumerate(payload.A[l]):
             other = "" if is_single else str(m + 1)
             if block is not None:
@@ -117,10 +115,7 @@ def program_of_c(header: str, file: str) -> tuple[str, list[tuple[str, int]]]:
         "int main(void) {",
     ]
     for name, size in arrays:
-        lines.append(
-            f"  for (int k = 0; k < {size}; k++)"
-            f" show(((const gark_real *){name})[k]);"
-        )
+        lines.append(f"  for (int k = 0; k < {size}; k++) show(((const gark_real *){name})[k]);")
     return "\n".join([*lines, "  return 0;", "}"]) + "\n", arrays
 
 
@@ -151,9 +146,7 @@ def program_of_fortran(module: str) -> tuple[str, list[tuple[str, int]]]:
         if len(rows) == 1:
             lines.append(f"  print '(z32.32)', {array}")
             continue
-        lines.append(
-            f"  print '(z32.32)', (({array}(i, j), j = 1, {rows[1]}), i = 1, {rows[0]})"
-        )
+        lines.append(f"  print '(z32.32)', (({array}(i, j), j = 1, {rows[1]}), i = 1, {rows[0]})")
     return "\n".join([*lines, "end program"]) + "\n", arrays
 
 
@@ -177,10 +170,7 @@ def pattern(text: str, precision: Precision) -> Fraction:
 
 
 def differing(
-    payload: Payload,
-    arrays: Sequence[tuple[str, int]],
-    values: Sequence[Fraction],
-    bits: int,
+    payload: Payload, arrays: Sequence[tuple[str, int]], values: Sequence[Fraction], bits: int
 ) -> list[str]:
     """The entries whose bits are not those of the nearest number.
 
@@ -203,9 +193,7 @@ def differing(
     return found
 
 
-def read_back_c(
-    payload: Payload, header: str, folder: Path, precision: Precision
-) -> list[str]:
+def read_back_c(payload: Payload, header: str, folder: Path, precision: Precision) -> list[str]:
     """The entries of a header that are not the nearest numbers, by a program of C."""
     stem = payload.identifier
     (folder / f"{stem}.h").write_text(header, encoding="utf-8")
@@ -218,11 +206,7 @@ def read_back_c(
     return differing(payload, _plain(named), values, precision.bits)
 
 
-_OPTIONS = {
-    DOUBLE.name: [],
-    EXTENDED.name: ["-DGARK_LONG_DOUBLE"],
-    QUAD.name: ["-DGARK_FLOAT128"],
-}
+_OPTIONS = {DOUBLE.name: [], EXTENDED.name: ["-DGARK_LONG_DOUBLE"], QUAD.name: ["-DGARK_FLOAT128"]}
 
 
 def read_back_fortran(

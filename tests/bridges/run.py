@@ -140,14 +140,10 @@ def compared(
     last = found[-1][1]
     steps, largest = found[0]
     told = largest / allowed(payload, steps, solver, runner.reading)
-    note = (
-        "" if told >= LEAST else "the errors are within what rounding leaves"
-    )
+    note = "" if told >= LEAST else "the errors are within what rounding leaves"
     if share > 1:
         note = "the errors are others"
-    return Outcome(
-        outcome.code, outcome.kind, outcome.method, last, away, share, note
-    )
+    return Outcome(outcome.code, outcome.kind, outcome.method, last, away, share, note)
 
 
 def outcomes(runners: Sequence[Runner]) -> Iterator[Outcome | str]:
@@ -224,9 +220,7 @@ def table(found: Sequence[Outcome]) -> str:
     names = [(x.code, x.kind, x.method) for x in found]
     columns = zip(headings, *names, strict=True)
     widths = [max(map(len, column)) for column in columns]
-    lines = [
-        f"{_padded(headings, widths)}      error  difference  of rounding"
-    ]
+    lines = [f"{_padded(headings, widths)}      error  difference  of rounding"]
     for outcome, words in zip(found, names, strict=True):
         numbers = f"  {outcome.error:9.3e}  {outcome.away:10.0e}  {outcome.share:11.3f}"
         tail = f"  {outcome.note}" if outcome.note else numbers
@@ -249,23 +243,15 @@ def chosen(only: str) -> list[Runner]:
     for word in words:
         if not any(x.name.lower().startswith(word) for x in RUNNERS):
             names = ", ".join(x.name for x in RUNNERS)
-            raise SystemExit(
-                f"no code begins with {word!r}; there are {names}"
-            )
+            raise SystemExit(f"no code begins with {word!r}; there are {names}")
     starts = tuple(words)
-    return [
-        x for x in RUNNERS if not words or x.name.lower().startswith(starts)
-    ]
+    return [x for x in RUNNERS if not words or x.name.lower().startswith(starts)]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what was asked for; 1 where something failed, else 0."""
-    parser = argparse.ArgumentParser(
-        description="methods in the codes that people run"
-    )
-    parser.add_argument(
-        "--only", default="", help="names, or their beginnings, with commas"
-    )
+    parser = argparse.ArgumentParser(description="methods in the codes that people run")
+    parser.add_argument("--only", default="", help="names, or their beginnings, with commas")
     parser.add_argument("--list", action="store_true", help="the codes")
     options = parser.parse_args(arguments)
     runners = chosen(options.only)
@@ -279,14 +265,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ran: list[Outcome] = []
     bits: list[Outcome] = []
     for found in outcomes(runners):
-        ran.append(found) if isinstance(found, Outcome) else missing.append(
-            found
-        )
+        ran.append(found) if isinstance(found, Outcome) else missing.append(found)
     if not options.only:
         for found in read_back():
-            bits.append(found) if isinstance(
-                found, Outcome
-            ) else missing.append(found)
+            bits.append(found) if isinstance(found, Outcome) else missing.append(found)
     bad = [x for x in (*ran, *bits) if not x.is_good]
     if ran:
         print()

@@ -85,9 +85,7 @@ def _version(*command: str) -> str:
 
 
 def _of_package(python: str, package: str) -> str:
-    program = (
-        f"from importlib.metadata import version; print(version('{package}'))"
-    )
+    program = f"from importlib.metadata import version; print(version('{package}'))"
     return done([python, "-c", program])
 
 
@@ -141,10 +139,7 @@ def desolve() -> Ready:
     """Of Debian, or what there is."""
     need(machine.DESOLVE)
     program = "cat(as.character(packageVersion('deSolve')))"
-    return Ready(
-        done(["Rscript", "-e", program]),
-        lambda stem: [["Rscript", f"{stem}_test.R"]],
-    )
+    return Ready(done(["Rscript", "-e", program]), lambda stem: [["Rscript", f"{stem}_test.R"]])
 
 
 def boost() -> Ready:
@@ -169,12 +164,7 @@ def mfem() -> Ready:
     config = (folder / "include/mfem/config/_config.hpp").read_text("utf-8")
     found = re.search(r'MFEM_VERSION_STRING "([\d.]+)"', config)
     libraries = folder / "lib"
-    options = [
-        f"-I{folder / 'include'}",
-        f"-L{libraries}",
-        "-lmfem",
-        f"-Wl,-rpath,{libraries}",
-    ]
+    options = [f"-I{folder / 'include'}", f"-L{libraries}", "-lmfem", f"-Wl,-rpath,{libraries}"]
     version = found[1] if found else MFEM_WHEEL
     return Ready(version, lambda stem: _compiled(stem, options))
 
@@ -206,10 +196,7 @@ def sundials_wheel() -> Ready:
 
 
 def _of_c(
-    stem: str,
-    options: Sequence[str],
-    libraries: Sequence[str],
-    compiler: str = "cc",
+    stem: str, options: Sequence[str], libraries: Sequence[str], compiler: str = "cc"
 ) -> list[Command]:
     """A program of C with its table beside it, and its run."""
     build = [compiler, f"{stem}_test.c", f"{stem}.c", *options, *libraries]

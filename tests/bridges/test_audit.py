@@ -17,30 +17,10 @@ PLANTED = {
     "c, a digit": ("ralston.c", "{-1, 2}", "{-1, 2.5}", "order"),
     "c, a sign": ("ralston.c", "{-1, 2}", "{1, 2}", "order"),
     "c, a node": ("ralston.c", "{0, .5, 1}", "{0, .6, 1}", "nodes"),
-    "c, an embedded weight": (
-        "ralston.c",
-        "{1.0, 0.0}",
-        "{0.9, 0.0}",
-        "embedded-weights",
-    ),
-    "c, the order": (
-        "ralston.c",
-        "kutta_order = 3",
-        "kutta_order = 4",
-        "order",
-    ),
-    "c, transposed": (
-        "ralston.c",
-        "{0}, {0.5}, {-1, 2}",
-        "{0, 0.5, -1}, {0, 0, 2}",
-        "transposed",
-    ),
-    "c, a constant": (
-        "ralston.c",
-        "SUN_RCONST(2.0) /",
-        "SUN_RCONST(1.0) /",
-        "order",
-    ),
+    "c, an embedded weight": ("ralston.c", "{1.0, 0.0}", "{0.9, 0.0}", "embedded-weights"),
+    "c, the order": ("ralston.c", "kutta_order = 3", "kutta_order = 4", "order"),
+    "c, transposed": ("ralston.c", "{0}, {0.5}, {-1, 2}", "{0, 0.5, -1}, {0, 0, 2}", "transposed"),
+    "c, a constant": ("ralston.c", "SUN_RCONST(2.0) /", "SUN_RCONST(1.0) /", "order"),
     "c, missing numbers": (
         "ralston.c",
         "sunrealtype A[4] = {SUN_RCONST(0.0), ",
@@ -85,48 +65,18 @@ PLANTED = {
         "bembed[3] = {0, 1, 1}",
         "embedded-weights",
     ),
-    "petsc, implicit first": (
-        "register.cpp",
-        "0, 0, 0, 0.5}, A",
-        "0, 0, 0, 0.25}, A",
-        "order",
-    ),
-    "petsc, the order": (
-        "register.cpp",
-        '"imex-midpoint", 2',
-        '"imex-midpoint", 3',
-        "order",
-    ),
+    "petsc, implicit first": ("register.cpp", "0, 0, 0, 0.5}, A", "0, 0, 0, 0.25}, A", "order"),
+    "petsc, the order": ("register.cpp", '"imex-midpoint", 2', '"imex-midpoint", 3', "order"),
     "petsc, a digit far behind": (
         "register.cpp",
         "0.29289321881345254",
         "0.29289321882345254",
         "order",
     ),
-    "petsc, symplectic": (
-        "register.cpp",
-        "c[2] = {0.5, 0.5}",
-        "c[2] = {0.4, 0.6}",
-        "order",
-    ),
-    "scipy, a digit": (
-        "solvers.py",
-        "[0, 3 / 4, 0]",
-        "[0, 2 / 4, 0]",
-        "order",
-    ),
-    "scipy, a node": (
-        "solvers.py",
-        "[0, 1 / 2, 3 / 4]",
-        "[0, 1 / 2, 2 / 4]",
-        "nodes",
-    ),
-    "scipy, E": (
-        "solvers.py",
-        "[5 / 72, -1",
-        "[5 / 72, 1",
-        "embedded-weights",
-    ),
+    "petsc, symplectic": ("register.cpp", "c[2] = {0.5, 0.5}", "c[2] = {0.4, 0.6}", "order"),
+    "scipy, a digit": ("solvers.py", "[0, 3 / 4, 0]", "[0, 2 / 4, 0]", "order"),
+    "scipy, a node": ("solvers.py", "[0, 1 / 2, 3 / 4]", "[0, 1 / 2, 2 / 4]", "nodes"),
+    "scipy, E": ("solvers.py", "[5 / 72, -1", "[5 / 72, 1", "embedded-weights"),
     "scipy, the order": ("solvers.py", "order = 3\n", "order = 4\n", "order"),
     "scipy, its estimate": (
         "solvers.py",
@@ -135,36 +85,16 @@ PLANTED = {
         "embedded-order",
     ),
     "scipy, n_stages": ("solvers.py", "n_stages = 3", "n_stages = 4", "shape"),
-    "python, an entry": (
-        "solvers.py",
-        "A[1, 0] = 1",
-        "A[0, 1] = 1",
-        "transposed",
-    ),
+    "python, an entry": ("solvers.py", "A[1, 0] = 1", "A[0, 1] = 1", "transposed"),
     "python, a sign": ("solvers.py", "[-1, 2]]", "[1, 2]]", "order"),
     "rklab, a digit": ("rklab.m", "[0, 0; 2/3, 0]", "[0, 0; 1/3, 0]", "order"),
     "rklab, q": ("rklab.m", "2, b; 1, b2", "3, b; 1, b2", "order"),
     "rklab, p": ("rklab.m", "2, b; 1, b2", "2, b; 2, b2", "embedded-order"),
-    "rklab, a node": (
-        "rklab.m",
-        "c = [gamma; 1]",
-        "c = [gamma; 1/2]",
-        "nodes",
-    ),
+    "rklab, a node": ("rklab.m", "c = [gamma; 1]", "c = [gamma; 1/2]", "nodes"),
     "matlab, a sign": ("kutta.m", "-1 2 0]", "-1 -2 0]", "order"),
     "matlab, a cell": ("kutta.m", "m.b{2} = [0 1]", "m.b{2} = [1 0]", "order"),
-    "julia, a node": (
-        "tableaus.jl",
-        "c = [0; 2 // 3]",
-        "c = [0; 3 // 2]",
-        "nodes",
-    ),
-    "julia, the order": (
-        "tableaus.jl",
-        "A, c, α, 2, αEEst",
-        "A, c, α, 3, αEEst",
-        "order",
-    ),
+    "julia, a node": ("tableaus.jl", "c = [0; 2 // 3]", "c = [0; 3 // 2]", "nodes"),
+    "julia, the order": ("tableaus.jl", "A, c, α, 2, αEEst", "A, c, α, 3, αEEst", "order"),
     "julia, fsal": ("tableaus.jl", "fsal = false", "fsal = true", "fsal"),
     "julia, an embedded weight": (
         "tableaus.jl",
@@ -173,24 +103,9 @@ PLANTED = {
         "embedded-weights",
     ),
     "julia, big": ("tableaus.jl", 'big"2.0"', 'big"2.1"', "nodes"),
-    "julia, additive": (
-        "tableaus.jl",
-        "0//1 0//1; 1//2 0//1]",
-        "0//1 0//1; 1//3 0//1]",
-        "nodes",
-    ),
-    "tsv, a digit": (
-        "ralston.tsv",
-        "\t0.6666666666666666\t",
-        "\t0.6666666667666666\t",
-        "order",
-    ),
-    "tsv, a node": (
-        "ralston.tsv",
-        "\n0.6666666666666666",
-        "\n0.6666666766666666",
-        "nodes",
-    ),
+    "julia, additive": ("tableaus.jl", "0//1 0//1; 1//2 0//1]", "0//1 0//1; 1//3 0//1]", "nodes"),
+    "tsv, a digit": ("ralston.tsv", "\t0.6666666666666666\t", "\t0.6666666667666666\t", "order"),
+    "tsv, a node": ("ralston.tsv", "\n0.6666666666666666", "\n0.6666666766666666", "nodes"),
     "tsv, the order": ("ralston.tsv", "# 2 2", "# 3 2", "order"),
     "printed, a weight": (
         "printed.txt",
@@ -205,24 +120,9 @@ PLANTED = {
         "nodes",
     ),
     "printed, d": ("printed.txt", "d =  1.0", "d =  1.1", "embedded-weights"),
-    "mathematica, a root": (
-        "lists.wl",
-        "1/4 - Sqrt[3]/6}",
-        "1/4 - Sqrt[3]/5}",
-        "order",
-    ),
-    "mathematica, a node": (
-        "lists.wl",
-        "{1/2 - Sqrt[3]/6, ",
-        "{1/2 + Sqrt[3]/6, ",
-        "nodes",
-    ),
-    "mathematica, evec": (
-        "lists.wl",
-        "{1/4 - 1, 3/4}",
-        "{1/4 - 1, 1/4}",
-        "embedded-weights",
-    ),
+    "mathematica, a root": ("lists.wl", "1/4 - Sqrt[3]/6}", "1/4 - Sqrt[3]/5}", "order"),
+    "mathematica, a node": ("lists.wl", "{1/2 - Sqrt[3]/6, ", "{1/2 + Sqrt[3]/6, ", "nodes"),
+    "mathematica, evec": ("lists.wl", "{1/4 - 1, 3/4}", "{1/4 - 1, 1/4}", "embedded-weights"),
     "mathematica, transposed": (
         "lists.wl",
         "1/4 - Sqrt[3]/6}, {1/4 + Sqrt[3]/6, ",
@@ -231,18 +131,8 @@ PLANTED = {
     ),
     "latex, a digit": ("paper.tex", "\\tfrac{2}{3}", "\\tfrac{1}{3}", "nodes"),
     "latex, a weight": ("paper.tex", "\\frac34", "\\frac14", "weights"),
-    "latex, an embedded weight": (
-        "paper.tex",
-        "& 1 & 0\n",
-        "& 1 & 1\n",
-        "embedded-weights",
-    ),
-    "latex, of two colours": (
-        "paper.tex",
-        "& 0 & 1 & 0 & 1",
-        "& 0 & 1 & 0 & 2",
-        "weights",
-    ),
+    "latex, an embedded weight": ("paper.tex", "& 1 & 0\n", "& 1 & 1\n", "embedded-weights"),
+    "latex, of two colours": ("paper.tex", "& 0 & 1 & 0 & 1", "& 0 & 1 & 0 & 2", "weights"),
     "json, the order": ("table.json", '"order": 2', '"order": 3', "order"),
     "json, a node": ("table.json", '[0, "1/2"]', '[0, "1/3"]', "nodes"),
     "csv, a sign": ("kutta.csv", "1,-1,2,0", "1,1,2,0", "nodes"),
@@ -377,9 +267,7 @@ def test_text_names_the_place_and_the_culprit(wrong: Path) -> None:
     """Only the wrong table is told, with the row that does not fit its node."""
     run = gark("audit", "kutta.m", "register.cpp", cwd=wrong)
     assert run.code == 1
-    assert run.out.startswith(
-        "kutta.m:3  kutta: order 1\n    error: order 1, declared 3;"
-    )
+    assert run.out.startswith("kutta.m:3  kutta: order 1\n    error: order 1, declared 3;")
     assert "help: row 3 has the sum 3, its node is 1" in run.out
     assert run.out.endswith("6 tables, 1 wrong\n")
     assert all(len(line) <= 80 for line in run.out.splitlines())

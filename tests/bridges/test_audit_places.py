@@ -107,11 +107,7 @@ def test_files_that_cannot_be_read_stop_no_audit(tmp_path: Path) -> None:
         run = gark(command, ".", cwd=tmp_path)
         assert run.code == int(command == "audit")
         told = run.err.splitlines()
-        assert [line.partition(" ")[0] for line in told] == [
-            "./a.c",
-            "./b.c",
-            "./c.json",
-        ]
+        assert [line.partition(" ")[0] for line in told] == ["./a.c", "./b.c", "./c.json"]
     assert gark("audit", "c.json", cwd=tmp_path).code == 2
 
 
@@ -135,9 +131,7 @@ def test_a_digit_of_a_long_fraction_is_no_rounding(
 ) -> None:
     """Whole numbers of any length are what they are, in sums with others too."""
     assert before in dormand_prince
-    assert told("right.py", dormand_prince, tmp_path) == {
-        "DormandPrince54": []
-    }
+    assert told("right.py", dormand_prince, tmp_path) == {"DormandPrince54": []}
     (tmp_path / "right.py").unlink()
     wrong = dormand_prince.replace(before, after)
     assert code in told("wrong.py", wrong, tmp_path)["DormandPrince54"]
@@ -168,9 +162,7 @@ def test_approximants_are_no_misprints(name: str, tmp_path: Path) -> None:
     text = gark("export", name, "--to", "sundials").out
     assert not any(told("right.c", text, tmp_path).values())
     (tmp_path / "right.c").unlink()
-    place = text.index(
-        ".0) / SUN_RCONST(", text.index("b[") if "b[" in text else 0
-    )
+    place = text.index(".0) / SUN_RCONST(", text.index("b[") if "b[" in text else 0)
     digit = text[place - 1]
     other = str((int(digit) + 1) % 10)
     wrong = text[: place - 1] + other + text[place:]

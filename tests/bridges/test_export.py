@@ -68,9 +68,7 @@ def test_numpy_arrays_are_the_nearest_floats(path: Path) -> None:
 
 def test_orders_are_proved_when_the_file_is_written() -> None:
     """Claims of the file have no part in it; nodes that are no row sums are told."""
-    text = (
-        "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nc: [0, 1/3]\nexpect: {order: 4}\n"
-    )
+    text = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nc: [0, 1/3]\nexpect: {order: 4}\n"
     found = bridges()["json"].written(prepared(loads(text)))
     data = json.loads(found)
     assert (data["order"], data["nonautonomous_order"]) == (2, 1)
@@ -126,9 +124,7 @@ def test_what_there_is_no_target_for() -> None:
 
 def test_free_parameters_are_refused() -> None:
     """A family is no method; the cure names the option."""
-    run = gark(
-        "export", "tests/examples/families/sdirk.gark.yaml", "--to", "json"
-    )
+    run = gark("export", "tests/examples/families/sdirk.gark.yaml", "--to", "json")
     assert run.code == 2
     assert "--set" in run.err
 
@@ -147,10 +143,7 @@ def test_a_test_is_named_after_the_file(tmp_path: Path) -> None:
     """Whatever the file is called, its program reads it, and lies beside it with the problem."""
     name = 'my "best" \\ method.v2.py'
     rk4 = ROOT / "methods/rk4.gark.yaml"
-    run = gark(
-        *("export", str(rk4), "--to", "scipy", "--test", "-o", name),
-        cwd=tmp_path,
-    )
+    run = gark(*("export", str(rk4), "--to", "scipy", "--test", "-o", name), cwd=tmp_path)
     assert run.code == 0, run.err
     stem = name.removesuffix(".py")
     program = (tmp_path / f"{stem}_test.py").read_text(encoding="utf-8")
@@ -163,10 +156,7 @@ def test_nothing_is_written_where_there_is_no_test(tmp_path: Path) -> None:
     """A method that the target cannot hold is refused before any file is written."""
     text = "ark: {A: [[[0]], [[1]], [[0]]], b: [[1], [1], [1]]}\n"
     (tmp_path / "three.yaml").write_text(text)
-    run = gark(
-        *("export", "three.yaml", "--to", "petsc", "--test", "-o", "x.c"),
-        cwd=tmp_path,
-    )
+    run = gark(*("export", "three.yaml", "--to", "petsc", "--test", "-o", "x.c"), cwd=tmp_path)
     assert run.code == 2
     assert [x.name for x in tmp_path.iterdir()] == ["three.yaml"]
 
@@ -191,8 +181,6 @@ def test_files_are_what_a_target_writes(target: str, tmp_path: Path) -> None:
         return
     written = bridge.written(payload)
     output = tmp_path / "method"
-    assert (
-        gark("export", str(path), "--to", target, "-o", str(output)).code == 0
-    )
+    assert gark("export", str(path), "--to", target, "-o", str(output)).code == 0
     assert output.read_text(encoding="utf-8") == written
     assert gark("export", str(path), "--to", target).out == written

@@ -64,9 +64,7 @@ def floats(payload: Payload, steps: int) -> float:
         for row, node in zip(A, c, strict=True):
             stage = list(y)
             for a, slope in zip(row, slopes, strict=False):
-                stage = [
-                    z + h * a * k for z, k in zip(stage, slope, strict=True)
-                ]
+                stage = [z + h * a * k for z, k in zip(stage, slope, strict=True)]
             slopes.append(field(n * h + node * h, stage))
         for weight, slope in zip(b, slopes, strict=True):
             y = [z + h * weight * k for z, k in zip(y, slope, strict=True)]
@@ -107,9 +105,7 @@ def kutta() -> tuple[Payload, list[float]]:
     return payload, own_errors(method, payload)
 
 
-def test_floats_are_within_the_bound(
-    kutta: tuple[Payload, list[float]],
-) -> None:
+def test_floats_are_within_the_bound(kutta: tuple[Payload, list[float]]) -> None:
     """A second way to step in floats makes the errors of gark, as far as rounding lets it."""
     payload, ours = kutta
     found = [(n, floats(payload, n)) for n in STEPS]
@@ -120,9 +116,7 @@ def test_floats_are_within_the_bound(
 
 
 @pytest.mark.parametrize("place", ["A", "b", "c"])
-def test_a_wrong_digit_is_beyond_the_bound(
-    place: str, kutta: tuple[Payload, list[float]]
-) -> None:
+def test_a_wrong_digit_is_beyond_the_bound(place: str, kutta: tuple[Payload, list[float]]) -> None:
     """The tenth digit of one entry is enough: it is no rounding."""
     payload, ours = kutta
     wrong = fmpq(1, 10**10)
@@ -142,9 +136,7 @@ def test_a_wrong_digit_is_beyond_the_bound(
     assert outcome.note == "the errors are others"
 
 
-def test_solvers_and_readings_widen_the_bound(
-    kutta: tuple[Payload, list[float]],
-) -> None:
+def test_solvers_and_readings_widen_the_bound(kutta: tuple[Payload, list[float]]) -> None:
     """Stages that are solved for, and numbers taken out by a formula, are off by as much more."""
     payload, _ = kutta
     bare = allowed(payload, 8)
@@ -166,8 +158,7 @@ def test_what_is_run_is_there() -> None:
 def test_methods_are_of_their_kinds() -> None:
     """By what the tables are."""
     payloads = {
-        kind: [prepared(open_method(name)) for name in names[:1]]
-        for kind, names in METHODS.items()
+        kind: [prepared(open_method(name)) for name in names[:1]] for kind, names in METHODS.items()
     }
     (explicit,), (dirk,) = payloads["explicit"], payloads["DIRK"]
     assert table(explicit).is_explicit
@@ -185,9 +176,7 @@ def test_rounding_to_53_bits_is_that_of_floats(x: Any) -> None:
     assert float(rounded(exact, 53)) == nearest_float(exact)
 
 
-def test_a_bit_that_differs_is_found(
-    kutta: tuple[Payload, list[float]],
-) -> None:
+def test_a_bit_that_differs_is_found(kutta: tuple[Payload, list[float]]) -> None:
     """The last bit of one entry."""
     payload, _ = kutta
     arrays = [("A", 16), ("b", 4), ("c", 4)]
@@ -208,9 +197,7 @@ def test_beginnings_choose() -> None:
         chosen("sunk")
 
 
-def test_what_is_not_to_be_had_is_said(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_what_is_not_to_be_had_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without apt, and without root, the reason and the cure are named; nothing is installed."""
     tool = Tool("Nothing", ("no-such-program-anywhere",), "no-package")
     monkeypatch.setattr(machine.shutil, "which", lambda _: None)

@@ -7,11 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.bridges.readers.registry import (
-    all_readers,
-    find_tables,
-    readers_for,
-)
+from garkcli.bridges.readers.registry import all_readers, find_tables, readers_for
 from garkcli.bridges.readers.scalars import MAX_LENGTH
 from tests.cli.harness import gark
 
@@ -31,15 +27,12 @@ HOSTILE = {
     "ampersands": "\\begin{array}{c|c}" + "&" * LONG + "\\end{array}",
     "arrays": "\\begin{array}" * 2_000,
     "columns": "\\begin{array}{" + "*{999}{c}" * 500 + "}\\end{array}",
-    "fractions": "\\begin{array}{c|c}"
-    + "\\frac" * LONG
-    + "\\\\\\hline&1\\end{array}",
+    "fractions": "\\begin{array}{c|c}" + "\\frac" * LONG + "\\\\\\hline&1\\end{array}",
     "nested lists": '{"A": ' * 2_000,
     "doubling": "#define A0 (1+1)\n"
     + "".join(f"#define A{k + 1} (A{k}*A{k})\n" for k in range(60))
     + "double A[1][1] = {{A60}}, b[1] = {1};",
-    "a power tower": "a = 2\n"
-    + "".join(f"a = a*a + {k}\n" for k in range(60)),
+    "a power tower": "a = 2\n" + "".join(f"a = a*a + {k}\n" for k in range(60)),
     "names": "import os\nA = os.system('false')\nb = __import__('os')\n",
     "calls": 'A = eval("1")\nb = exec("2")\nA = open("x")\n',
     "a type": "# 2 2 run(`false`)\n0 0 0\n0 0 0\n0 0 0\n",

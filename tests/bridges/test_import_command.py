@@ -11,7 +11,9 @@ from garkcli.report.schemas import report_schema
 from tests.cli.harness import gark
 
 SOURCES = Path(__file__).parent / "sources"
-KUTTA = "A = [[], [0.5], [-1, 2]]\nb = ['1/6', '2/3', '1/6']\nb = [1/6, 2/3, 1/6]\nc = [0, 0.5, 1]\n"
+KUTTA = (
+    "A = [[], [0.5], [-1, 2]]\nb = ['1/6', '2/3', '1/6']\nb = [1/6, 2/3, 1/6]\nc = [0, 0.5, 1]\n"
+)
 
 
 def test_files_and_their_claims(tmp_path: Path) -> None:
@@ -26,9 +28,7 @@ def test_files_and_their_claims(tmp_path: Path) -> None:
     checked = gark("check", "-q", str(folder))
     assert checked.code == 0, checked.out
     first = files[0].read_text(encoding="utf-8")
-    assert first.startswith(
-        f"# from {SOURCES / 'heun_euler.def'}:5, read as c"
-    )
+    assert first.startswith(f"# from {SOURCES / 'heun_euler.def'}:5, read as c")
 
 
 def test_standard_input() -> None:

@@ -11,12 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.bridges.numbers import EXACT, Style, ending, shortest
-from garkcli.bridges.rounding import (
-    TooWide,
-    nearest_float,
-    rounded,
-    significant,
-)
+from garkcli.bridges.rounding import TooWide, nearest_float, rounded, significant
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
@@ -31,9 +26,7 @@ def number(text: str) -> Number:
 
 
 @given(FRACTIONS, st.integers(1, 60))
-def test_decimals_are_those_of_the_decimal_module(
-    x: Fraction, digits: int
-) -> None:
+def test_decimals_are_those_of_the_decimal_module(x: Fraction, digits: int) -> None:
     """Python's decimals divide with one rounding, half to even."""
     precise = Context(prec=digits, rounding=ROUND_HALF_EVEN)
     wanted = precise.divide(Decimal(x.numerator), Decimal(x.denominator))
@@ -107,9 +100,7 @@ def test_decimals_that_end_are_found(p: int, places: int) -> None:
     found = ending(fmpq(p, 10**places))
     assert found is not None
     mantissa, exponent = found
-    assert Fraction(mantissa) * Fraction(10) ** exponent == Fraction(
-        p, 10**places
-    )
+    assert Fraction(mantissa) * Fraction(10) ** exponent == Fraction(p, 10**places)
 
 
 def test_styles() -> None:
@@ -120,7 +111,5 @@ def test_styles() -> None:
     assert style.text(third) == "1.0/3.0"
     assert style.text(eighth) == "R(0.125)"
     assert style.text(third, 5) == "R(0.33333)"
-    assert style.text(fmpq(1, 3**40)) == (
-        "R(8.22526333996995908128205840060725024e-20)"
-    )
+    assert style.text(fmpq(1, 3**40)) == ("R(8.22526333996995908128205840060725024e-20)")
     assert Style().text(fmpq(0)) == "0.0"

@@ -54,20 +54,12 @@ def test_the_end_of_each_trial_is_right(trial: Trial) -> None:
     """Taylor series of 16 digits end at the solution that the programs compare with."""
 
     def side(_: Any, y: Any) -> list[Any]:
-        words = {
-            "y1": "y[0]",
-            "y2": "y[1]",
-            "t": "t",
-            "sin": "sin",
-            "cos": "cos",
-        }
+        words = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos"}
         names = {"y": y, "t": _, "sin": mp.sin, "cos": mp.cos}
         total = [mpf(0), mpf(0)]
         for place in range(len(trial.sides)):
             for k, formula in enumerate(trial.formulas(place, words)):
-                exact = re.sub(
-                    r"0\.3|0\.5|1\.0", lambda x: f"mpf('{x[0]}')", formula
-                )
+                exact = re.sub(r"0\.3|0\.5|1\.0", lambda x: f"mpf('{x[0]}')", formula)
                 total[k] += eval(exact, {"mpf": mpf, **names})
         return total
 
@@ -102,16 +94,7 @@ def test_scipy_makes_the_errors_that_gark_predicts(
     """
     pytest.importorskip("scipy")
     (tmp_path / "dp5.yaml").write_text(DORMAND_PRINCE)
-    run = gark(
-        "export",
-        "dp5.yaml",
-        "--to",
-        "scipy",
-        "--test",
-        "-o",
-        "dp5.py",
-        cwd=tmp_path,
-    )
+    run = gark("export", "dp5.yaml", "--to", "scipy", "--test", "-o", "dp5.py", cwd=tmp_path)
     assert (run.code, run.out, run.err) == (0, "", "")
     runpy.run_path(str(tmp_path / "dp5_test.py"), run_name="__main__")
     found = printed(capsys.readouterr().out)
@@ -133,9 +116,7 @@ def test_scipy_class_of_a_method() -> None:
         written = bridges()["scipy"].written(prepared(loads(text)))
         names: dict[str, Any] = {}
         exec(compile(written, "exported", "exec"), names)
-        (solver,) = [
-            x for x in names.values() if getattr(x, "n_stages", 0) == stages
-        ]
+        (solver,) = [x for x in names.values() if getattr(x, "n_stages", 0) == stages]
         assert abs(solver.E.sum()) < 1e-15
         assert np.allclose(solver.P.sum(axis=1), [*solver.B, 0], atol=1e-15)
         run = solve_ivp(
@@ -166,11 +147,7 @@ def compiled(tmp_path: Path, program: str, *flags: str) -> list[str]:
         timeout=60,
     )
     done = subprocess.run(
-        [str(tmp_path / "main")],
-        check=True,
-        capture_output=True,
-        text=True,
-        timeout=60,
+        [str(tmp_path / "main")], check=True, capture_output=True, text=True, timeout=60
     )
     return done.stdout.split()
 
@@ -178,12 +155,7 @@ def compiled(tmp_path: Path, program: str, *flags: str) -> list[str]:
 def printing(payload: Payload, header: str) -> tuple[str, list[float]]:
     """A program that prints every number of a header in hexadecimal, and the nearest floats."""
     name = f"gark_{payload.identifier}"
-    lines = [
-        "#include <stdio.h>",
-        f'#include "{header}"',
-        "int main(void)",
-        "{",
-    ]
+    lines = ["#include <stdio.h>", f'#include "{header}"', "int main(void)", "{"]
     wanted: list[float] = []
     several = payload.size > 1
     for l, blocks in enumerate(payload.A, start=1):
@@ -191,9 +163,7 @@ def printing(payload: Payload, header: str) -> tuple[str, list[float]]:
             array = f"{name}_A{f'{l}_{m}' if several else ''}"
             for i, row in enumerate(block or ()):
                 for j, x in enumerate(row):
-                    lines.append(
-                        f'  printf("%a\\n", (double){array}[{i}][{j}]);'
-                    )
+                    lines.append(f'  printf("%a\\n", (double){array}[{i}][{j}]);')
                     wanted.append(nearest_float(x))
     for part, rows in (("b", payload.b), ("c", payload.c)):
         for l, row in enumerate(rows, start=1):
@@ -206,9 +176,7 @@ def printing(payload: Payload, header: str) -> tuple[str, list[float]]:
 
 @pytest.mark.skipif(CC is None, reason="no C compiler")
 @pytest.mark.parametrize("digits", [None, 36])
-def test_c_headers_are_read_back_bit_by_bit(
-    digits: int | None, tmp_path: Path
-) -> None:
+def test_c_headers_are_read_back_bit_by_bit(digits: int | None, tmp_path: Path) -> None:
     """Each number that the compiler makes of a header is the float nearest to the exact one:
     fractions, radicals, decimals.
     """
@@ -231,9 +199,7 @@ def test_c_headers_in_long_double(tmp_path: Path) -> None:
         '#include <stdio.h>\n#include "table.h"\nint main(void)\n{\n'
         '  printf("%d\\n", gark_ralston_euler_c[1] == 2.0L / 3.0L);\n  return 0;\n}\n'
     )
-    found = compiled(
-        tmp_path, program, "-DGARK_LONG_DOUBLE", "-Wno-unused-variable"
-    )
+    found = compiled(tmp_path, program, "-DGARK_LONG_DOUBLE", "-Wno-unused-variable")
     assert found == ["1"]
 
 
@@ -295,9 +261,7 @@ def test_no_name_leaves_the_comments_of_c(tmp_path: Path) -> None:
     """Headers of methods with hostile names and references compile without a warning."""
     lines = []
     for place, name in enumerate(HOSTILE):
-        text = (
-            f'name: "n{place} {name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
-        )
+        text = f'name: "n{place} {name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
         header = bridges()["c"].written(prepared(loads(text)))
         (tmp_path / f"h{place}.h").write_text(header)
         lines.append(f'#include "h{place}.h"')
@@ -305,9 +269,7 @@ def test_no_name_leaves_the_comments_of_c(tmp_path: Path) -> None:
     assert compiled(tmp_path, program, "-Wno-unused-variable") == []
 
 
-@pytest.mark.parametrize(
-    ("target", "mark"), [("fortran", "!"), ("latex", "%"), ("csv", "#")]
-)
+@pytest.mark.parametrize(("target", "mark"), [("fortran", "!"), ("latex", "%"), ("csv", "#")])
 def test_heads_are_comments(target: str, mark: str) -> None:
     """Whatever the name, the lines of the head begin with the mark of the language."""
     for name in HOSTILE:

@@ -77,10 +77,7 @@ def test_every_table_is_found(results: dict[tuple[str, int], Result]) -> None:
 
 def test_every_reader_has_a_source() -> None:
     """No format is left out of this test."""
-    used = {
-        result.table.format
-        for result in collected(source_files([str(SOURCES)]))
-    }
+    used = {result.table.format for result in collected(source_files([str(SOURCES)]))}
     assert used == set(all_readers())
 
 
@@ -109,9 +106,7 @@ SAME = {
 
 
 @pytest.mark.parametrize("place", SAME, ids=lambda x: f"{x[0]}:{x[1]}")
-def test_numbers_are_exact(
-    results: dict[tuple[str, int], Result], place: tuple[str, int]
-) -> None:
+def test_numbers_are_exact(results: dict[tuple[str, int], Result], place: tuple[str, int]) -> None:
     """Fractions, products of constants and roots are what they are, in every language."""
     found = results[place].method
     assert found is not None
@@ -121,9 +116,7 @@ def test_numbers_are_exact(
     assert str(found.method.c) == str(wanted.c)
 
 
-def test_a_method_that_is_first_same_as_last(
-    results: dict[tuple[str, int], Result],
-) -> None:
+def test_a_method_that_is_first_same_as_last(results: dict[tuple[str, int], Result]) -> None:
     """SciPy leaves out the last stage, whose weight is the last one of E: it is there again."""
     found = results["solvers.py", 9].method
     assert found is not None

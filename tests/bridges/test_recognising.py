@@ -34,9 +34,7 @@ def test_proposals(text: str) -> None:
     assert Decimal(found.distance) <= 2 * Decimal(10) ** -places
 
 
-@pytest.mark.parametrize(
-    "text", ["0.5", "0.7182818284590452", "0.577215664901532"]
-)
+@pytest.mark.parametrize("text", ["0.5", "0.7182818284590452", "0.577215664901532"])
 def test_no_proposal(text: str) -> None:
     """Neither what is exact already nor what is no short algebraic number."""
     assert proposed(text) is None

@@ -70,10 +70,7 @@ def sample() -> list[Path]:
 @cache
 def payload(path: Path) -> Payload:
     """A method as writers get it; its orders are the matter of other tests."""
-    with patch(
-        "garkcli.bridges.preparing.find_orders",
-        lambda *_: Orders(2, embedded=1),
-    ):
+    with patch("garkcli.bridges.preparing.find_orders", lambda *_: Orders(2, embedded=1)):
         return prepared(load(str(path)))
 
 
@@ -154,9 +151,7 @@ def differing(table: FoundTable, wanted: Payload) -> Iterator[str]:
 
 
 def _rows(
-    name: str,
-    found: Sequence[Sequence[str]],
-    wanted: Sequence[Sequence[object]] | None,
+    name: str, found: Sequence[Sequence[str]], wanted: Sequence[Sequence[object]] | None
 ) -> Iterator[str]:
     wanted = wanted or ()
     if [len(row) for row in found] != [len(row) for row in wanted]:

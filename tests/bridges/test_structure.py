@@ -21,9 +21,7 @@ from garkcli.order.certificate import find_order
 from garkcli.tableau.forms import additive
 from tests.cli.harness import ROOT
 
-COEFFICIENTS = st.lists(
-    st.fractions(-2, 2, max_denominator=9), min_size=2, max_size=4
-)
+COEFFICIENTS = st.lists(st.fractions(-2, 2, max_denominator=9), min_size=2, max_size=4)
 GENERAL = [
     "methods/collocation.gark.yaml",
     "methods/interpolation.gark.yaml",
@@ -74,14 +72,8 @@ tableau:
 
 def composed(kicks: list[fmpq], drifts: list[fmpq]) -> str:
     """A method file of kick 1, drift 1, kick 2, …: positions before kicks, momenta before drifts."""
-    forces = [
-        [x if j < i else 0 for j, x in enumerate(drifts)]
-        for i in range(len(kicks))
-    ]
-    momenta = [
-        [x if i <= j else 0 for i, x in enumerate(kicks)]
-        for j in range(len(drifts))
-    ]
+    forces = [[x if j < i else 0 for j, x in enumerate(drifts)] for i in range(len(kicks))]
+    momenta = [[x if i <= j else 0 for i, x in enumerate(kicks)] for j in range(len(drifts))]
     return (
         "structure: separable\nprk:\n"
         f"  q: {{A: {_listed(forces)}, b: {_listed(drifts)}}}\n"
@@ -98,19 +90,11 @@ def _listed(x: object) -> str:
 
 @settings(max_examples=30)
 @given(COEFFICIENTS, COEFFICIENTS)
-def test_compositions_are_found_again(
-    kicks: list[object], drifts: list[object]
-) -> None:
+def test_compositions_are_found_again(kicks: list[object], drifts: list[object]) -> None:
     """From the two matrices come the kicks and drifts that they were made of, whichever vanish."""
     size = min(len(kicks), len(drifts))
-    k = [
-        fmpq(str(x)) if "/" not in str(x) else _fraction(str(x))
-        for x in kicks[:size]
-    ]
-    d = [
-        fmpq(str(x)) if "/" not in str(x) else _fraction(str(x))
-        for x in drifts[:size]
-    ]
+    k = [fmpq(str(x)) if "/" not in str(x) else _fraction(str(x)) for x in kicks[:size]]
+    d = [fmpq(str(x)) if "/" not in str(x) else _fraction(str(x)) for x in drifts[:size]]
     if not any(k) or not any(d):
         return
     found = composition(payload_of(composed(k, d)))
@@ -141,9 +125,7 @@ def _steps(kicks: object, drifts: object) -> list[tuple[str, fmpq]]:
 
 def test_what_is_no_composition_has_none() -> None:
     """The pair Lobatto IIIA-IIIB of three stages solves its stages together."""
-    payload = prepared(
-        load(str(ROOT / "methods/prk-lobatto-iiia-iiib.gark.yaml"))
-    )
+    payload = prepared(load(str(ROOT / "methods/prk-lobatto-iiia-iiib.gark.yaml")))
     assert composition(payload) is None
     for name in ("sundials", "petsc"):
         with pytest.raises(CannotExport, match="no such composition"):
@@ -152,16 +134,8 @@ def test_what_is_no_composition_has_none() -> None:
 
 REFUSED = [
     ("scipy", "{A: [[1/2]], b: [1]}", "implicit stages"),
-    (
-        "scipy",
-        "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}",
-        "first node is 1/2",
-    ),
-    (
-        "sundials",
-        "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}",
-        "first node is 1/2",
-    ),
+    ("scipy", "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}", "first node is 1/2"),
+    ("sundials", "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}", "first node is 1/2"),
     ("sundials", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
     ("petsc", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
     ("scipy", "{ark: {A: [[[0]], [[0]]], b: [[1], [1]]}}", "scipy has no"),
@@ -172,18 +146,12 @@ REFUSED = [
         "do not ascend",
     ),
     ("sundials", "{ark: {A: [[[1]], [[1]]], b: [[1], [1]]}}", "both"),
-    (
-        "petsc",
-        "{ark: {A: [[[0]], [[0]], [[0]]], b: [[1], [1], [1]]}}",
-        "has 3",
-    ),
+    ("petsc", "{ark: {A: [[[0]], [[0]], [[0]]], b: [[1], [1], [1]]}}", "has 3"),
 ]
 
 
 @pytest.mark.parametrize(("name", "text", "reason"), REFUSED)
-def test_refusals_have_reason_and_cure(
-    name: str, text: str, reason: str
-) -> None:
+def test_refusals_have_reason_and_cure(name: str, text: str, reason: str) -> None:
     """What a target cannot hold is refused in one line each."""
     with pytest.raises(CannotExport) as refusal:
         bridges()[name].written(payload_of(text))
@@ -213,19 +181,13 @@ def test_tables_know_their_last_stage() -> None:
 @pytest.mark.parametrize(
     ("A", "b", "order"),
     [
-        (
-            "[[0, 0, 0], [1/3, 0, 0], [-3/16, 15/16, 0]]",
-            "[1/6, 3/10, 8/15]",
-            3,
-        ),
+        ("[[0, 0, 0], [1/3, 0, 0], [-3/16, 15/16, 0]]", "[1/6, 3/10, 8/15]", 3),
         ("[[0, 0, 0], [1/3, 0, 0], [0, 2/3, 0]]", "[1/4, 0, 3/4]", 2),
         ("[[0, 0], [2/3, 0]]", "[1/4, 3/4]", 2),
         ("[[0]]", "[1]", 1),
     ],
 )
-def test_the_order_of_multirate_infinitesimal_steps(
-    A: str, b: str, order: int
-) -> None:
+def test_the_order_of_multirate_infinitesimal_steps(A: str, b: str, order: int) -> None:
     """The method of Knoth and Wolke keeps its order 3, that of Heun has 2."""
     payload = payload_of(f"{{A: {A}, b: {b}}}")
     found = table(payload)
@@ -242,9 +204,7 @@ def test_latex_is_exact() -> None:
     assert r"1-\frac{\sqrt{2}}{2} & 1-\frac{\sqrt{2}}{2} & 0" in written
     assert "  & \\frac{1}{4} & \\frac{3}{4} \\\\\n  & 1 & 0\n" in written
     cubic = load(str(ROOT / "methods/found/imex4-order3.gark.yaml"))
-    assert r"\operatorname{root}" in bridges()["latex"].written(
-        prepared(cubic)
-    )
+    assert r"\operatorname{root}" in bridges()["latex"].written(prepared(cubic))
     rounded = bridges()["latex"].written(prepared(loads(text), 5))
     assert "0.29289 & 0.29289 & 0" in rounded
 

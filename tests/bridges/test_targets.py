@@ -51,14 +51,7 @@ OF_RALSTON = (
     "torchdiffeq",
     "torchode",
 )
-OF_MIDPOINTS = (
-    "dedalus",
-    "diffrax",
-    "julia",
-    "mathematica",
-    "matlab",
-    "tempus",
-)
+OF_MIDPOINTS = ("dedalus", "diffrax", "julia", "mathematica", "matlab", "tempus")
 OF_VERLET = ("geometricintegrators", "julia", "matlab", "rootedtrees")
 
 
@@ -70,9 +63,7 @@ RECORDED = [
 
 
 @pytest.mark.parametrize(
-    ("target", "name", "method"),
-    RECORDED,
-    ids=[f"{target}-{name}" for target, name, _ in RECORDED],
+    ("target", "name", "method"), RECORDED, ids=[f"{target}-{name}" for target, name, _ in RECORDED]
 )
 def test_recorded_texts(target: str, name: str, method: str) -> None:
     """The whole file, which was run in the target where that was to be had."""
@@ -85,15 +76,7 @@ def test_recorded_texts(target: str, name: str, method: str) -> None:
     assert text == path.read_text(encoding="utf-8")
 
 
-EXPLICIT = (
-    "amrex",
-    "boost",
-    "desolve",
-    "mfem",
-    "ordinarydiffeq",
-    "torchdiffeq",
-    "torchode",
-)
+EXPLICIT = ("amrex", "boost", "desolve", "mfem", "ordinarydiffeq", "torchdiffeq", "torchode")
 
 
 @pytest.mark.parametrize("target", EXPLICIT)
@@ -123,10 +106,7 @@ def test_pairs_without_an_explicit_table_are_refused() -> None:
 
 def test_the_explicit_table_comes_first_wherever_it_is() -> None:
     """Diffrax and Tempus take it first; in the file it is the second one."""
-    turned = (
-        "name: midpoints\n"
-        "ark: {A: [[[0, 0], [0, 1/2]], [[0, 0], [1/2, 0]]], b: [0, 1]}\n"
-    )
+    turned = "name: midpoints\nark: {A: [[[0, 0], [0, 1/2]], [[0, 0], [1/2, 0]]], b: [0, 1]}\n"
     for target in ("diffrax", "tempus"):
         assert written(target, turned) == written(target, MIDPOINTS)
 
@@ -214,9 +194,7 @@ def test_errors_are_differences() -> None:
     table = find_tables(text, "x.py", [reader_named("python")])[0]
     assert table.embedded is not None
     assert [float(fmpq_of(x)) for x in table.embedded[0]] == [1, 0]
-    assert 'name="bstar" type="string" value="1.0 0.0"' in written(
-        "tempus", RALSTON
-    )
+    assert 'name="bstar" type="string" value="1.0 0.0"' in written("tempus", RALSTON)
     assert "extended_weights = 1.0 0.0" in written("amrex", RALSTON)
     assert "αEEst = bhat" in written("ordinarydiffeq", RALSTON)
 
@@ -246,9 +224,7 @@ def test_adaptive_steps_without_an_estimate_are_refused() -> None:
 def test_amrex_has_the_diagonal() -> None:
     """Rows of the lower triangle with their zero diagonal, s(s + 1)/2 numbers, and type 0."""
     text = written("amrex", BOGACKI)
-    (line,) = [
-        x for x in text.splitlines() if x.startswith("integration.rk.tab")
-    ]
+    (line,) = [x for x in text.splitlines() if x.startswith("integration.rk.tab")]
     numbers = line.partition("=")[2].split()
     assert len(numbers) == 10
     assert [numbers[k] for k in (0, 2, 5, 9)] == ["0.0"] * 4
@@ -270,9 +246,7 @@ def test_weights_of_dedalus_are_last_rows() -> None:
     assert [rows[2], rows[5]] == ["0, 1, 0", "0, 1, 0"]
     assert "c = np.array([0, 0.5, 1]" in text
     assert "stages = 2\n" in text
-    ends = (
-        "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}\n"
-    )
+    ends = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}\n"
     assert "stages = 1\n" in written("dedalus", ends)
 
 
@@ -307,9 +281,7 @@ def test_mathematica_is_exact() -> None:
     assert '"bhat"] - ' not in text
     assert 'ralstonEuler["b"] - ralstonEuler["bhat"]' in text
     assert 'Rest[ralstonEuler["c"]]' in text
-    rounded = (
-        "A: [[0, 0], [0.6666666667, 0]]\nb: [1/4, 3/4]\ntolerance: 1e-8\n"
-    )
+    rounded = "A: [[0, 0], [0.6666666667, 0]]\nb: [1/4, 3/4]\ntolerance: 1e-8\n"
     assert str(Fraction("0.6666666667")) in written("mathematica", rounded)
 
 

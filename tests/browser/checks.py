@@ -11,13 +11,7 @@ _RULES = {
     "resultTypes": ["violations"],
     "runOnly": {
         "type": "tag",
-        "values": [
-            "wcag2a",
-            "wcag2aa",
-            "wcag21a",
-            "wcag21aa",
-            "best-practice",
-        ],
+        "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"],
     },
 }
 _WIDTHS = "() => [document.scrollingElement.scrollWidth, innerWidth]"
@@ -36,9 +30,7 @@ def violations(page: Page, within: str | None = None) -> str:
     found = Axe().run(page, context=within, options=_RULES)
     lines = []
     for violation in found.response["violations"]:
-        nodes = [
-            x for x in violation["nodes"] if not _is_formula(violation, x)
-        ]
+        nodes = [x for x in violation["nodes"] if not _is_formula(violation, x)]
         if nodes:
             lines.append(_described(violation["id"], nodes))
     return "\n".join(lines)

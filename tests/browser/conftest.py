@@ -24,9 +24,7 @@ def chromium() -> Iterator[Browser]:
         pytest.exit(str(error), returncode=3)
     BUILT.mkdir(parents=True, exist_ok=True)
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=path, args=list(SWITCHES)
-        )
+        browser = playwright.chromium.launch(executable_path=path, args=list(SWITCHES))
         yield browser
         browser.close()
 
@@ -37,10 +35,7 @@ def opened(chromium: Browser) -> Open:
 
     @contextmanager
     def open_file(
-        path: Path,
-        width: int = 1280,
-        scheme: str = "light",
-        scripts: bool = True,
+        path: Path, width: int = 1280, scheme: str = "light", scripts: bool = True
     ) -> Iterator[Opened]:
         context = chromium.new_context(
             viewport={"width": width, "height": HEIGHT},

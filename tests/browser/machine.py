@@ -11,13 +11,7 @@ BUILT = ROOT / "build" / "browser"
 """Where pages and screenshots go."""
 SITE = ROOT / "build" / "docs"
 """Where `make docs` has put the site."""
-NAMES = (
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-    "chrome",
-)
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 SWITCHES = (
     "--no-sandbox",  # in containers there is none
     "--disable-gpu",

@@ -19,14 +19,7 @@ FREE = HERE / "free.gark.yaml"
 PAGES = {
     "rk4": ["rk4"],
     "pair": ["methods/collocation.gark.yaml", "--order", "3"],
-    "several": [
-        "rk4",
-        "ark-ars222",
-        "gauss-2",
-        "methods/rectangular.gark.yaml",
-        "--order",
-        "3",
-    ],
+    "several": ["rk4", "ark-ars222", "gauss-2", "methods/rectangular.gark.yaml", "--order", "3"],
     "free": [str(FREE)],
     "hostile": [str(HOSTILE)],
     "big": ["methods/gauss6-lobatto7.gark.yaml"],
@@ -50,11 +43,7 @@ def _report(name: str, arguments: list[str]) -> Path:
     path = BUILT / f"{name}.html"
     command = [sys.executable, "-m", "garkcli", "report", *arguments]
     done = subprocess.run(
-        [*command, "-o", str(path)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
+        [*command, "-o", str(path)], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode in (0, 1), done.stderr
     return path
@@ -78,9 +67,7 @@ def test_only_boxes_that_scroll_stop_the_keyboard(
     reports: dict[str, Path], opened: Open, size: str
 ) -> None:
     """A stop for each box that is wider or higher than what is seen of it, and for no other."""
-    scrolls = (
-        "x => x.scrollWidth > x.clientWidth || x.scrollHeight > x.clientHeight"
-    )
+    scrolls = "x => x.scrollWidth > x.clientWidth || x.scrollHeight > x.clientHeight"
     with opened(reports["rk4"], SIZES[size]) as found:
         kinds = set()
         for box in found.page.locator(".box").all():
@@ -92,9 +79,7 @@ def test_only_boxes_that_scroll_stop_the_keyboard(
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("name", READ)
-def test_a_page_is_readable(
-    reports: dict[str, Path], opened: Open, name: str, scheme: str
-) -> None:
+def test_a_page_is_readable(reports: dict[str, Path], opened: Open, name: str, scheme: str) -> None:
     """Axe finds no rule broken, contrast in the light and in the dark among them."""
     with opened(reports[name], scheme=scheme) as found:
         found.shot(f"{name}-desktop-{scheme}")
@@ -114,10 +99,7 @@ def test_a_page_is_printed_black_on_white(
         found.shot(f"{name}-print")
         page.pdf(path=BUILT / f"{name}.pdf", prefer_css_page_size=True)
         style = "x => [getComputedStyle(x).backgroundColor, getComputedStyle(x).color]"
-        assert page.locator("body").evaluate(style) == [
-            "rgb(255, 255, 255)",
-            "rgb(0, 0, 0)",
-        ]
+        assert page.locator("body").evaluate(style) == ["rgb(255, 255, 255)", "rgb(0, 0, 0)"]
         for form in page.locator("form.filters").all():
             assert not form.is_visible()
         for table in page.locator("table.conditions").all():
@@ -141,9 +123,7 @@ def test_without_scripts_everything_is_there(
 
 
 @pytest.mark.parametrize("name", WITH_FILTERS)
-def test_filters_narrow_the_rows(
-    reports: dict[str, Path], opened: Open, name: str
-) -> None:
+def test_filters_narrow_the_rows(reports: dict[str, Path], opened: Open, name: str) -> None:
     """Each choice of each filter shows the rows that have it, and counts them."""
     with opened(reports[name]) as found:
         for form in found.page.locator("form.filters").all():
@@ -185,9 +165,7 @@ def _try_choices(page: Page, form: Locator) -> None:
     assert _counted(form) == [count, count]
     for select in form.locator("select").all():
         values = _values(table, str(select.get_attribute("name")))
-        choices = select.locator("option").evaluate_all(
-            "options => options.map(x => x.value)"
-        )
+        choices = select.locator("option").evaluate_all("options => options.map(x => x.value)")
         # every row has one value of each key, and each choice has a row
         assert choices[0] == ""
         assert set(choices[1:]) == set(values)
@@ -217,9 +195,7 @@ def _try_text(page: Page, form: Locator) -> None:
     assert _counted(form) == [count, count]
 
 
-def test_filters_work_from_the_keyboard(
-    reports: dict[str, Path], opened: Open
-) -> None:
+def test_filters_work_from_the_keyboard(reports: dict[str, Path], opened: Open) -> None:
     """Without a mouse: from the first filter, an arrow chooses, Tab goes on, letters narrow, and
     what has the focus is seen.
     """
@@ -245,9 +221,7 @@ def test_filters_work_from_the_keyboard(
         assert _counted(form) == [count, count]
 
 
-def test_the_keyboard_reaches_the_report(
-    reports: dict[str, Path], opened: Open
-) -> None:
+def test_the_keyboard_reaches_the_report(reports: dict[str, Path], opened: Open) -> None:
     """The first Tab offers to skip what comes before the report."""
     with opened(reports["several"]) as found:
         page = found.page
@@ -256,9 +230,7 @@ def test_the_keyboard_reaches_the_report(
         assert page.evaluate("() => location.hash") == "#main"
 
 
-def test_links_on_a_page_lead_somewhere(
-    reports: dict[str, Path], opened: Open
-) -> None:
+def test_links_on_a_page_lead_somewhere(reports: dict[str, Path], opened: Open) -> None:
     """Each link to a place on the page has that place, and no two places have one name."""
     script = """() => [...document.querySelectorAll("a[href^='#']")]
       .map(x => x.getAttribute("href").slice(1))
@@ -271,9 +243,7 @@ def test_links_on_a_page_lead_somewhere(
             assert found.page.evaluate(doubled) == []
 
 
-def test_pictures_fit_and_are_named(
-    reports: dict[str, Path], opened: Open
-) -> None:
+def test_pictures_fit_and_are_named(reports: dict[str, Path], opened: Open) -> None:
     """On a phone each picture is as wide as the column, its letters can be read, and a screen
     reader has a name for it.
     """
@@ -290,9 +260,7 @@ def test_pictures_fit_and_are_named(
             assert plot.locator("> title").text_content()
 
 
-def test_hostile_texts_stay_texts(
-    reports: dict[str, Path], opened: Open
-) -> None:
+def test_hostile_texts_stay_texts(reports: dict[str, Path], opened: Open) -> None:
     """What a file says is shown as it stands: no element of it comes to life, nothing runs."""
     with opened(reports["hostile"]) as found:
         page = found.page

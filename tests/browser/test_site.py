@@ -51,9 +51,7 @@ def test_pages_are_quiet_and_whole(opened: Open, width: int) -> None:
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("name", SHOWN)
-def test_our_part_of_a_page_is_readable(
-    opened: Open, name: str, scheme: str
-) -> None:
+def test_our_part_of_a_page_is_readable(opened: Open, name: str, scheme: str) -> None:
     """What we write, the article, breaks no rule of axe; the frame around it is the theme's."""
     for size, width in (("phone", 360), ("desktop", 1280)):
         with opened(path_of(name), width, scheme) as found:

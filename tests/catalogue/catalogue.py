@@ -27,24 +27,15 @@ Entry: TypeAlias = dict[str, Any]
 def entries() -> dict[str, Entry]:
     """Every method of the catalogue by its name."""
     files = sorted((Path(__file__).parent / "data").glob("*.json"))
-    return {
-        file.stem: json.loads(file.read_text(encoding="utf-8"))
-        for file in files
-    }
+    return {file.stem: json.loads(file.read_text(encoding="utf-8")) for file in files}
 
 
 def tableau(entry: Entry) -> Tableau:
     """The exact tableau of an entry, for the class of problems that it is meant for."""
-    expressions = {
-        text: parse(text) for text in sorted(set(_texts(entry["blocks"])))
-    }
+    expressions = {text: parse(text) for text in sorted(set(_texts(entry["blocks"])))}
     domain = Domain(expressions.values())
     return _made(
-        entry,
-        {
-            text: domain.evaluate(expression)
-            for text, expression in expressions.items()
-        },
+        entry, {text: domain.evaluate(expression) for text, expression in expressions.items()}
     )
 
 
@@ -52,9 +43,7 @@ def in_balls(entry: Entry) -> Tableau:
     """The same with enclosures at the current precision in place of numbers: for the oracles
     alone.
     """
-    values = {
-        text: enclose(parse(text)) for text in set(_texts(entry["blocks"]))
-    }
+    values = {text: enclose(parse(text)) for text in set(_texts(entry["blocks"]))}
     return _made(entry, cast("dict[str, Number]", values))
 
 
@@ -72,15 +61,11 @@ def _made(entry: Entry, values: dict[str, Number]) -> Tableau:
         return tuple(vector(row) for row in rows)
 
     A = [[matrix(block) for block in row] for row in entry["blocks"]["A"]]
-    b, c = (
-        [vector(row) for row in entry["blocks"][key]] for key in ("b", "c")
-    )
+    b, c = ([vector(row) for row in entry["blocks"][key]] for key in ("b", "c"))
     if entry["problem_class"] == "general":
         return spelled_out(A, b, list(c))
     made = separable_prk((A[1][0], b[0], c[1]), (A[0][1], b[1], c[0]))
-    return (
-        with_linear(made, ["q"]) if entry["problem_class"] == "rkn" else made
-    )
+    return with_linear(made, ["q"]) if entry["problem_class"] == "rkn" else made
 
 
 def _texts(blocks: Any) -> list[str]:

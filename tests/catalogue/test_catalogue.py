@@ -33,10 +33,7 @@ def test_the_catalogue_is_whole() -> None:
     }
     keys |= {"rounding", "source", "notes", "blocks"}
     assert len(ENTRIES) == 94
-    assert all(
-        set(entry) == keys and entry["name"] == name
-        for name, entry in ENTRIES.items()
-    )
+    assert all(set(entry) == keys and entry["name"] == name for name, entry in ENTRIES.items())
     assert len(EXACT) == 46
 
 
@@ -45,13 +42,7 @@ def test_shapes(name: str) -> None:
     """Blocks, weights and nodes have the stages that the entry states."""
     entry: Entry = ENTRIES[name]
     blocks, stages = entry["blocks"], entry["stages"]
-    assert (
-        len(stages)
-        == entry["N"]
-        == len(blocks["A"])
-        == len(blocks["b"])
-        == len(blocks["c"])
-    )
+    assert len(stages) == entry["N"] == len(blocks["A"]) == len(blocks["b"]) == len(blocks["c"])
     for l, s in enumerate(stages):
         assert len(blocks["b"][l]) == len(blocks["c"][l]) == s
         for m, t in enumerate(stages):
@@ -69,9 +60,7 @@ def test_exact_methods_have_their_verified_order(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [x for x in ROUNDED if x not in LARGE])
-def test_rounded_methods_have_their_verified_order_within_their_rounding(
-    name: str,
-) -> None:
+def test_rounded_methods_have_their_verified_order_within_their_rounding(name: str) -> None:
     """All residuals up to the verified order are within the rounding of the entry, and one above is
     not.
     """
@@ -81,15 +70,10 @@ def test_rounded_methods_have_their_verified_order_within_their_rounding(
         trees, weights = Trees(rounded), Weights(rounded)
 
         def residuals(order: int) -> list[arb]:
-            return [
-                abs(weights.weight(u) - fmpq(1, density(u)))
-                for u in trees.of_order(order)
-            ]
+            return [abs(weights.weight(u) - fmpq(1, density(u))) for u in trees.of_order(order)]
 
         order, rounding = entry["verified_order"], arb(entry["rounding"])
-        assert all(
-            x < rounding for n in range(1, order + 1) for x in residuals(n)
-        )
+        assert all(x < rounding for n in range(1, order + 1) for x in residuals(n))
         assert any(x > 100 * rounding for x in residuals(order + 1))
 
 

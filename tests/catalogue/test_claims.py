@@ -41,9 +41,7 @@ def test_every_claim_holds(judged: dict[str, Any]) -> None:
     """Each file of the catalogue was judged, makes claims, and none fails."""
     assert set(judged) == set(FILES)
     assert [name for name, found in judged.items() if not found["ok"]] == []
-    assert [
-        name for name, found in judged.items() if not found["claims"]
-    ] == []
+    assert [name for name, found in judged.items() if not found["claims"]] == []
 
 
 def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
@@ -171,9 +169,7 @@ def _digits(cells: Any) -> Any:
     """Numbers in nested tuples to 28 decimals."""
     if isinstance(cells, tuple):
         return [_digits(x) for x in cells]
-    return f"{Decimal(cells.str(33, radius=False)):.28f}".replace(
-        "-0.0", "0.0"
-    )
+    return f"{Decimal(cells.str(33, radius=False)):.28f}".replace("-0.0", "0.0")
 
 
 def test_every_sign_of_the_files_has_an_ascii_form() -> None:

@@ -18,9 +18,7 @@ DATA = ROOT / "garkcli" / "catalogue" / "data"
 INDEX = ROOT / "garkcli" / "catalogue" / "index.json"
 FILES = dict(method_files(DATA))
 TEXT = INDEX.read_text(encoding="ascii")
-ENTRIES: dict[str, dict[str, Any]] = {
-    entry["name"]: entry for entry in json.loads(TEXT)["methods"]
-}
+ENTRIES: dict[str, dict[str, Any]] = {entry["name"]: entry for entry in json.loads(TEXT)["methods"]}
 GAUSS = "methods: [{family: gauss, stages: 1}]\nexpect: {order: 2}\n"
 MAKE = "run make catalogue"
 
@@ -60,20 +58,12 @@ def test_it_says_what_the_files_claim() -> None:
     assert compared > len(some) / 2
 
 
-def test_unchanged_entries_are_kept_and_the_rest_judged(
-    tmp_path: Path,
-) -> None:
+def test_unchanged_entries_are_kept_and_the_rest_judged(tmp_path: Path) -> None:
     """Made anew or brought up to date, the text is the same."""
     judged: list[str] = []
     put(tmp_path, "one", GAUSS)
     first = made(tmp_path, "", judged.append)
-    put(
-        tmp_path,
-        "two",
-        GAUSS.replace("stages: 1", "stages: 2").replace(
-            "order: 2", "order: 4"
-        ),
-    )
+    put(tmp_path, "two", GAUSS.replace("stages: 1", "stages: 2").replace("order: 2", "order: 4"))
     put(tmp_path, "one", GAUSS.replace("\n", "\r\n"))
     second = made(tmp_path, first, judged.append)
     assert judged == ["one", "two"]
@@ -100,19 +90,13 @@ def test_another_version_of_the_facts_makes_all_anew(
     ("name", "text", "message"),
     [
         ("bad", "A: [[0]]", "b missing"),
-        (
-            "wrong",
-            GAUSS.replace("order: 2", "order: 3"),
-            "expected 3, found 2",
-        ),
+        ("wrong", GAUSS.replace("order: 2", "order: 3"), "expected 3, found 2"),
         ("open", "parameters: {t: free}\nA: [[t]]\nb: [1]", "free parameters"),
         ("Capital", GAUSS, "not named as methods are; capital.gark.yaml"),
         ("under_score", GAUSS, "under-score.gark.yaml"),
     ],
 )
-def test_what_is_no_method_has_no_place(
-    tmp_path: Path, name: str, text: str, message: str
-) -> None:
+def test_what_is_no_method_has_no_place(tmp_path: Path, name: str, text: str, message: str) -> None:
     """A catalogue with a claim that fails is not made."""
     put(tmp_path, name, text)
     with pytest.raises(NoMethod) as caught:

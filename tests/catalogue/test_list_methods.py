@@ -124,9 +124,7 @@ def test_lists_are_sorted(column: str) -> None:
     assert entries == sorted_by(list(EVERY.values()), column)
     key = "error_constant" if column == "error" else column
     known = [x[key] for x in entries if x[key] is not None]
-    assert [x[key] is None for x in entries] == sorted(
-        x[key] is None for x in entries
-    )
+    assert [x[key] is None for x in entries] == sorted(x[key] is None for x in entries)
     if column == "error":
         known = [float(x) for x in known]
     assert known == sorted(known, reverse=column == "order")
@@ -162,11 +160,7 @@ def test_methods_of_one_s_own_are_as_they_claim(tmp_path: Path) -> None:
 def test_what_is_hidden_is_not_listed(tmp_path: Path) -> None:
     """A name is in the list once, as the method that it means."""
     (tmp_path / "rk4.gark.yaml").write_text(HALF)
-    found = [
-        entry
-        for entry in listed("--catalogue", str(tmp_path))
-        if entry["name"] == "rk4"
-    ]
+    found = [entry for entry in listed("--catalogue", str(tmp_path)) if entry["name"] == "rk4"]
     assert [entry["title"] for entry in found] == ["Halves"]
 
 
@@ -188,9 +182,7 @@ def test_the_text_fits_and_says_what_its_letters_mean() -> None:
 def test_a_table_with_a_wrong_node_has_its_mark() -> None:
     """The order alone would recommend a method of order 1 for y' = f(t, y)."""
     run = gark("list", "methods", "feagin", "--order", "12")
-    marked = {
-        line.split()[0] for line in run.out.splitlines() if " t~ " in line
-    }
+    marked = {line.split()[0] for line in run.out.splitlines() if " t~ " in line}
     assert marked == {"feagin-12-misprint"}
     assert "t: another order for y' = f(t, y)" in run.out
 
@@ -205,9 +197,7 @@ def test_csv_has_every_column() -> None:
         assert set(row) == set(entry)
         assert row["order"] == str(entry["order"])
         assert row["symplectic"] == str(entry["symplectic"]).lower()
-        assert row["stages_by_colour"] == "; ".join(
-            map(str, entry["stages_by_colour"])
-        )
+        assert row["stages_by_colour"] == "; ".join(map(str, entry["stages_by_colour"]))
 
 
 def test_markdown_is_a_table() -> None:

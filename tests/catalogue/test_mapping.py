@@ -48,9 +48,7 @@ def test_it_is_a_mapping() -> None:
     assert catalogue.get("rk4").stages == (4,)
 
 
-@pytest.mark.parametrize(
-    "name", ["stoermer-verlat", "methods/rk4.gark.yaml", "", 4]
-)
+@pytest.mark.parametrize("name", ["stoermer-verlat", "methods/rk4.gark.yaml", "", 4])
 def test_unknown_names_are_key_errors(name: object) -> None:
     """A KeyError whose text says what is missing, and a cure where there is one."""
     with pytest.raises(KeyError) as caught:
@@ -80,9 +78,7 @@ def test_methods_are_searched_by_what_is_known_of_them() -> None:
         catalogue.search(order="many")
 
 
-def test_folders_of_ones_own_come_first(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_folders_of_ones_own_come_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A name of GARK_PATH hides that of the package."""
     (tmp_path / "rk4.gark.yaml").write_text("name: mine\nA: [[0]]\nb: [1]\n")
     monkeypatch.setenv("GARK_PATH", str(tmp_path))
@@ -104,11 +100,7 @@ def test_however_it_is_imported_it_is_the_same() -> None:
         "print(first is second, heavy, first['rk4'].stages)"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        timeout=60,
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60
     )
     assert done.stdout == "True set() (4,)\n", done.stderr
     assert "catalogue" in dir(garkcli)

@@ -21,9 +21,7 @@ ENTRIES = entries()
 
 def _floats(rows: Iterable[Iterable[Any]]) -> Any:
     """Double precision: ``long double`` has as many bits as the machine likes."""
-    return np.array(
-        [[float(x.str(25, radius=False)) for x in row] for row in rows]
-    )
+    return np.array([[float(x.str(25, radius=False)) for x in row] for row in rows])
 
 
 @pytest.mark.parametrize("name", ENTRIES)
@@ -41,17 +39,11 @@ def test_brute_force_over_the_table_in_floats(name: str) -> None:
     table = TreeTable.upto(tableau.size, order + 1, edges, linear)
     printed = numeric_entries(tableau, 25)
     rows = [colour.space for colour in tableau.colours]
-    blocks = {
-        (rows[l], m): _floats(printed.A[l][m] or ())
-        for l, m in tableau.edges()
-    }
+    blocks = {(rows[l], m): _floats(printed.A[l][m] or ()) for l, m in tableau.edges()}
     weights = [_floats([row])[0] for row in printed.b]
     found = elementary_weights(table, rows, blocks, weights)
     sizes = elementary_weights(
-        table,
-        rows,
-        {key: np.abs(A) for key, A in blocks.items()},
-        [np.abs(b) for b in weights],
+        table, rows, {key: np.abs(A) for key, A in blocks.items()}, [np.abs(b) for b in weights]
     )
     # a vertex adds up at most as many products as there are stages, and is multiplied once
     operations = (order + 1) * (max(entry["stages"]) + 2)

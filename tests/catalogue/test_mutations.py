@@ -51,9 +51,7 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("name", "before", "after"), CHANGES)
-def test_a_changed_digit_is_seen(
-    name: str, before: str, after: str, tmp_path: Path
-) -> None:
+def test_a_changed_digit_is_seen(name: str, before: str, after: str, tmp_path: Path) -> None:
     """The file with the change is read, and at least one of its claims does not hold."""
     text = open_method(name).text
     assert before in text

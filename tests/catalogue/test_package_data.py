@@ -89,11 +89,7 @@ def test_merson_is_as_printed() -> None:
         assert sum(b * k for b, k in sums) == Fraction(1, factorial(order))
         rows = [[Fraction(x) for x in row] for row in file["A"]]
         of_stages = [
-            sum(
-                (a * k for a, k in zip(row, of_stages, strict=False)),
-                Fraction(),
-            )
-            for row in rows
+            sum((a * k for a, k in zip(row, of_stages, strict=False)), Fraction()) for row in rows
         ]
     pairs = zip(weights, embedded, strict=True)
     assert [30 * (b - e) for b, e in pairs] == [2, 0, -9, 8, -1]

@@ -21,9 +21,7 @@ BOX = """parameters:
   s: {free: true, range: [1/4, 1/2]}
   t: {free: true, range: [1/4, 1/3]}
 """
-CORNERS = [
-    {"s": s, "t": t} for s, t in product(("1/4", "1/2"), ("1/4", "1/3"))
-]
+CORNERS = [{"s": s, "t": t} for s, t in product(("1/4", "1/2"), ("1/4", "1/3"))]
 
 
 def ordinary(text: str, values: dict[str, str]) -> Analysis:
@@ -62,16 +60,9 @@ def test_lost_conjugates_of_several_parameters(tmp_path: object) -> None:
     [
         (
             "A: [[0, 0], [s, t]]\nb: [1 - t, t]\n",
-            {
-                "stiffly-accurate": False,
-                "diagonally-implicit": True,
-                "explicit": False,
-            },
+            {"stiffly-accurate": False, "diagonally-implicit": True, "explicit": False},
         ),
-        (
-            "A: [[0, 0], [s, 0]]\nb: [1 - t, t]\n",
-            {"stiffly-accurate": False, "reducible": False},
-        ),
+        ("A: [[0, 0], [s, 0]]\nb: [1 - t, t]\n", {"stiffly-accurate": False, "reducible": False}),
     ],
 )
 def test_exceptions_lie_within_ranges(
@@ -104,9 +95,7 @@ expect: {explicit: false}
 
 
 NUMBERS = st.integers(-3, 3)
-ENDS = st.tuples(
-    st.none() | st.integers(-4, -1), st.none() | st.integers(1, 4)
-)
+ENDS = st.tuples(st.none() | st.integers(-4, -1), st.none() | st.integers(1, 4))
 
 
 @settings(max_examples=40, deadline=None)
@@ -130,9 +119,7 @@ def test_zeros_within_ranges_are_not_lost(
     p = ring.context.from_dict(dict(zip(exponents, coefficients, strict=True)))
     assert can_vanish(p - p(*map(fmpq, point)), ring, ranges)
     positive = p * p + 1
-    assert can_vanish(positive, ring, ranges) == can_vanish(
-        -positive, ring, ranges
-    )
+    assert can_vanish(positive, ring, ranges) == can_vanish(-positive, ring, ranges)
 
 
 def _range(ends: tuple[int | None, int | None]) -> Range:
@@ -156,9 +143,7 @@ def _range(ends: tuple[int | None, int | None]) -> Range:
     ],
 )
 def test_polynomials_in_boxes(
-    text: str,
-    ranges: dict[str, tuple[str | None, str | None]],
-    expected: bool,
+    text: str, ranges: dict[str, tuple[str | None, str | None]], expected: bool
 ) -> None:
     """Bilinear ones are decided by their corners, those of one parameter by their roots."""
     ring = Parameters(["s", "t"])
@@ -192,10 +177,7 @@ expect: {nodes-in-unit-interval: true}
     assert checked(tmp_path, text).exit_code == 0
     both = text.replace("a: free", "a: {free: true, range: [-3, 3]}")
     both = both.replace("c: [0, t]", "c: [0, 1 - 2*t]")
-    ranges = {
-        name: tuple(map(str, ends))
-        for name, ends in made(both).family.ranges.items()
-    }
+    ranges = {name: tuple(map(str, ends)) for name, ends in made(both).family.ranges.items()}
     assert ranges in ({"t": ("0", "1")}, {"a": ("-1", "1")})
     outcome = checked(tmp_path, both)
     assert [x.holds for x in outcome.claims] == [False]

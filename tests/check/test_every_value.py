@@ -49,9 +49,7 @@ def holds_in(intervals: tuple[Interval, ...], root: RealRoot) -> bool:
     for x in intervals:
         is_after = x.start is None or x.start < root
         is_before = x.end is None or root < x.end
-        is_end = (x.has_start and x.start == root) or (
-            x.has_end and x.end == root
-        )
+        is_end = (x.has_start and x.start == root) or (x.has_end and x.end == root)
         if (is_after and is_before) or is_end:
             return True
     return False
@@ -74,16 +72,12 @@ def root_of(value: str) -> RealRoot:
 
         return RealRoot(fmpz_poly([1, -6, 6]), 1)
     return RealRoot.rational(
-        fmpq(*map(int, value.partition("/")[::2]))
-        if "/" in value
-        else fmpq(int(value))
+        fmpq(*map(int, value.partition("/")[::2])) if "/" in value else fmpq(int(value))
     )
 
 
 @pytest.mark.parametrize("value", VALUES)
-def test_every_value_agrees_with_each(
-    found: tuple[str, EveryValue], value: str
-) -> None:
+def test_every_value_agrees_with_each(found: tuple[str, EveryValue], value: str) -> None:
     """Orders, B, C and D, symplecticity and properties of a method with a value are what is said
     of that value: by the ordinary certificate, without any polynomial in the parameter.
     """

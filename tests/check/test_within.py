@@ -27,8 +27,7 @@ from tests.order.rounded_samples import in_decimals
 SMALL = [
     name
     for name, make in samples.NAMED.items()
-    if not make().is_partitioned
-    and sum(space.stages for space in make().spaces) <= 5
+    if not make().is_partitioned and sum(space.stages for space in make().spaces) <= 5
 ]
 GAUSS = "methods: [{A: [[0.25, -0.03867513], [0.53867513, 0.25]], b: [0.5, 0.5]}]\n"
 LIMIT = 9
@@ -38,9 +37,7 @@ def assert_no_contradiction(found: Analysis) -> None:
     """What follows from each other holds together."""
     own, conjugate, both = found.order, found.conjugate_order, found.pair_order
     assert found.bound <= found.sharp_bound <= own.order
-    assert bool(found.inconsistent) == any(
-        0 in row for row in found.simplifying.C
-    )
+    assert bool(found.inconsistent) == any(0 in row for row in found.simplifying.C)
     if not found.inconsistent:
         assert min(found.simplifying.B) >= own.order
     if (
@@ -59,11 +56,7 @@ def assert_no_contradiction(found: Analysis) -> None:
         assert conjugate.order <= own.order
     if found.symplectic:
         assert own.order == conjugate.order == both.order
-        assert (
-            own.is_lower_bound
-            == conjugate.is_lower_bound
-            == both.is_lower_bound
-        )
+        assert own.is_lower_bound == conjugate.is_lower_bound == both.is_lower_bound
 
 
 @settings(max_examples=30)
@@ -92,10 +85,7 @@ def random_method(dice: Random) -> Tableau:
         for j in range(i):
             rows[i][j] = fmpq(dice.randint(-9, 9), 10)
             rows[j][i] = b[j] - b[j] * rows[i][j] / b[i] if b[i] else fmpq(0)
-    rows = [
-        [x + error * fmpq(dice.randint(-9, 9), 10) for x in row]
-        for row in rows
-    ]
+    rows = [[x + error * fmpq(dice.randint(-9, 9), 10) for x in row] for row in rows]
     return gark([butcher(tuple(tuple(row) for row in rows), tuple(b))], {})
 
 
@@ -124,10 +114,7 @@ def test_a_tolerance_that_is_too_tight_gets_the_one_that_would_do() -> None:
     found = analyse(method.tableau, LIMIT, method.tolerance)
     assert (found.order.order, found.bound) == (2, 2)
     assert found.suggestion is not None
-    assert (found.suggestion.line, found.suggestion.order) == (
-        "tolerance: 1e-8",
-        4,
-    )
+    assert (found.suggestion.line, found.suggestion.order) == ("tolerance: 1e-8", 4)
     shown = render([Outcome("f", "f", analysis=found)], Paint())
     assert "the tolerance is too tight" in shown
     better = analyse(method.tableau, LIMIT, found.suggestion.tolerance)
@@ -141,9 +128,7 @@ def test_what_is_left_open_confirms_no_exact_claim() -> None:
     body = "methods: [{A: [[0, 0], [0.1, 0.4]], b: [0.0000001, 0.9999999]}]\ntolerance: 1e-6\n"
     for claim, holds in (("'>= 2'", True), ("2", False)):
         method = loads(f"{body}expect: {{conjugate-order: {claim}}}\n")
-        (found,) = verify(
-            method.claims, analyse(method.tableau, LIMIT, method.tolerance)
-        )
+        (found,) = verify(method.claims, analyse(method.tableau, LIMIT, method.tolerance))
         assert found.holds is holds
 
 
@@ -151,15 +136,9 @@ def test_what_is_left_open_confirms_no_exact_claim() -> None:
 def test_much_finer_tolerances_say_what_is_exactly_so(name: str) -> None:
     """Exact rational methods keep their verdicts within 10⁻⁴⁰."""
     method = samples.NAMED[name]()
-    near, exact = (
-        analyse(method, LIMIT, fmpq(1, 10**40)),
-        analyse(method, LIMIT),
-    )
+    near, exact = (analyse(method, LIMIT, fmpq(1, 10**40)), analyse(method, LIMIT))
     orders = [
-        [
-            x if x is None else x.order
-            for x in (a.order, a.conjugate_order, a.pair_order)
-        ]
+        [x if x is None else x.order for x in (a.order, a.conjugate_order, a.pair_order)]
         for a in (near, exact)
     ]
     assert orders[0] == orders[1]

@@ -33,11 +33,7 @@ ASKING = ("NO_COLOR", "FORCE_COLOR", "GITHUB_ACTIONS")
 
 
 def gark(
-    *arguments: str,
-    stdin: str = "",
-    cwd: Path = ROOT,
-    encoding: str = "",
-    **variables: str,
+    *arguments: str, stdin: str = "", cwd: Path = ROOT, encoding: str = "", **variables: str
 ) -> Run:
     """Run ``gark`` with ``arguments`` in ``cwd``, 80 columns wide, with no colour asked for.
 
@@ -70,11 +66,7 @@ def gark(
 
 
 def _stream(encoding: str) -> io.TextIOWrapper | io.StringIO:
-    return (
-        io.TextIOWrapper(io.BytesIO(), encoding=encoding)
-        if encoding
-        else io.StringIO()
-    )
+    return io.TextIOWrapper(io.BytesIO(), encoding=encoding) if encoding else io.StringIO()
 
 
 def _written(stream: io.TextIOWrapper | io.StringIO) -> str:

@@ -18,11 +18,7 @@ from tests.had import needs_fork
 SLOW = "radicals-of-large-degree"
 """An unreadable example that takes seconds to be refused."""
 UNREADABLE = sorted((ROOT / "tests/examples/invalid").glob("*.gark.yaml"))
-QUICK = tuple(
-    str(path.relative_to(ROOT))
-    for path in UNREADABLE[::4]
-    if SLOW not in path.name
-)
+QUICK = tuple(str(path.relative_to(ROOT)) for path in UNREADABLE[::4] if SLOW not in path.name)
 """Enough of them for two workers to be ahead of each other."""
 GAUSS = "methods: [{family: gauss, stages: 2}]\n"
 HOLDS = f"{GAUSS}expect: {{order: 4, symplectic: true}}\n"
@@ -47,9 +43,7 @@ class Project:
     def __init__(self, folder: Path, **files: str) -> None:
         self.folder = folder
         self.write(**files)
-        assert gark(
-            "check", ".", "--format", "json", "-o", "base.json", cwd=folder
-        ).code in {
+        assert gark("check", ".", "--format", "json", "-o", "base.json", cwd=folder).code in {
             0,
             1,
             2,
@@ -58,9 +52,7 @@ class Project:
     def write(self, **files: str) -> None:
         """Write files; ``m`` is ``m.gark.yaml``."""
         for name, text in files.items():
-            (self.folder / f"{name}.gark.yaml").write_text(
-                text, encoding="utf-8"
-            )
+            (self.folder / f"{name}.gark.yaml").write_text(text, encoding="utf-8")
 
     def compare(self, **files: str) -> Run:
         """What ``--baseline`` says once these files are written."""
@@ -71,11 +63,7 @@ class Project:
 def test_the_same_files_are_not_worse(tmp_path: Path) -> None:
     """Files that hold, fail and cannot be read are no worse than themselves: exit code 0."""
     run = Project(tmp_path, a=HOLDS, b=FAILS, c=BROKEN).compare()
-    assert (run.code, run.out, run.err) == (
-        0,
-        "3 files: nothing got worse\n",
-        "",
-    )
+    assert (run.code, run.out, run.err) == (0, "3 files: nothing got worse\n", "")
 
 
 def test_a_claim_that_held_fails(tmp_path: Path) -> None:
@@ -186,9 +174,7 @@ def test_a_baseline_that_is_a_method_file(tmp_path: Path) -> None:
 # -----------------------------------------------------------------------------------------------
 
 
-def process(
-    *arguments: str, stdin: str = ""
-) -> subprocess.CompletedProcess[str]:
+def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str]:
     """``gark check`` as a process, as workers are forked from it.
 
     It writes UTF-8, whatever the locale, as runs in this process do.
@@ -219,26 +205,16 @@ def one_by_one() -> Run:
     [
         (
             ("--format", "json"),
-            (
-                "tests/examples/valid",
-                "tests/examples/failing",
-                *QUICK,
-                "nowhere",
-            ),
+            ("tests/examples/valid", "tests/examples/failing", *QUICK, "nowhere"),
         ),
         (
             ("--format", "text", "-v", "--error-constants"),
-            (
-                "tests/examples/failing",
-                "tests/examples/invalid/octal.gark.yaml",
-            ),
+            ("tests/examples/failing", "tests/examples/invalid/octal.gark.yaml"),
         ),
         (("--format", "sarif"), ("tests/examples/failing", "tests/report")),
     ],
 )
-def test_two_at_a_time_say_the_same(
-    options: tuple[str, ...], paths: tuple[str, ...]
-) -> None:
+def test_two_at_a_time_say_the_same(options: tuple[str, ...], paths: tuple[str, ...]) -> None:
     """Methods, failing and unreadable files give the same report, in the same order, one by one and
     by twos.
     """
@@ -273,12 +249,7 @@ def test_as_many_as_there_are_processors() -> None:
 def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
     """A report written by twos is a baseline for a check one by one, with nothing worse."""
     base = tmp_path / "base.json"
-    assert (
-        process(
-            "methods", "-j", "2", "--format", "json", "-o", str(base)
-        ).returncode
-        == 0
-    )
+    assert process("methods", "-j", "2", "--format", "json", "-o", str(base)).returncode == 0
     run = gark("check", "methods", "--baseline", str(base))
     last = run.out.splitlines()[-1]
     assert (run.code, last.partition(": ")[2]) == (0, "nothing got worse")
@@ -300,9 +271,7 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
 )
 def test_a_damaged_baseline_is_refused(files: str, tmp_path: Path) -> None:
     """A report whose fields are not what they were is no baseline, and no fault of the program."""
-    (tmp_path / "a.gark.yaml").write_text(
-        "methods: [{family: gauss, stages: 1}]\n"
-    )
+    (tmp_path / "a.gark.yaml").write_text("methods: [{family: gauss, stages: 1}]\n")
     base = tmp_path / "base.json"
     base.write_text(f'{{"schema": "gark/check/1", "files": {files}}}')
     run = gark("check", "a.gark.yaml", "--baseline", "base.json", cwd=tmp_path)
@@ -312,9 +281,7 @@ def test_a_damaged_baseline_is_refused(files: str, tmp_path: Path) -> None:
 
 def test_a_baseline_is_a_file_of_bounded_size(tmp_path: Path) -> None:
     """Devices, pipes, directories and huge files are refused before a byte of them is read."""
-    (tmp_path / "a.gark.yaml").write_text(
-        "methods: [{family: gauss, stages: 1}]\n"
-    )
+    (tmp_path / "a.gark.yaml").write_text("methods: [{family: gauss, stages: 1}]\n")
     names = ["."]
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / "pipe")
@@ -350,34 +317,19 @@ main(["check", "-j", "2", *sys.argv[1:]])
 @pytest.mark.parametrize(
     ("how", "says"),
     [
-        (
-            "os.kill(os.getpid(), signal.SIGKILL)",
-            "its check was ended by SIGKILL",
-        ),
+        ("os.kill(os.getpid(), signal.SIGKILL)", "its check was ended by SIGKILL"),
         ("os.abort()", "its check was ended by SIGABRT"),
         ("os._exit(7)", "its check was ended with exit code 7"),
-        (
-            "raise MemoryError('no room')",
-            "internal fault: MemoryError: no room",
-        ),
+        ("raise MemoryError('no room')", "internal fault: MemoryError: no room"),
     ],
 )
-def test_a_worker_that_dies_is_told_and_stops_nothing(
-    how: str, says: str, tmp_path: Path
-) -> None:
+def test_a_worker_that_dies_is_told_and_stops_nothing(how: str, says: str, tmp_path: Path) -> None:
     """The file is named, all others have their outcome, and the exit code is 3."""
     names = [f"{i:02}{'-deadly' * (i % 5 == 3)}.gark.yaml" for i in range(20)]
     for name in names:
         (tmp_path / name).write_text(HOLDS)
     done = subprocess.run(
-        [
-            sys.executable,
-            "-c",
-            ENDING.format(how=how),
-            ".",
-            "--format",
-            "json",
-        ],
+        [sys.executable, "-c", ENDING.format(how=how), ".", "--format", "json"],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
@@ -393,9 +345,7 @@ def test_a_worker_that_dies_is_told_and_stops_nothing(
             assert says in found["errors"][0]["message"]
 
 
-def test_a_fault_in_one_file_stops_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_fault_in_one_file_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One at a time too, a fault of ours is told with its file, and the others are checked."""
     from garkcli.cli import parallel
 
@@ -411,10 +361,7 @@ def test_a_fault_in_one_file_stops_nothing(
         (tmp_path / f"{name}.gark.yaml").write_text(FAILS)
     run = gark("check", ".", cwd=tmp_path)
     assert run.code == 3
-    assert (
-        "b.gark.yaml: error[internal-fault]: internal fault: RuntimeError: broken"
-        in run.out
-    )
+    assert "b.gark.yaml: error[internal-fault]: internal fault: RuntimeError: broken" in run.out
     assert run.out.count("found 4") == 2
 
 
@@ -441,25 +388,17 @@ def test_a_bad_path_stops_nothing(tmp_path: Path) -> None:
     through = "good.gark.yaml/x"
     run = gark("check", long, ".", through, cwd=tmp_path)
     assert run.code == 2
-    assert (
-        f"{long}: error[cannot-read]: cannot be read: File name too long"
-        in run.out
-    )
+    assert f"{long}: error[cannot-read]: cannot be read: File name too long" in run.out
     assert (
         "loop.gark.yaml: error[cannot-read]: cannot be read: Too many levels of symbolic links"
         in run.out
     )
     assert "nothing.gark.yaml: error[no-such-file]: no such file" in run.out
-    assert (
-        f"{through}: error[cannot-read]: cannot be read: Not a directory"
-        in run.out
-    )
+    assert f"{through}: error[cannot-read]: cannot be read: Not a directory" in run.out
     assert "ok   good.gark.yaml: order 4" in run.out
 
 
-def test_a_folder_that_cannot_be_read(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_folder_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It is told, on its own and below another, and what is beside it is checked."""
     (tmp_path / "sub" / "closed").mkdir(parents=True)
     (tmp_path / "sub" / "m.gark.yaml").write_text(HOLDS)
@@ -493,9 +432,7 @@ def test_links_that_lead_back_are_not_followed(tmp_path: Path) -> None:
         (tmp_path / name / "here").symlink_to(".")
 
     def files(*arguments: str) -> list[str]:
-        report = json.loads(
-            gark("check", *arguments, "--format", "json", cwd=tmp_path).out
-        )
+        report = json.loads(gark("check", *arguments, "--format", "json", cwd=tmp_path).out)
         return [x["file"].replace(os.sep, "/") for x in report["files"]]
 
     named = ["a/m.gark.yaml", "b/m.gark.yaml", "c.gark.yaml/m.gark.yaml"]

@@ -70,9 +70,7 @@ def test_a_sweep_takes_names(tmp_path: Path) -> None:
     assert "there is a file of this name here" in run.err
 
 
-def test_claims_takes_a_name_but_writes_into_files_alone(
-    tmp_path: Path,
-) -> None:
+def test_claims_takes_a_name_but_writes_into_files_alone(tmp_path: Path) -> None:
     """A method of the catalogue is not the user's to change, nor is a file made of its name."""
     assert "order: 4" in gark("claims", "RK4").out
     run = gark("claims", "RK4", "--write", cwd=tmp_path)
@@ -90,10 +88,7 @@ def test_every_argument_that_is_a_file_is_of_this_type() -> None:
             if option.name in {"file", "files", "first", "second"}:
                 found[name] = isinstance(option.type, MethodType)
     assert len(found) >= len(CALLS)
-    exempt = {
-        "import",
-        "new",
-    }  # sources of other programs; a file to be written
+    exempt = {"import", "new"}  # sources of other programs; a file to be written
     assert {x for x, takes in found.items() if not takes} <= exempt
 
 
@@ -112,9 +107,7 @@ def test_a_file_and_a_name_at_once_is_bad_usage(tmp_path: Path) -> None:
 def shadowed(folder: Path, *arguments: str) -> Run:
     """A run with a folder that has a method called as one of the package."""
     (folder / "rk4.gark.yaml").write_text("A: [[1/2]]\nb: [1]\n")
-    return gark(
-        "check", "rk4", "--catalogue", str(folder), *arguments, cwd=folder
-    )
+    return gark("check", "rk4", "--catalogue", str(folder), *arguments, cwd=folder)
 
 
 def test_a_name_that_hides_another_is_told(tmp_path: Path) -> None:
@@ -135,9 +128,7 @@ def test_folders_are_there_for_one_run(tmp_path: Path) -> None:
         folder.mkdir()
         (folder / "mine.gark.yaml").write_text(f"{text}\nb: [1]\n")
     before = os.environ.get("GARK_PATH")
-    run = gark(
-        *("check", "mine", "--catalogue", str(first)), GARK_PATH=str(second)
-    )
+    run = gark(*("check", "mine", "--catalogue", str(first)), GARK_PATH=str(second))
     assert "order            2" in run.out
     run = gark("check", "mine", GARK_PATH=str(second))
     assert "order            1" in run.out
@@ -169,9 +160,7 @@ def test_side_by_side(tmp_path: Path) -> None:
     assert [x["file"] for x in found] == ["mine", "rk4"]
 
 
-def test_names_are_completed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_names_are_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With files and folders that begin so; aliases where no name does; then files alone."""
     (tmp_path / "own").mkdir()
     text = "aliases: [zanna-1, Zanna one]\nA: [[0]]\nb: [1]\n"
@@ -183,9 +172,7 @@ def test_names_are_completed(
     found = [value for _, value in completions("check", "coll")]
     assert found[:2] == ["collocation", "collocation-conjugate"]
     assert found[-2:] == ["collected.yaml", f"colloquium{os.sep}"]
-    assert completions("tableau", "Stoermer_V") == [
-        ("plain", "stoermer-verlet")
-    ]
+    assert completions("tableau", "Stoermer_V") == [("plain", "stoermer-verlet")]
     assert completions("stability", "zan") == [("plain", "zanna-1")]
     assert completions("stability", "./coll") == [("file", "./coll")]
     assert completions("stability", "qqq") == [("file", "qqq")]

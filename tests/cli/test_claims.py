@@ -64,9 +64,7 @@ def test_a_file_without_claims(tmp_path: Path) -> None:
     ],
     ids=["end of YAML", "indented", "no end of line", "CRLF"],
 )
-def test_the_place_of_claims(
-    text: str, before: str, after: str, tmp_path: Path
-) -> None:
+def test_the_place_of_claims(text: str, before: str, after: str, tmp_path: Path) -> None:
     """Before the end that YAML writes, as far in as the keys, with the ends of lines that are
     there; the file can be read again.
     """
@@ -106,9 +104,7 @@ def test_claims_in_braces(tmp_path: Path) -> None:
         ("parameters: {t: free}\nA: [[t]]\nb: [1]\n", "free parameters"),
     ],
 )
-def test_files_that_cannot_be_written(
-    text: str, said: str, tmp_path: Path
-) -> None:
+def test_files_that_cannot_be_written(text: str, said: str, tmp_path: Path) -> None:
     """They stay as they are, and it is said why."""
     path = put(tmp_path, text)
     run = gark("claims", "--write", path)
@@ -124,9 +120,7 @@ def test_what_is_asked_for(tmp_path: Path) -> None:
     run = gark("claims", "-", "--write", stdin=MIDPOINT)
     assert (run.code, "--write needs a file" in run.err) == (2, True)
     run = gark("claims", "-", "--key", "gamma", stdin=MIDPOINT)
-    assert run.out.endswith(
-        "# not claimed, without a meaning or not decided: gamma\n"
-    )
+    assert run.out.endswith("# not claimed, without a meaning or not decided: gamma\n")
 
 
 def test_as_json(tmp_path: Path) -> None:
@@ -142,9 +136,7 @@ def test_as_json(tmp_path: Path) -> None:
     st.sampled_from(["", "\n", "\n# end", "\nname: x\n", "\n\n\n"]),
     st.booleans(),
 )
-def test_written_claims_are_read_again(
-    before: dict[str, int], after: str, is_flow: bool
-) -> None:
+def test_written_claims_are_read_again(before: dict[str, int], after: str, is_flow: bool) -> None:
     """Whatever stood there and follows: the claims that are read again are those written, and
     those that were not.
     """

@@ -28,52 +28,28 @@ ARK = "methods/ark-ars222.gark.yaml"
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 INVALID = "tests/examples/invalid/many-faults.gark.yaml"
 RUNS = [
-    (
-        ("check", COLLOCATION),
-        ("auto", "text", "json", "github", "sarif", "junit", "markdown"),
-    ),
-    (
-        ("trees", "-N", "2", "-n", "3"),
-        ("text", "json", "ndjson", "csv", "latex"),
-    ),
+    (("check", COLLOCATION), ("auto", "text", "json", "github", "sarif", "junit", "markdown")),
+    (("trees", "-N", "2", "-n", "3"), ("text", "json", "ndjson", "csv", "latex")),
     (
         ("trees", "-N", "2", "-n", "3", "--count", "--upto"),
         ("text", "json", "ndjson", "csv", "latex"),
     ),
     (("conditions", "-n", "3"), ("text", "json", "csv", "latex")),
-    (
-        ("conditions", "-N", "2", "-n", "3", "--coloured"),
-        ("text", "json", "csv", "latex"),
-    ),
-    (
-        ("conditions", COLLOCATION, "-n", "3", "--pair"),
-        ("text", "json", "csv", "latex"),
-    ),
+    (("conditions", "-N", "2", "-n", "3", "--coloured"), ("text", "json", "csv", "latex")),
+    (("conditions", COLLOCATION, "-n", "3", "--pair"), ("text", "json", "csv", "latex")),
     (("tableau", COLLOCATION), ("text", "yaml", "json", "latex")),
     (("conjugate", VERLET), ("text", "yaml", "json", "latex")),
     (("conjugate", COLLOCATION, "--pair"), ("text", "yaml", "json", "latex")),
     (("stability", COLLOCATION), ("text", "json", "latex")),
     (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
-    (
-        ("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"),
-        ("text", "json", "csv"),
-    ),
-    (
-        ("converge", VERLET, COLLOCATION, "--problem", "pendulum"),
-        ("text", "json", "csv"),
-    ),
-    (
-        ("energy", VERLET, "--t-end", "20", "--step", "1/10"),
-        ("text", "json", "csv"),
-    ),
+    (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
+    (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
+    (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),
     (
         ("audit", "tests/bridges/sources/register.cpp"),
         ("auto", "text", "json", "github", "sarif", "markdown"),
     ),
-    (
-        ("import", "tests/bridges/sources/rotated.json"),
-        ("text", "json", "yaml"),
-    ),
+    (("import", "tests/bridges/sources/rotated.json"), ("text", "json", "yaml")),
     (("list",), ("text", "json")),
     (("show", COLLOCATION), ("text", "json")),
     (("cite", COLLOCATION), ("bibtex", "text", "json")),
@@ -114,8 +90,7 @@ def test_every_format_of_every_command_is_tried() -> None:
         (choice,) = [x.type for x in command.params if x.name == "format"]
         known[name] = set(choice.choices)
     tried = {
-        name: {f for run, formats in RUNS if run[0] == name for f in formats}
-        for name in known
+        name: {f for run, formats in RUNS if run[0] == name for f in formats} for name in known
     }
     assert tried == known
 
@@ -136,17 +111,13 @@ def data(*arguments: str) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("arguments", EACH)
-def test_every_command_runs_in_every_format(
-    arguments: tuple[str, ...],
-) -> None:
+def test_every_command_runs_in_every_format(arguments: tuple[str, ...]) -> None:
     """The report is on stdout, in the format asked for; nothing but notes is on stderr; the exit
     code is 0.
     """
     run = shown(arguments)
     assert run.code == 0, run.err
-    assert (
-        run.out.endswith("\n") or arguments[-1] == "github"
-    )  # which only knows of failures
+    assert run.out.endswith("\n") or arguments[-1] == "github"  # which only knows of failures
     assert "error" not in run.err
     if arguments[-1] in {"json", "sarif"}:
         json.loads(run.out)
@@ -175,15 +146,11 @@ def test_a_report_in_a_file_is_the_report_on_stdout(
     assert [path.name for path in tmp_path.iterdir()] == ["report"]
 
 
-def test_nothing_is_left_where_a_report_cannot_be_written(
-    tmp_path: Path,
-) -> None:
+def test_nothing_is_left_where_a_report_cannot_be_written(tmp_path: Path) -> None:
     """Into a directory that does not exist nothing is written: exit code 2, a message, no partial
     file.
     """
-    run = gark(
-        "check", COLLOCATION, "-o", str(tmp_path / "nowhere" / "report")
-    )
+    run = gark("check", COLLOCATION, "-o", str(tmp_path / "nowhere" / "report"))
     assert (run.code, run.out) == (2, "")
     assert "cannot write" in run.err
     assert list(tmp_path.iterdir()) == []
@@ -212,23 +179,14 @@ def test_help_of_every_command(command: str) -> None:
     assert run.code == 0
     assert run.out == gark(command, "-h").out
     options = set(re.findall(r"--[a-z]+", run.out))
-    assert {
-        "--format",
-        "--output",
-        "--quiet",
-        "--verbose",
-        "--color",
-        "--help",
-    } <= options
+    assert {"--format", "--output", "--quiet", "--verbose", "--color", "--help"} <= options
     assert f"  {command} " in gark("--help").out
 
 
 def test_every_command_file_is_in_the_summary() -> None:
     """The list of commands and the command files of the room are the same."""
     files = (ROOT / "garkcli/cli").glob("*_command.py")
-    assert {path.stem.removesuffix("_command") for path in files} == set(
-        COMMANDS
-    )
+    assert {path.stem.removesuffix("_command") for path in files} == set(COMMANDS)
 
 
 def test_version() -> None:
@@ -262,16 +220,7 @@ def test_version() -> None:
         (2, ("conditions", ARK, "--conjugate")),
         (2, ("tableau", INVALID)),
         (2, ("conjugate", ARK)),
-        (
-            2,
-            (
-                "conjugate",
-                "methods/gauss6-lobatto7.gark.yaml",
-                "--pair",
-                "--format",
-                "yaml",
-            ),
-        ),
+        (2, ("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--pair", "--format", "yaml")),
         (2, ("converge", VERLET, "--omega", "sqrt(2)")),
         (2, ("converge", VERLET, "--steps", "1/2,-1/4")),
         (2, ("converge", VERLET, "--steps", "1/0")),
@@ -297,32 +246,19 @@ def test_exit_codes(code: int, arguments: tuple[str, ...]) -> None:
 def test_a_method_comes_from_standard_input() -> None:
     """``-`` is standard input, and its faults are those of <stdin>."""
     text = (ROOT / COLLOCATION).read_text(encoding="utf-8")
-    assert (
-        gark("tableau", "-", stdin=text).out
-        == gark("tableau", COLLOCATION).out
-    )
+    assert gark("tableau", "-", stdin=text).out == gark("tableau", COLLOCATION).out
     run = gark("check", "-", stdin="methods: [{family: gaus, stages: 2}]")
     assert run.code == 2
-    assert run.out.startswith(
-        "<stdin>:1:20: error[unknown-word]: no family 'gaus'\n"
-    )
+    assert run.out.startswith("<stdin>:1:20: error[unknown-word]: no family 'gaus'\n")
 
 
 def test_a_directory_is_all_method_files_below_it(tmp_path: Path) -> None:
     """Every *.gark.yaml below a directory is checked, in order, and no other file."""
     (tmp_path / "b").mkdir()
-    for name in (
-        "z.gark.yaml",
-        "a.gark.yaml",
-        "b/m.gark.yaml",
-        "b/other.yaml",
-    ):
+    for name in ("z.gark.yaml", "a.gark.yaml", "b/m.gark.yaml", "b/other.yaml"):
         (tmp_path / name).write_text("methods: [{family: gauss, stages: 1}]")
     report = json.loads(gark("check", str(tmp_path), "--format", "json").out)
-    names = [
-        Path(x["file"]).relative_to(tmp_path).as_posix()
-        for x in report["files"]
-    ]
+    names = [Path(x["file"]).relative_to(tmp_path).as_posix() for x in report["files"]]
     assert names == ["a.gark.yaml", "b/m.gark.yaml", "z.gark.yaml"]
 
 
@@ -344,8 +280,7 @@ def test_colour_is_asked_for() -> None:
     painted = gark("check", COLLOCATION, "--color", "always").out
     assert "\x1b[" in painted
     assert (
-        re.sub(r"\x1b\[[0-9;]*m", "", painted)
-        == gark("check", COLLOCATION, "--color", "never").out
+        re.sub(r"\x1b\[[0-9;]*m", "", painted) == gark("check", COLLOCATION, "--color", "never").out
     )
     assert "\x1b[" not in gark("check", COLLOCATION).out
 
@@ -355,29 +290,11 @@ def test_the_search_stops_at_the_highest_order() -> None:
     decided.
     """
     gauss = "methods: [{family: gauss, stages: 4}]"
-    run = gark(
-        "check", "-", "--max-order", "3", "--format", "json", stdin=gauss
-    )
+    run = gark("check", "-", "--max-order", "3", "--format", "json", stdin=gauss)
     (found,) = json.loads(run.out)["files"]
-    assert (
-        found["order"],
-        found["order_is_lower_bound"],
-        found["witness"],
-    ) == (
-        3,
-        True,
-        None,
-    )
-    assert (
-        "at least 3" in gark("check", "-", "--max-order", "3", stdin=gauss).out
-    )
-    claimed = gark(
-        "check",
-        "-",
-        "--max-order",
-        "3",
-        stdin=f"{gauss}\nexpect: {{order: 8}}",
-    )
+    assert (found["order"], found["order_is_lower_bound"], found["witness"]) == (3, True, None)
+    assert "at least 3" in gark("check", "-", "--max-order", "3", stdin=gauss).out
+    claimed = gark("check", "-", "--max-order", "3", stdin=f"{gauss}\nexpect: {{order: 8}}")
     assert claimed.code == 0
 
 
@@ -389,30 +306,13 @@ def test_json_of_check() -> None:
     assert report["schema"] == "gark/check/1"
     assert report["summary"] == {"files": 1, "failed": 0, "without_claims": 0}
     (found,) = report["files"]
-    assert found["colours"] == [
-        {"name": "1", "stages": 2},
-        {"name": "2", "stages": 3},
-    ]
-    assert (found["order"], found["conjugate_order"], found["pair_order"]) == (
-        4,
-        4,
-        4,
-    )
-    assert (found["ok"], found["exact"], found["tolerance"]) == (
-        True,
-        True,
-        None,
-    )
-    assert (found["consistent"], found["symplectic"], found["pair_bound"]) == (
-        True,
-        False,
-        3,
-    )
+    assert found["colours"] == [{"name": "1", "stages": 2}, {"name": "2", "stages": 3}]
+    assert (found["order"], found["conjugate_order"], found["pair_order"]) == (4, 4, 4)
+    assert (found["ok"], found["exact"], found["tolerance"]) == (True, True, None)
+    assert (found["consistent"], found["symplectic"], found["pair_bound"]) == (True, False, 3)
     assert found["simplifying"]["C"] == [[2, 3], [3, 3]]
     assert found["witness"]["order"] == 5
-    assert fmpq(*map(int, found["witness"]["value"].split("/"))) - fmpq(
-        1, 120
-    ) == fmpq(-1, 720)
+    assert fmpq(*map(int, found["witness"]["value"].split("/"))) - fmpq(1, 120) == fmpq(-1, 720)
     assert {x["claim"]: x["holds"] for x in found["claims"]}["order"] is True
 
 
@@ -456,17 +356,7 @@ def test_counts_of_any_number_of_digits(options: list[str]) -> None:
     sys.set_int_max_str_digits(least)
     try:
         runs = [
-            gark(
-                "trees",
-                "--count",
-                "-N",
-                "9",
-                "-n",
-                "550",
-                "--format",
-                x,
-                *options,
-            )
+            gark("trees", "--count", "-N", "9", "-n", "550", "--format", x, *options)
             for x in ("text", "json", "csv")
         ]
         assert sys.get_int_max_str_digits() == least
@@ -482,32 +372,21 @@ def test_more_trees_than_fit_are_refused() -> None:
     """The number and the cure, with no word of a fault of the program."""
     run = gark("trees", "-n", "30", "--yes")
     assert run.code == 2
-    assert run.err.startswith(
-        "gark: 196268698287 trees of order up to 29 with 1 colour (limit"
-    )
+    assert run.err.startswith("gark: 196268698287 trees of order up to 29 with 1 colour (limit")
     assert "count them" in run.err
 
 
-@pytest.mark.parametrize(
-    "options", [(), ("--format", "csv"), ("-o", "trees.txt")]
-)
-def test_millions_of_lines_are_asked_for_twice(
-    options: tuple[str, ...], tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("options", [(), ("--format", "csv"), ("-o", "trees.txt")])
+def test_millions_of_lines_are_asked_for_twice(options: tuple[str, ...], tmp_path: Path) -> None:
     """Without a terminal to ask they are refused at once, with the number and both cures; a million
     and fewer are listed.
     """
     run = gark("trees", "-N", "3", "-n", "9", *options, cwd=tmp_path)
     assert (run.code, run.out) == (2, "")
     assert list(tmp_path.iterdir()) == []
-    counted = gark(
-        "trees", "-N", "3", "-n", "9", "--count", "--format", "json"
-    ).out
+    counted = gark("trees", "-N", "3", "-n", "9", "--count", "--format", "json").out
     number = json.loads(counted)["count"]
-    assert (
-        run.err
-        == f"gark: {number} trees\nhelp: --yes lists them, --count counts them\n"
-    )
+    assert run.err == f"gark: {number} trees\nhelp: --yes lists them, --count counts them\n"
 
 
 def test_whoever_is_asked_decides(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -516,13 +395,7 @@ def test_whoever_is_asked_decides(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(trees_command, "is_terminal", lambda _: True)
     monkeypatch.setattr(trees_command, "MANY", 10)
-    for answer, code in (
-        ("y\n", 0),
-        ("yes\n", 0),
-        ("n\n", 2),
-        ("\n", 2),
-        ("", 2),
-    ):
+    for answer, code in (("y\n", 0), ("yes\n", 0), ("n\n", 2), ("\n", 2), ("", 2)):
         run = gark("trees", "-n", "6", stdin=answer)
         assert run.code == code
         assert run.err.startswith("20 trees: list them all? [y/N]\n")
@@ -537,13 +410,9 @@ def test_a_tableau_as_a_method_file(tmp_path: Path) -> None:
         run = gark("tableau", path, "--format", "yaml")
         assert run.code == 0
         (tmp_path / "m.gark.yaml").write_text(run.out, encoding="utf-8")
-        again = gark(
-            "tableau", "m.gark.yaml", "--format", "json", cwd=tmp_path
-        )
+        again = gark("tableau", "m.gark.yaml", "--format", "json", cwd=tmp_path)
         assert again.out == gark("tableau", path, "--format", "json").out
-    run = gark(
-        "tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"
-    )
+    run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
     assert run.code == 2
     assert "no simple radicals" in run.err
 
@@ -554,19 +423,14 @@ def test_json_of_conditions() -> None:
     """
     plain = data("conditions", "-n", "4")["conditions"]
     assert len(plain) == 8
-    assert {"tree", "root", "order", "sigma", "gamma", "condition"} <= set(
-        plain[0]
-    )
+    assert {"tree", "root", "order", "sigma", "gamma", "condition"} <= set(plain[0])
     coloured = data("conditions", "-N", "2", "-n", "4", "--only")["conditions"]
     assert len(coloured) == 52
     valued = data("conditions", FAILING, "-n", "3")["conditions"]
     assert {"value", "required", "residual", "holds"} <= set(valued[0])
     failing = [row for row in valued if not row["holds"]]
     assert {row["residual"] for row in failing} >= {"17/108"}
-    assert (
-        data("conditions", FAILING, "-n", "3", "--failing")["conditions"]
-        == failing
-    )
+    assert data("conditions", FAILING, "-n", "3", "--failing")["conditions"] == failing
 
 
 @pytest.mark.parametrize("command", ["tableau", "conjugate"])
@@ -590,10 +454,7 @@ def test_json_of_a_tableau(command: str) -> None:
 def test_absent_blocks_are_null() -> None:
     """A block that does not exist is null in JSON, and null again when the YAML is loaded."""
     report = data("tableau", VERLET)
-    assert [[x is None for x in row] for row in report["A"]] == [
-        [True, False],
-        [False, True],
-    ]
+    assert [[x is None for x in row] for row in report["A"]] == [[True, False], [False, True]]
 
 
 def test_json_of_converge() -> None:
@@ -601,10 +462,7 @@ def test_json_of_converge() -> None:
     error.
     """
     report = data("converge", VERLET)
-    assert (report["problem"], report["predicted_order"]) == (
-        "generic-separable",
-        2,
-    )
+    assert (report["problem"], report["predicted_order"]) == ("generic-separable", 2)
     assert report["observed_order"] == pytest.approx(2, abs=0.1)
     assert {"h", "error", "slope", "energy_error"} <= set(report["steps"][0])
     assert [step["h"] for step in report["steps"]] == sorted(
@@ -636,15 +494,10 @@ def test_conjugate_without_radicals_says_so() -> None:
     """Where nodes have no simple radicals the file says ``conjugate: true``, with a note on
     stderr.
     """
-    run = gark(
-        "conjugate", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"
-    )
+    run = gark("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
     assert loads(run.out).is_conjugate
     assert "conjugate: true" in run.err
-    assert (
-        load(str(ROOT / "methods/gauss6-lobatto7.gark.yaml")).is_conjugate
-        is False
-    )
+    assert load(str(ROOT / "methods/gauss6-lobatto7.gark.yaml")).is_conjugate is False
 
 
 def test_pictures_are_written(tmp_path: Path) -> None:
@@ -655,12 +508,7 @@ def test_pictures_are_written(tmp_path: Path) -> None:
     run = gark("trees", "-N", "2", "-n", "3", "--svg", str(sheet))
     assert (run.code, run.out, run.err) == (0, "", f"wrote {sheet}\n")
     assert ET.parse(sheet).getroot().tag.endswith("svg")
-    assert (
-        gark(
-            "converge", VERLET, "--steps", "1/2,1/4", "--plot", str(figure)
-        ).code
-        == 0
-    )
+    assert gark("converge", VERLET, "--steps", "1/2,1/4", "--plot", str(figure)).code == 0
     assert ET.parse(figure).getroot().tag.endswith("svg")
 
 
@@ -675,17 +523,12 @@ def test_the_schema_allows_every_file_that_loads() -> None:
         {"methods": [{"family": "gauss", "stages": 2}], "descripton": "a slip"}
     )
     files = sorted(
-        [
-            *ROOT.glob("methods/*.gark.yaml"),
-            *ROOT.glob("tests/examples/valid/*.gark.yaml"),
-        ]
+        [*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]
     )
     wrong = {
         x.name: e.message
         for x in files
-        for e in validator.iter_errors(
-            yaml.safe_load(x.read_text("utf-8-sig"))
-        )
+        for e in validator.iter_errors(yaml.safe_load(x.read_text("utf-8-sig")))
     }
     assert wrong == {}
 
@@ -695,12 +538,8 @@ def test_the_schema_of_reports_allows_reports() -> None:
     included.
     """
     schema = data("schema", "--report")
-    found = json.loads(
-        gark("check", "methods", FAILING, INVALID, ARK, "--format", "json").out
-    )
-    assert [
-        error.message for error in Draft7Validator(schema).iter_errors(found)
-    ] == []
+    found = json.loads(gark("check", "methods", FAILING, INVALID, ARK, "--format", "json").out)
+    assert [error.message for error in Draft7Validator(schema).iter_errors(found)] == []
     assert not Draft7Validator(schema).is_valid({"schema": "gark/check/1"})
     assert data("schema", "--report", "check") == schema
 
@@ -712,13 +551,8 @@ def test_a_report_without_a_schema_is_named() -> None:
     assert "did you mean 'check'?" in run.err
 
 
-@pytest.mark.parametrize(
-    "command",
-    ["check", "tableau", "conjugate", "conditions", "stability"],
-)
-def test_numbers_beyond_floats_are_no_infinity(
-    command: str, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("command", ["check", "tableau", "conjugate", "conditions", "stability"])
+def test_numbers_beyond_floats_are_no_infinity(command: str, tmp_path: Path) -> None:
     """JSON has no Infinity: a coefficient of 400 digits is null as a float, and exact as text."""
     path = tmp_path / "huge.yaml"
     path.write_text('methods: [{A: [["1e400"]], b: [1]}]\n', encoding="utf-8")

@@ -19,17 +19,12 @@ from tests.cli.harness import ROOT
 def completions(*words: str) -> list[tuple[str, str]]:
     """What a shell is offered for the last word, with its kind."""
     shell = BashComplete(gark, {}, "gark", "_GARK_COMPLETE")
-    return [
-        (x.type, x.value)
-        for x in shell.get_completions(list(words[:-1]), words[-1])
-    ]
+    return [(x.type, x.value) for x in shell.get_completions(list(words[:-1]), words[-1])]
 
 
 def test_commands_are_completed() -> None:
     """Every command that begins so."""
-    assert [value for _, value in completions("c")] == [
-        x for x in COMMANDS if x.startswith("c")
-    ]
+    assert [value for _, value in completions("c")] == [x for x in COMMANDS if x.startswith("c")]
 
 
 def test_the_word_for_help_is_completed() -> None:
@@ -42,10 +37,7 @@ def test_the_word_for_help_is_completed() -> None:
 @pytest.mark.parametrize(
     "words",
     [
-        *[
-            (name, "./m")
-            for name in ("check", "converge", "energy", "tableau", "conjugate")
-        ],
+        *[(name, "./m") for name in ("check", "converge", "energy", "tableau", "conjugate")],
         ("conditions", "./m"),
         ("check", "a", "qqq"),
         ("check", "--baseline", "b"),
@@ -61,9 +53,7 @@ def test_files_are_completed(words: tuple[str, ...]) -> None:
     assert completions(*words) == [("file", words[-1])]
 
 
-def test_problems_are_completed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_problems_are_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Names of problems and problem files beside each other; values of other options."""
     for name in ("kepler.yaml", "pendulum.yml", "pictures.png"):
         (tmp_path / name).write_text("")
@@ -72,12 +62,8 @@ def test_problems_are_completed(
         ("plain", "kepler"),
         ("plain", "kepler.yaml"),
     ]
-    assert ("plain", "pendulum.yml") in completions(
-        "converge", "m", "--problem", "p"
-    )
-    assert ("plain", "pendulum") in completions(
-        "converge", "m", "--problem", "p"
-    )
+    assert ("plain", "pendulum.yml") in completions("converge", "m", "--problem", "p")
+    assert ("plain", "pendulum") in completions("converge", "m", "--problem", "p")
     assert completions("check", "m", "--format", "sa") == [("plain", "sarif")]
 
 
@@ -90,19 +76,13 @@ def test_reports_with_a_schema_are_completed() -> None:
         ("plain", "convert"),
         ("plain", "converge"),
     ]
-    assert [x for _, x in completions("schema", "--report", "")] == list(
-        REPORTS
-    )
+    assert [x for _, x in completions("schema", "--report", "")] == list(REPORTS)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="asks as bash does")
 def test_a_shell_is_answered() -> None:
     """The program answers the question that bash puts in the environment."""
-    variables = {
-        "_GARK_COMPLETE": "bash_complete",
-        "COMP_WORDS": "gark ch",
-        "COMP_CWORD": "1",
-    }
+    variables = {"_GARK_COMPLETE": "bash_complete", "COMP_WORDS": "gark ch", "COMP_CWORD": "1"}
     done = subprocess.run(
         [sys.executable, "-m", "garkcli"],
         env={**os.environ, "PYTHONPATH": str(ROOT), **variables},

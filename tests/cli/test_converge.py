@@ -22,22 +22,12 @@ INVALID = "tests/examples/invalid/many-faults.gark.yaml"
 def test_several_methods_side_by_side() -> None:
     """All slopes are the orders, on a problem that sees every tree."""
     run = gark(
-        "converge",
-        COLLOCATION,
-        INTERPOLATION,
-        ARS,
-        "--problem",
-        "generic",
-        "--format",
-        "json",
+        "converge", COLLOCATION, INTERPOLATION, ARS, "--problem", "generic", "--format", "json"
     )
     assert run.code == 0, run.err
     results = json.loads(run.out)["results"]
     assert [x["visible_order"] for x in results] == [4, 4, 2]
-    assert all(
-        abs(x["steps"][-1]["slope"] - x["visible_order"]) < 0.05
-        for x in results
-    )
+    assert all(abs(x["steps"][-1]["slope"] - x["visible_order"]) < 0.05 for x in results)
     assert all(x["agrees"] for x in results)
 
 
@@ -63,13 +53,7 @@ def test_different_terms_have_the_same_sum() -> None:
 def test_a_faulty_file_stops_none() -> None:
     """Its faults are on stderr with their lines, the others are compared, exit code 2."""
     run = gark(
-        "converge",
-        VERLET,
-        INVALID,
-        "nowhere.gark.yaml",
-        RECTANGULAR,
-        "--problem",
-        "pendulum",
+        "converge", VERLET, INVALID, "nowhere.gark.yaml", RECTANGULAR, "--problem", "pendulum"
     )
     assert run.code == 2
     assert f"{INVALID}:" in run.err
@@ -99,24 +83,13 @@ def test_a_method_for_other_problems_stops_none() -> None:
         "1/8,1/16,1/32,1/64",
     )
     assert run.code == 2
-    assert (
-        f"{RECTANGULAR}: error[other-problem]: H{{1}} of generic depends on q"
-        in run.err
-    )
+    assert f"{RECTANGULAR}: error[other-problem]: H{{1}} of generic depends on q" in run.err
     assert "they agree" in run.out
 
 
 def test_disagreement_of_one_is_exit_code_1() -> None:
     """Steps far too large for one of them."""
-    run = gark(
-        "converge",
-        VERLET,
-        RECTANGULAR,
-        "--problem",
-        "kepler",
-        "--steps",
-        "1/2,1/4",
-    )
+    run = gark("converge", VERLET, RECTANGULAR, "--problem", "kepler", "--steps", "1/2,1/4")
     assert run.code == 1
     assert "THEY DISAGREE" in run.out
 
@@ -124,14 +97,10 @@ def test_disagreement_of_one_is_exit_code_1() -> None:
 def test_directories_and_patterns(tmp_path: Path) -> None:
     """As for check: a directory stands for its method files, a pattern for what it matches."""
     for name in ("a", "b"):
-        (tmp_path / f"{name}.gark.yaml").write_bytes(
-            (ROOT / VERLET).read_bytes()
-        )
+        (tmp_path / f"{name}.gark.yaml").write_bytes((ROOT / VERLET).read_bytes())
     for argument in (str(tmp_path), str(tmp_path / "*.yaml")):
         run = gark("converge", argument, "--format", "json")
-        assert [
-            Path(x["file"]).name for x in json.loads(run.out)["results"]
-        ] == [
+        assert [Path(x["file"]).name for x in json.loads(run.out)["results"]] == [
             "a.gark.yaml",
             "b.gark.yaml",
         ]
@@ -139,17 +108,12 @@ def test_directories_and_patterns(tmp_path: Path) -> None:
 
 def test_problem_file_for_several() -> None:
     """It is read once, also from standard input; its faults are those of the whole run."""
-    text = "{variables: [x], hamiltonian: [px**2/2, 1 - cos(x)], initial: {x: 1, px: 1/2}, t_end: 4}"
+    text = (
+        "{variables: [x], hamiltonian: [px**2/2, 1 - cos(x)], initial: {x: 1, px: 1/2}, t_end: 4}"
+    )
     run = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin=text)
     assert (run.code, run.out.count("they agree")) == (0, 2), run.err
-    broken = gark(
-        "converge",
-        VERLET,
-        RECTANGULAR,
-        "--problem",
-        "-",
-        stdin="{variables: [x]}",
-    )
+    broken = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin="{variables: [x]}")
     assert (broken.code, broken.out) == (2, "")
 
 
@@ -167,16 +131,11 @@ def test_work_in_every_format(problem: str, files: tuple[str, ...]) -> None:
         counts = [row["work"]["evaluations"] for row in result["steps"]]
         assert counts == sorted(counts)
         assert all(
-            row["work"]["seconds"] is None or row["work"]["seconds"] > 0
-            for row in result["steps"]
+            row["work"]["seconds"] is None or row["work"]["seconds"] > 0 for row in result["steps"]
         )
         assert result["steps"][0]["work"]["seconds"] is not None
-    rows = list(
-        csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out))
-    )
-    assert all(
-        int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows
-    )
+    rows = list(csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out)))
+    assert all(int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows)
 
 
 def test_work_keeps_coarse_steps() -> None:
@@ -191,9 +150,7 @@ def test_work_keeps_coarse_steps() -> None:
         "--format",
         "json",
     )
-    plain, with_work = (
-        json.loads(gark(*arguments, *x).out) for x in ((), ("--work",))
-    )
+    plain, with_work = (json.loads(gark(*arguments, *x).out) for x in ((), ("--work",)))
     assert with_work["steps"][0]["h"] > plain["steps"][0]["h"]
     assert [x["error"] for x in with_work["steps"][-3:]] == [
         x["error"] for x in plain["steps"][-3:]
@@ -222,13 +179,7 @@ def test_figures_are_the_same_each_time(
 
 def test_nothing_to_draw(tmp_path: Path) -> None:
     """Without a single result there is no figure, and that is said."""
-    run = gark(
-        "converge",
-        INVALID,
-        "nowhere.gark.yaml",
-        "--plot",
-        str(tmp_path / "a.png"),
-    )
+    run = gark("converge", INVALID, "nowhere.gark.yaml", "--plot", str(tmp_path / "a.png"))
     assert run.code == 2
     assert "nothing to draw" in run.err
     assert list(tmp_path.iterdir()) == []
@@ -237,35 +188,15 @@ def test_nothing_to_draw(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("said", "arguments"),
     [
-        (
-            "has no --drift: the energy over a long time is gark energy",
-            (VERLET, "--drift"),
-        ),
-        (
-            "has no --step: the energy over a long time is gark energy",
-            (VERLET, "--step", "1"),
-        ),
-        (
-            "--against seconds is not known without measuring it",
-            (VERLET, "--against", "seconds"),
-        ),
-        (
-            "--omega 0: a positive number is expected",
-            (VERLET, RECTANGULAR, "--omega", "0"),
-        ),
-        (
-            "no figure can be saved",
-            (VERLET, RECTANGULAR, "--plot", "figure.jpg"),
-        ),
-        (
-            "there is no such folder",
-            (VERLET, RECTANGULAR, "--plot", "nowhere/figure.png"),
-        ),
+        ("has no --drift: the energy over a long time is gark energy", (VERLET, "--drift")),
+        ("has no --step: the energy over a long time is gark energy", (VERLET, "--step", "1")),
+        ("--against seconds is not known without measuring it", (VERLET, "--against", "seconds")),
+        ("--omega 0: a positive number is expected", (VERLET, RECTANGULAR, "--omega", "0")),
+        ("no figure can be saved", (VERLET, RECTANGULAR, "--plot", "figure.jpg")),
+        ("there is no such folder", (VERLET, RECTANGULAR, "--plot", "nowhere/figure.png")),
     ],
 )
-def test_options_that_do_not_go_together(
-    said: str, arguments: tuple[str, ...]
-) -> None:
+def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) -> None:
     """Said once, before anything is computed."""
     run = gark("converge", *arguments)
     assert (run.code, run.out) == (2, "")
@@ -281,10 +212,7 @@ ark:
   A: [[[0.25, -0.0386751345948], [0.5386751345948, 0.25]]]
   b: [[0.5, 0.5]]
 """
-    rounded, toleranced = (
-        tmp_path / "rounded.gark.yaml",
-        tmp_path / "toleranced.gark.yaml",
-    )
+    rounded, toleranced = (tmp_path / "rounded.gark.yaml", tmp_path / "toleranced.gark.yaml")
     rounded.write_text(text, encoding="utf-8")
     toleranced.write_text(f"{text}tolerance: 1e-13\n", encoding="utf-8")
     hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-13  the order is 4"

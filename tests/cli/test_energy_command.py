@@ -28,27 +28,15 @@ def test_claims_decide_the_exit_code() -> None:
     assert gark(*drifting).code == 0
     failed = gark(*drifting, "--bounded")
     assert failed.code == 1
-    assert (
-        "CLAIM FAILS      bounded, found: energy drifts, angular momentum drifts"
-        in failed.out
-    )
+    assert "CLAIM FAILS      bounded, found: energy drifts, angular momentum drifts" in failed.out
     held = gark(
-        "energy",
-        RECTANGULAR,
-        "--problem",
-        "kepler",
-        *SHORT,
-        "--bounded",
-        "--max-error",
-        "1e-4",
+        "energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--bounded", "--max-error", "1e-4"
     )
     assert held.code == 0
     assert held.out.count("claim holds") == 2
 
 
-@pytest.mark.parametrize(
-    ("limit", "code"), [("1.13e-4", 0), ("1.12e-4", 1), ("1/9000", 1)]
-)
+@pytest.mark.parametrize(("limit", "code"), [("1.13e-4", 0), ("1.12e-4", 1), ("1/9000", 1)])
 def test_max_error(limit: str, code: int) -> None:
     """The largest error is 1.1201e-4."""
     assert gark("energy", RECTANGULAR, "--max-error", limit).code == code
@@ -56,15 +44,7 @@ def test_max_error(limit: str, code: int) -> None:
 
 def test_what_is_undecided_is_not_bounded() -> None:
     """A claim needs a run that is long enough."""
-    run = gark(
-        "energy",
-        RECTANGULAR,
-        "--problem",
-        "kepler",
-        "--t-end",
-        "5",
-        "--bounded",
-    )
+    run = gark("energy", RECTANGULAR, "--problem", "kepler", "--t-end", "5", "--bounded")
     assert run.code == 1
     assert "found: energy undecided" in run.out
 
@@ -104,45 +84,25 @@ def test_symplecticity_is_measured() -> None:
         assert found["proved"] is proved
         assert len(found["defects"]) == 5
         assert all(
-            x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen
-            for x in found["defects"]
+            x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen for x in found["defects"]
         )
 
 
 def test_problem_files() -> None:
     """A problem of the user's own, with its invariants and ten thousand steps."""
-    run = gark(
-        "energy",
-        RECTANGULAR,
-        "--problem",
-        "problems/kepler.yaml",
-        "--format",
-        "json",
-    )
+    run = gark("energy", RECTANGULAR, "--problem", "problems/kepler.yaml", "--format", "json")
     data = json.loads(run.out)
     assert (data["steps"], data["drifts"]) == (10_000, False)
-    assert [x["name"] for x in data["quantities"]] == [
-        "energy",
-        "angular momentum",
-    ]
+    assert [x["name"] for x in data["quantities"]] == ["energy", "angular momentum"]
 
 
 @pytest.mark.parametrize(
     ("options", "said"),
     [
         (("--digits", "30"), "--digits is not for the oscillator"),
-        (
-            ("--problem", "kepler", "--omega", "2"),
-            "--omega is for the oscillator",
-        ),
-        (
-            ("--problem", "kepler", "--split", "1:0,0:1"),
-            "--split is for the oscillator",
-        ),
-        (
-            ("--problem", "kepler", "--seed", "2"),
-            "--seed is for the problems generic",
-        ),
+        (("--problem", "kepler", "--omega", "2"), "--omega is for the oscillator"),
+        (("--problem", "kepler", "--split", "1:0,0:1"), "--split is for the oscillator"),
+        (("--problem", "kepler", "--seed", "2"), "--seed is for the problems generic"),
         (("--problem", "keppler"), "did you mean 'kepler'"),
         (("--t-end", "1", "--step", "0.3"), "not a whole number of steps"),
         (("--t-end", "0"), "a positive number is expected"),
@@ -209,15 +169,9 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
     """
     run = gark("energy", "methods")
     assert run.code == 2
-    assert (
-        "methods: error[folder]: a directory, where one method file is expected"
-        in run.err
-    )
+    assert "methods: error[folder]: a directory, where one method file is expected" in run.err
     assert "such as methods/ark-ars222.gark.yaml" in run.err
-    assert (
-        "no .gark.yaml files in this directory"
-        in gark("energy", str(tmp_path)).err
-    )
+    assert "no .gark.yaml files in this directory" in gark("energy", str(tmp_path)).err
 
 
 def test_problem_at_rest(tmp_path: Path) -> None:
@@ -226,16 +180,7 @@ def test_problem_at_rest(tmp_path: Path) -> None:
     path.write_text(
         'variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n'
     )
-    run = gark(
-        "energy",
-        RECTANGULAR,
-        "--problem",
-        str(path),
-        "--t-end",
-        "100",
-        "--step",
-        "1/10",
-    )
+    run = gark("energy", RECTANGULAR, "--problem", str(path), "--t-end", "100", "--step", "1/10")
     assert run.code == 0
     assert "no error at all" in run.out
     assert "--digits" not in run.out

@@ -33,9 +33,7 @@ SEVERAL = "unknown: {stages: 2, shape: explicit}\n"
 
 @pytest.mark.parametrize("text", [SDIRK, TAU])
 @pytest.mark.parametrize("command", ["tableau", "conjugate"])
-def test_printed_entries_are_the_family(
-    text: str, command: str, tmp_path: Path
-) -> None:
+def test_printed_entries_are_the_family(text: str, command: str, tmp_path: Path) -> None:
     """The tableau as a method file, loaded again with a value, is that of the file with the value:
     entries in radicals of the nodes and in the parameter.
     """
@@ -55,14 +53,9 @@ def test_latex_and_json_have_the_parameters(tmp_path: Path) -> None:
     """Greek letters and indices in LaTeX; JSON as its schema says, no floats for functions."""
     path = tmp_path / "family.yaml"
     path.write_text(TAU, encoding="utf-8")
-    assert (
-        r"\frac{\tau \sqrt{3}}{12}"
-        in gark("tableau", str(path), "--format", "latex").out
-    )
+    assert r"\frac{\tau \sqrt{3}}{12}" in gark("tableau", str(path), "--format", "latex").out
     path.write_text(SEVERAL, encoding="utf-8")
-    assert (
-        "b_{1} & b_{2}" in gark("tableau", str(path), "--format", "latex").out
-    )
+    assert "b_{1} & b_{2}" in gark("tableau", str(path), "--format", "latex").out
     data = json.loads(gark("tableau", str(path), "--format", "json").out)
     jsonschema.validate(data, report_schema("tableau"))
     assert data["b"] == [["b1", "b2"]]
@@ -70,9 +63,7 @@ def test_latex_and_json_have_the_parameters(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("option", ["--digits=5", "--sort=worst"])
-def test_numbers_are_refused_with_the_cure(
-    option: str, tmp_path: Path
-) -> None:
+def test_numbers_are_refused_with_the_cure(option: str, tmp_path: Path) -> None:
     """What needs numbers says which parameter is free and how to choose it."""
     path = tmp_path / "family.yaml"
     path.write_text(SDIRK, encoding="utf-8")
@@ -115,9 +106,7 @@ def test_stability_functions_are_those_of_each_value(text: str) -> None:
     found = family_functions(family.tableau, family.ring)[0]
     for value in (fmpq(2, 5), fmpq(-3, 7)):
 
-        def at(
-            coefficients: tuple[object, ...], t: fmpq = value
-        ) -> list[fmpq]:
+        def at(coefficients: tuple[object, ...], t: fmpq = value) -> list[fmpq]:
             numbers = []
             for a in coefficients:
                 if isinstance(a, fmpq):
@@ -126,9 +115,7 @@ def test_stability_functions_are_those_of_each_value(text: str) -> None:
                     numbers.append(a.numerator(t) / a.denominator(t))  # type: ignore[attr-defined]
             return numbers
 
-        R = stability_function(
-            loads(text, settings={name: str(value)}).tableau
-        )
+        R = stability_function(loads(text, settings={name: str(value)}).tableau)
         assert at(found.numerator) == list(R.numerator.coefficients)
         assert at(found.denominator) == list(R.denominator.coefficients)
         E = list(e_polynomial(R).coefficients)

@@ -49,12 +49,7 @@ def test_ascii_fits_80_columns() -> None:
 
 
 @pytest.mark.parametrize(
-    "arguments",
-    [
-        (VERLET,),
-        ("methods/rk4.gark.yaml",),
-        (COLLOCATION, "--pair", "-n", "3"),
-    ],
+    "arguments", [(VERLET,), ("methods/rk4.gark.yaml",), (COLLOCATION, "--pair", "-n", "3")]
 )
 def test_json_is_of_its_schema(arguments: tuple[str, ...]) -> None:
     """Reports have the schema, a damaged one has not, and trees can be read."""
@@ -73,16 +68,9 @@ def test_json_is_of_its_schema(arguments: tuple[str, ...]) -> None:
 
 def test_the_modified_hamiltonian_of_stoermer_verlet() -> None:
     """H + h² (U''(T', T')/12 − T''(U', U')/24) + O(h⁴), as is well known."""
-    report = json.loads(
-        gark("modified", VERLET, "-n", "3", "--format", "json").out
-    )
+    report = json.loads(gark("modified", VERLET, "-n", "3", "--format", "json").out)
     found = {term["tree"]: term["factor"] for term in report["hamiltonian"]}
-    assert found == {
-        "[]_1": "1",
-        "[]_2": "1",
-        "[[]_2,[]_2]_1": "-1/24",
-        "[[]_1,[]_1]_2": "1/12",
-    }
+    assert found == {"[]_1": "1", "[]_2": "1", "[[]_2,[]_2]_1": "-1/24", "[[]_1,[]_1]_2": "1/12"}
     assert report["symplectic"]
     assert report["symplectic_order_is_lower_bound"]
 
@@ -101,9 +89,7 @@ def test_rounded_coefficients(tmp_path: Path) -> None:
     report = json.loads(gark("modified", str(path), "--format", "json").out)
     assert report["order"] == 3
     assert report["effective_order"] is None
-    assert not list(
-        Draft7Validator(modified_report_schema()).iter_errors(report)
-    )
+    assert not list(Draft7Validator(modified_report_schema()).iter_errors(report))
     refused = gark("modified", str(path), "--pair")
     assert refused.code == 2
     assert "help: give exact coefficients" in refused.err
@@ -147,40 +133,28 @@ def test_the_formula_on_a_problem() -> None:
     run = gark("modified", VERLET, *PENDULUM, "-n", "7")
     assert "    h^2     px^2*cos(x)/12 - sin(x)^2/24\n" in run.out
     assert [line for line in run.out.splitlines() if len(line) > 80] == []
-    report = json.loads(
-        gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "json").out
-    )
-    assert not list(
-        Draft7Validator(modified_report_schema()).iter_errors(report)
-    )
+    report = json.loads(gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "json").out)
+    assert not list(Draft7Validator(modified_report_schema()).iter_errors(report))
     assert report["formula"]["of"] == "hamiltonian"
     assert [term["power"] for term in report["formula"]["terms"]] == [0, 2]
-    latex = gark(
-        "modified", VERLET, *PENDULUM, "-n", "3", "--format", "latex"
-    ).out
+    latex = gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "latex").out
     assert r"\tilde H &=" in latex
     assert r"\frac{\sin^{2}{\left(x \right)}}{24}" in latex
 
 
-def test_the_formula_of_a_method_that_is_not_symplectic(
-    tmp_path: Path,
-) -> None:
+def test_the_formula_of_a_method_that_is_not_symplectic(tmp_path: Path) -> None:
     """The equation for each unknown, in a file of one tableau."""
     path = tmp_path / "euler.gark.yaml"
     path.write_text("{A: [[0]], b: [1]}\n", encoding="utf-8")
     text = gark("modified", str(path), *PENDULUM, "-n", "2").out
     assert "  h^1\n    x'      sin(x)/2\n    px'     px*cos(x)/2\n" in text
-    latex = gark(
-        "modified", str(path), *PENDULUM, "-n", "2", "--format", "latex"
-    ).out
+    latex = gark("modified", str(path), *PENDULUM, "-n", "2", "--format", "latex").out
     assert r"\dot{px} &=" in latex
 
 
 def test_a_problem_file_and_the_pair() -> None:
     """A problem file works as a built-in problem does; methods are taken as their pair."""
-    text = gark(
-        "modified", COLLOCATION, "--problem", "problems/kepler.yaml", "-n", "2"
-    ).out
+    text = gark("modified", COLLOCATION, "--problem", "problems/kepler.yaml", "-n", "2").out
     assert "  the symplectic pair; 4 colours" in text
     assert "H       px^2/2 + py^2/2 - 1/sqrt(x^2 + y^2)" in text
 
@@ -203,10 +177,7 @@ def test_problems_and_options_that_do_not_fit(tmp_path: Path) -> None:
         ((str(rounded), *PENDULUM), "exact coefficients"),
         ((VERLET, *PENDULUM, "--seed", "2"), "leave it out"),
         ((VERLET, "--seed", "2"), "give --problem"),
-        (
-            (VERLET, "--problem", "generic-separable", "-n", "3"),
-            "--order 2 at most",
-        ),
+        ((VERLET, "--problem", "generic-separable", "-n", "3"), "--order 2 at most"),
     ):
         run = gark("modified", *arguments)
         assert run.code == 2, run.out

@@ -29,25 +29,17 @@ def test_no_name_reaches_the_terminal_as_a_command(
 ) -> None:
     """Control characters of a name are blanks, those of a file name are written out."""
     (tmp_path / file).write_text(
-        METHOD
-        if file == "m.gark.yaml"
-        else METHOD.replace(f'name: "{NAME}"', "")
+        METHOD if file == "m.gark.yaml" else METHOD.replace(f'name: "{NAME}"', "")
     )
     run = gark(command[0], file, *command[1:], cwd=tmp_path)
-    assert all(
-        sign.isprintable() or sign == "\n" for sign in run.out + run.err
-    )
+    assert all(sign.isprintable() or sign == "\n" for sign in run.out + run.err)
     if file == "m.gark.yaml":
-        assert run.out.count("two lines [2Jand more") == int(
-            "-q" not in command
-        )
+        assert run.out.count("two lines [2Jand more") == int("-q" not in command)
 
 
 def test_a_conjugate_of_an_odd_file_loads_again(tmp_path: Path) -> None:
     """The file name in the name of the conjugate is escaped as YAML asks for."""
     file = "a\x1b[2J\nb.gark.yaml"
     (tmp_path / file).write_text("methods: [{family: gauss, stages: 2}]")
-    again = loads(
-        gark("conjugate", file, "--format", "yaml", cwd=tmp_path).out
-    )
+    again = loads(gark("conjugate", file, "--format", "yaml", cwd=tmp_path).out)
     assert again.name == "symplectic conjugate of a [2J b.gark.yaml"

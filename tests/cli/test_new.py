@@ -67,9 +67,7 @@ def test_standard_input_is_text(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_tableau_in_latex() -> None:
     """Signs of LaTeX part nodes and rows; a second line of weights is embedded."""
     found = read_pasted(IN_LATEX)
-    assert found == Pasted(
-        (("0", "0"), ("2/3", "0")), ("1/4", "3/4"), ("0", "2/3"), ("1", "0")
-    )
+    assert found == Pasted((("0", "0"), ("2/3", "0")), ("1/4", "3/4"), ("0", "2/3"), ("1", "0"))
 
 
 @pytest.mark.parametrize(
@@ -100,8 +98,7 @@ def test_an_empty_cell_is_zero() -> None:
     found = read_pasted(rows.replace(r"\\", r"\\" + "\n"))
     assert found.A[2] == ("0", "1/2", "0")
     assert read_pasted("0\t0\t0\n\t1\t0\n0\t\t1/2\n1/6\t2/3\t1/6") == Pasted(
-        (("0", "0", "0"), ("0", "1", "0"), ("0", "0", "1/2")),
-        ("1/6", "2/3", "1/6"),
+        (("0", "0", "0"), ("0", "1", "0"), ("0", "0", "1/2")), ("1/6", "2/3", "1/6")
     )
 
 
@@ -164,25 +161,17 @@ def test_no_file_is_lost(tmp_path: Path) -> None:
 @given(
     st.integers(2, 4).flatmap(
         lambda s: st.tuples(
-            st.lists(
-                st.lists(NUMBERS, min_size=s, max_size=s),
-                min_size=s,
-                max_size=s,
-            ),
+            st.lists(st.lists(NUMBERS, min_size=s, max_size=s), min_size=s, max_size=s),
             st.lists(NUMBERS, min_size=s, max_size=s),
             st.lists(NUMBERS, min_size=s, max_size=s),
         )
     ),
     st.sampled_from(["|", " | ", " & "]),
 )
-def test_full_rows(
-    parts: tuple[list[list[str]], list[str], list[str]], bar: str
-) -> None:
+def test_full_rows(parts: tuple[list[list[str]], list[str], list[str]], bar: str) -> None:
     """A full matrix with nodes and weights is read as it was written, with bars and without."""
     A, b, c = parts
-    rows = [
-        f"{node}{bar}{' '.join(row)}" for node, row in zip(c, A, strict=True)
-    ]
+    rows = [f"{node}{bar}{' '.join(row)}" for node, row in zip(c, A, strict=True)]
     last = f"{bar}{' '.join(b)}"
     wanted = Pasted(tuple(map(tuple, A)), tuple(b), tuple(c))
     assert read_pasted("\n".join([*rows, last])) == wanted

@@ -47,17 +47,7 @@ def test_orders_are_seen(method: str, problem: str) -> None:
 def test_a_file_is_the_built_in_problem() -> None:
     """Kepler from its file and Kepler by name: the same errors."""
     one, other = (
-        json.loads(
-            gark(
-                "converge",
-                RECTANGULAR,
-                "--problem",
-                x,
-                *STEPS,
-                "--format",
-                "json",
-            ).out
-        )
+        json.loads(gark("converge", RECTANGULAR, "--problem", x, *STEPS, "--format", "json").out)
         for x in ("problems/kepler.yaml", "kepler")
     )
     assert one["problem"] == "Kepler"
@@ -74,12 +64,7 @@ def test_standard_input_is_a_file() -> None:
     assert run.code == 0, run.err
     assert "x^4" in run.out
     again = gark(
-        "converge",
-        RECTANGULAR,
-        "--problem",
-        "-",
-        *STEPS,
-        stdin=text.replace("x**4", "x**6"),
+        "converge", RECTANGULAR, "--problem", "-", *STEPS, stdin=text.replace("x**4", "x**6")
     )
     assert "x^6" in again.out
 
@@ -93,18 +78,11 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
     two.write_text(f"variables: [x]\nhamiltonian: [px**2/2, x**2/2]\n{start}")
     one.write_text(f"variables: [x]\nhamiltonian: px**2/2 + x**4/4\n{start}")
     single, double, triple = (
-        load(str(ROOT / x)).tableau
-        for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE)
+        load(str(ROOT / x)).tableau for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE)
     )
     assert len(find_problem(str(two), single).terms) == 1
     assert len(find_problem(str(two), double).terms) == 2
-    assert [
-        len(find_problem(str(one), x).terms) for x in (single, double, triple)
-    ] == [
-        1,
-        2,
-        3,
-    ]
+    assert [len(find_problem(str(one), x).terms) for x in (single, double, triple)] == [1, 2, 3]
     assert len(set(find_problem(str(one), triple).terms)) == 2
     run = gark("converge", THREE, "--problem", str(two))
     assert run.code == 2
@@ -116,24 +94,15 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
     ("arguments", "said"),
     [
         (("--problem", "keppler"), "did you mean 'kepler'"),
-        (
-            ("--problem", "no-such.yaml"),
-            "no-such.yaml: error[no-such-file]: no such file",
-        ),
+        (("--problem", "no-such.yaml"), "no-such.yaml: error[no-such-file]: no such file"),
         (("--problem", "problems"), "no problem 'problems'"),
         (("--problem", "./problems"), "not a regular file"),
-        (
-            ("--problem", RECTANGULAR),
-            "this is a method file, not a problem file",
-        ),
+        (("--problem", RECTANGULAR), "this is a method file, not a problem file"),
         (
             ("--problem", "problems/kepler.yaml", "--seed", "2"),
             "--seed is for the problems generic",
         ),
-        (
-            ("--problem", "problems/kepler.yaml", "--omega", "2"),
-            "is for the oscillator",
-        ),
+        (("--problem", "problems/kepler.yaml", "--omega", "2"), "is for the oscillator"),
         (
             ("--problem", "problems/spherical-pendulum.yaml"),
             "H{1} of spherical pendulum depends on q",
@@ -151,16 +120,11 @@ def test_what_is_wrong_is_said(arguments: tuple[str, ...], said: str) -> None:
 def test_faults_have_carets(tmp_path: Path) -> None:
     """All of them, under the text, as method files have them."""
     path = tmp_path / "bad.yaml"
-    path.write_text(
-        "variables: [x]\nhamiltonian: px**2/2 + z\ninitial: {x: log(-1)}\n"
-    )
+    path.write_text("variables: [x]\nhamiltonian: px**2/2 + z\ninitial: {x: log(-1)}\n")
     run = gark("converge", RECTANGULAR, "--problem", str(path))
     assert run.code == 2
     lines = run.err.splitlines()
-    caret = (
-        next(i for i, line in enumerate(lines) if "hamiltonian: px" in line)
-        + 1
-    )
+    caret = next(i for i, line in enumerate(lines) if "hamiltonian: px" in line) + 1
     assert lines[caret].index("^") == lines[caret - 1].index("z")
     assert "x: log of -1 is no real number" in run.err
     assert "Traceback" not in run.err
@@ -178,9 +142,7 @@ def test_names_are_those_of_the_list() -> None:
     """What --problem takes is what gark list shows, in one order; each name makes a problem."""
     listed = json.loads(gark("list", "--format", "json").out)["problems"]
     assert [x["name"] for x in listed] == list(PROBLEMS)
-    assert all(
-        ProblemType().convert(name, None, None) == name for name in PROBLEMS
-    )
+    assert all(ProblemType().convert(name, None, None) == name for name in PROBLEMS)
     tableau = load(str(ROOT / COLLOCATION)).tableau
     for name in PROBLEMS:
         assert len(find_problem(name, tableau).terms) == 2
@@ -200,22 +162,17 @@ def test_list_mentions_files() -> None:
 def test_names_are_completed() -> None:
     """By the shell: names by their beginning, files for all else."""
     complete = ShellComplete(group, {}, "gark", "_GARK_COMPLETE")
-    found = complete.get_completions(
-        ["converge", COLLOCATION, "--problem"], "dou"
-    )
+    found = complete.get_completions(["converge", COLLOCATION, "--problem"], "dou")
     assert [x.value for x in found] == ["double-pendulum"]
     assert [
         x.type
-        for x in complete.get_completions(
-            ["converge", COLLOCATION, "--problem"], "problems/"
-        )
+        for x in complete.get_completions(["converge", COLLOCATION, "--problem"], "problems/")
     ] == ["file"]
     assert isinstance(ProblemType(), click.ParamType)
 
 
 @pytest.mark.parametrize(
-    "command",
-    [("converge", *STEPS), ("energy", "--t-end", "10", "--step", "1/10")],
+    "command", [("converge", *STEPS), ("energy", "--t-end", "10", "--step", "1/10")]
 )
 def test_an_invariant_that_is_none_is_told(command: tuple[str, ...]) -> None:
     """A sign that is wrong: x py + y px changes on the exact solution, so its errors are not the

@@ -19,12 +19,7 @@ def run(
     command = [sys.executable, *python, *arguments]
     environment = {**os.environ, "COLUMNS": "80", "PYTHONPATH": str(ROOT)}
     return subprocess.run(
-        command,
-        cwd=ROOT,
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=60,
+        command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60
     )
 
 
@@ -37,9 +32,7 @@ def run(
         (2, ("nonsense",)),
     ],
 )
-def test_exit_codes_of_the_process(
-    code: int, arguments: tuple[str, ...]
-) -> None:
+def test_exit_codes_of_the_process(code: int, arguments: tuple[str, ...]) -> None:
     """``python -m garkcli`` ends with the documented exit code and no traceback."""
     done = run(*arguments)
     assert done.returncode == code
@@ -51,13 +44,7 @@ def test_a_reader_that_goes_away_is_no_fault() -> None:
     command = f'"{sys.executable}" -m garkcli trees -N 3 -n 8 | head -1'
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     done = subprocess.run(
-        command,
-        shell=True,
-        cwd=ROOT,
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=60,
+        command, shell=True, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60
     )
     assert done.stdout == "order 8, root colour 1\n"
     assert done.stderr == ""
@@ -133,7 +120,5 @@ def test_a_fault_of_the_program_is_owned_up_to() -> None:
     )
     done = run(python=("-c", script))
     assert done.returncode == 3
-    assert done.stderr.startswith(
-        "gark: internal fault: RuntimeError: broken\n"
-    )
+    assert done.stderr.startswith("gark: internal fault: RuntimeError: broken\n")
     assert "Traceback" not in done.stderr

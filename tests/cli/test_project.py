@@ -31,8 +31,7 @@ def put(folder: Path, name: str, text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "head"),
-    [(".gark.toml", ""), ("pyproject.toml", "[tool.gark]\n")],
+    ("name", "head"), [(".gark.toml", ""), ("pyproject.toml", "[tool.gark]\n")]
 )
 def test_paths_and_format(project: Path, name: str, head: str) -> None:
     """Without FILE the paths are checked, from whatever folder of the project; options win."""
@@ -56,9 +55,7 @@ def test_paths_and_format(project: Path, name: str, head: str) -> None:
         ("pyproject.toml", "tool = {gark = 1}", "tool.gark is no table"),
     ],
 )
-def test_values_of_another_kind(
-    project: Path, name: str, text: str, message: str
-) -> None:
+def test_values_of_another_kind(project: Path, name: str, text: str, message: str) -> None:
     """A list where a word belongs, a number where a table does: said, with what to write."""
     put(project, name, text)
     run = gark("check", "tables", cwd=project)
@@ -123,9 +120,7 @@ def test_what_is_not_ours(project: Path) -> None:
     assert "Missing argument" in gark("check", cwd=inner).err
 
 
-def test_paths_on_another_drive_stay_whole(
-    project: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_paths_on_another_drive_stay_whole(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no path leads there from here, as on Windows, they are taken as they are written."""
     place = str(project / "tables")
     put(project, ".gark.toml", f"paths = [{json.dumps(place)}]\n")

@@ -74,9 +74,7 @@ def test_equal_stages_become_one() -> None:
     assert str(method.A) == str(((loads("{A: [[1/2]], b: [1]}").A[0][0],),))
 
 
-@pytest.mark.parametrize(
-    "path", sorted((ROOT / "methods").glob("*.yaml")), ids=lambda x: x.name
-)
+@pytest.mark.parametrize("path", sorted((ROOT / "methods").glob("*.yaml")), ids=lambda x: x.name)
 def test_nothing_to_reduce(path: Path) -> None:
     """No method of the project has a stage too many; each is written as it is, with a note."""
     run = gark("reduce", str(path))
@@ -87,13 +85,8 @@ def test_nothing_to_reduce(path: Path) -> None:
 
 def test_other_formats() -> None:
     """The smaller tableau as text and as JSON."""
-    assert (
-        "1/2 | 1/2" in gark("reduce", "-", "--format", "text", stdin=TWICE).out
-    )
-    assert (
-        '"stages": 1'
-        in gark("reduce", "-", "--format", "json", stdin=TWICE).out
-    )
+    assert "1/2 | 1/2" in gark("reduce", "-", "--format", "text", stdin=TWICE).out
+    assert '"stages": 1' in gark("reduce", "-", "--format", "json", stdin=TWICE).out
 
 
 def test_what_is_not_compared_is_refused() -> None:

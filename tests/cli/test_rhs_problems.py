@@ -31,11 +31,7 @@ def test_the_slope_that_stiffness_leaves() -> None:
     assert data["stiffness"] == "1000000"
     assert data["stiff"]["classical_order"] == 2
     assert data["stiff"]["stage_order"] == 1
-    assert (
-        data["stiff"]["slope"]
-        == data["observed_order"]
-        == pytest.approx(1, abs=0.1)
-    )
+    assert data["stiff"]["slope"] == data["observed_order"] == pytest.approx(1, abs=0.1)
     assert data["short"]["observed_order"] == pytest.approx(2, abs=0.05)
     assert {step["energy_error"] for step in data["steps"]} == {None}
 
@@ -54,18 +50,11 @@ def test_files_and_built_in_problems_are_the_same() -> None:
 def test_methods_are_compared() -> None:
     """An explicit one, an IMEX one and a GARK method of one file, on one problem."""
     files = (ARS, RK4, "methods/collocation.gark.yaml")
-    run = gark(
-        "converge", *files, "--problem", "van-der-pol", "--format", "json"
-    )
+    run = gark("converge", *files, "--problem", "van-der-pol", "--format", "json")
     assert run.code == 0, run.err
     results = json.loads(run.out)["results"]
-    assert [x["observed_order"] for x in results] == pytest.approx(
-        [2, 4, 4], abs=0.05
-    )
-    assert (
-        "van-der-pol, stiffness 1"
-        in gark("converge", ARS, RK4, "--problem", "van-der-pol").out
-    )
+    assert [x["observed_order"] for x in results] == pytest.approx([2, 4, 4], abs=0.05)
+    assert "van-der-pol, stiffness 1" in gark("converge", ARS, RK4, "--problem", "van-der-pol").out
 
 
 @pytest.mark.parametrize(
@@ -73,20 +62,12 @@ def test_methods_are_compared() -> None:
     [
         (("--stiffness", "10"), "--stiffness is for a problem that has one"),
         (("--problem", "kepler", "--stiffness", "10"), "not for kepler"),
-        (
-            ("--problem", "van-der-pol", "--stiffness", "0"),
-            "a positive number",
-        ),
+        (("--problem", "van-der-pol", "--stiffness", "0"), "a positive number"),
         (("--problem", "van-der-pol", "--seed", "3"), "--seed is for"),
-        (
-            ("--problem", BODY, "--stiffness", "3"),
-            "no parameter called stiffness",
-        ),
+        (("--problem", BODY, "--stiffness", "3"), "no parameter called stiffness"),
     ],
 )
-def test_stiffness_that_would_change_nothing(
-    options: tuple[str, ...], message: str
-) -> None:
+def test_stiffness_that_would_change_nothing(options: tuple[str, ...], message: str) -> None:
     """Is refused, with the problems that have one."""
     run = gark("converge", ARS, *options)
     assert run.code == 2
@@ -95,12 +76,7 @@ def test_stiffness_that_would_change_nothing(
 
 def test_momenta_are_for_hamiltonian_problems() -> None:
     """A method that drives positions and momenta."""
-    run = gark(
-        "converge",
-        "methods/stoermer-verlet.gark.yaml",
-        "--problem",
-        "van-der-pol",
-    )
+    run = gark("converge", "methods/stoermer-verlet.gark.yaml", "--problem", "van-der-pol")
     assert run.code == 2
     assert "drives positions and momenta" in run.err
 
@@ -125,9 +101,7 @@ def test_invariants_are_followed() -> None:
 def test_the_midpoint_rule_keeps_quadratic_invariants(tmp_path: Path) -> None:
     """To round-off."""
     file = tmp_path / "midpoint.gark.yaml"
-    file.write_text(
-        "methods: [{family: gauss, stages: 1}]\n", encoding="utf-8"
-    )
+    file.write_text("methods: [{family: gauss, stages: 1}]\n", encoding="utf-8")
     run = gark(
         "energy",
         str(file),
@@ -159,13 +133,5 @@ def test_nothing_to_follow() -> None:
 
 def test_the_list_has_them() -> None:
     """``gark list`` shows all built-in problems."""
-    names = {
-        x["name"]
-        for x in json.loads(gark("list", "--format", "json").out)["problems"]
-    }
-    assert names >= {
-        "prothero-robinson",
-        "van-der-pol",
-        "reaction-diffusion",
-        "generic-rhs",
-    }
+    names = {x["name"] for x in json.loads(gark("list", "--format", "json").out)["problems"]}
+    assert names >= {"prothero-robinson", "van-der-pol", "reaction-diffusion", "generic-rhs"}

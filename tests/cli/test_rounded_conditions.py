@@ -32,9 +32,7 @@ def test_conditions_within_the_tolerance_do_not_fail(rounded: str) -> None:
     """Up to the order within the tolerance all conditions are met; none is said to hold that only
     nearly does.
     """
-    report = json.loads(
-        gark("conditions", rounded, "-n", "5", "--format", "json").out
-    )
+    report = json.loads(gark("conditions", rounded, "-n", "5", "--format", "json").out)
     assert report["tolerance"] == "1e-15"
     rows = report["conditions"]
     assert {row["order"] for row in rows if not row["holds"]} == {5}
@@ -52,15 +50,7 @@ def test_conditions_within_the_tolerance_do_not_fail(rounded: str) -> None:
 def test_independent_conditions_within_the_tolerance(rounded: str) -> None:
     """The independent conditions of the pair are judged within the tolerance of the file too."""
     rows = json.loads(
-        gark(
-            "conditions",
-            rounded,
-            "-n",
-            "4",
-            "--symplectic",
-            "--format",
-            "json",
-        ).out
+        gark("conditions", rounded, "-n", "4", "--symplectic", "--format", "json").out
     )["conditions"]
     assert all(row["holds"] for row in rows)
     assert any(row["residual"] != "0" for row in rows)
@@ -69,9 +59,7 @@ def test_independent_conditions_within_the_tolerance(rounded: str) -> None:
 def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
     """Its file has the tolerance, so that it is checked within it, also the pair's."""
     for options in ((), ("--pair",)):
-        again = loads(
-            gark("conjugate", rounded, "--format", "yaml", *options).out
-        )
+        again = loads(gark("conjugate", rounded, "--format", "yaml", *options).out)
         assert again.tolerance is not None
         assert to_float(again.tolerance) == 1e-15
         assert find_order_within(again.tableau, again.tolerance, 6).order == 4
@@ -79,16 +67,12 @@ def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
 
 @pytest.mark.parametrize("command", ["tableau", "conditions", "conjugate"])
 @pytest.mark.parametrize("layout", ["latex", "text"])
-def test_rounded_methods_are_printed_in_decimals(
-    command: str, layout: str, tmp_path: Path
-) -> None:
+def test_rounded_methods_are_printed_in_decimals(command: str, layout: str, tmp_path: Path) -> None:
     """No fraction of twenty digits where people read; the decimals are those of the exact numbers
     in the JSON.
     """
     file = tmp_path / "rounded.gark.yaml"
-    methods = (
-        DECIMALS.read_text().partition("methods:")[2].partition("\n\n")[0]
-    )
+    methods = DECIMALS.read_text().partition("methods:")[2].partition("\n\n")[0]
     file.write_text(
         f"methods:{methods}\n  - {{family: lobatto-iiia, stages: 3}}\ntransfer: collocation\ntolerance: 1e-13\n"
     )
@@ -98,15 +82,9 @@ def test_rounded_methods_are_printed_in_decimals(
     exact = gark(command, str(file), *order, "--format", "json").out
     assert re.search(r"\d{20}", exact)
     if command == "conditions":
-        rows = [
-            row
-            for row in json.loads(exact)["conditions"]
-            if len(row["value"]) > 60
-        ]
+        rows = [row for row in json.loads(exact)["conditions"] if len(row["value"]) > 60]
         assert rows
-        assert shown.count(
-            r"\approx" if layout == "latex" else "is about"
-        ) == len(rows)
+        assert shown.count(r"\approx" if layout == "latex" else "is about") == len(rows)
         return
     entries = json.loads(exact)
     assert entries["exact"]
@@ -121,9 +99,7 @@ def test_rounded_methods_are_printed_in_decimals(
 def test_exact_methods_are_printed_exactly(tmp_path: Path) -> None:
     """Without a tolerance a long fraction is a coefficient as meant, and stays one."""
     file = tmp_path / "long.gark.yaml"
-    file.write_text(
-        "methods: [{A: [[12345678901234567890123/98765432109876543210988]], b: [1]}]"
-    )
+    file.write_text("methods: [{A: [[12345678901234567890123/98765432109876543210988]], b: [1]}]")
     for layout in ("text", "latex"):
         shown = gark("tableau", str(file), "--format", layout).out
         assert "12345678901234567890123" in shown
@@ -142,25 +118,13 @@ def test_failing_conditions_are_counted_among_all() -> None:
     assert [line for line in every if "FAILS" in line] == [
         line for line in failing if "FAILS" in line
     ]
-    assert [line for line in failing if line.startswith("order")] == [
-        "order 3"
-    ]
+    assert [line for line in failing if line.startswith("order")] == ["order 3"]
 
 
 @pytest.mark.parametrize("more", [[], ["--symplectic"]])
-def test_a_csv_without_failing_conditions_has_its_heading(
-    more: list[str],
-) -> None:
+def test_a_csv_without_failing_conditions_has_its_heading(more: list[str]) -> None:
     """Programs that read the table find its columns, whether there are rows or not."""
-    asked = [
-        "conditions",
-        "methods/collocation.gark.yaml",
-        "-n",
-        "3",
-        "--format",
-        "csv",
-        *more,
-    ]
+    asked = ["conditions", "methods/collocation.gark.yaml", "-n", "3", "--format", "csv", *more]
     every, failing = gark(*asked).out, gark(*asked, "--failing").out
     assert failing == every.splitlines(keepends=True)[0]
 

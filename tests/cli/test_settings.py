@@ -12,11 +12,7 @@ FAMILY = "parameters: {g: free, one: 1}\nA: [[g, 0], [one - 2*g, g]]\nb: [1/2, 1
 METHOD = "A: [[1/4, 0], [1/2, 1/4]]\nb: [1/2, 1/2]\n"
 SHAPE = "unknown: {stages: 2, shape: sdirk}\n"
 CHOSEN = ["--set", "g=1/4"]
-SHAPED = [
-    x
-    for text in ("gamma=1/4", "c2=3/4", "b1=1/2", "b2=1/2")
-    for x in ("--set", text)
-]
+SHAPED = [x for text in ("gamma=1/4", "c2=3/4", "b1=1/2", "b2=1/2") for x in ("--set", text)]
 COMMANDS: dict[str, list[str]] = {
     "check": ["--format", "json"],
     "tableau": ["--format", "json"],
@@ -27,14 +23,7 @@ COMMANDS: dict[str, list[str]] = {
     "modified": ["--format", "json"],
     "reduce": ["--format", "json"],
     "energy": ["--t-end", "2", "--format", "json"],
-    "converge": [
-        "--problem",
-        "oscillator",
-        "--steps",
-        "1/2,1/4,1/8",
-        "--format",
-        "json",
-    ],
+    "converge": ["--problem", "oscillator", "--steps", "1/2,1/4,1/8", "--format", "json"],
 }
 EVERY_VALUE = {"check", "tableau", "conjugate", "conditions", "stability"}
 """Commands that say what holds for every value."""
@@ -68,13 +57,8 @@ def test_what_is_not_chosen_is_said(command: str, tmp_path: Path) -> None:
         assert (told.code, says_values) == (0, False)
     else:
         assert (told.code, says_values) == (2, True)
-    wrong = gark(
-        command, str(path), *COMMANDS[command], *CHOSEN, "--set", "h=1"
-    )
-    assert (wrong.code, "no parameter 'h'" in wrong.out + wrong.err) == (
-        2,
-        True,
-    )
+    wrong = gark(command, str(path), *COMMANDS[command], *CHOSEN, "--set", "h=1")
+    assert (wrong.code, "no parameter 'h'" in wrong.out + wrong.err) == (2, True)
 
 
 @pytest.mark.parametrize("command", ["check", "stability", "converge"])

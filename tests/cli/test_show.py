@@ -39,9 +39,7 @@ def test_a_file_is_judged(tmp_path: Path) -> None:
     assert (shown["order"], shown["explicit"]) == (3, True)
     assert (shown["facts"], shown["catalogue"]) == ("found", "")
     assert shown["publication"]["year"] == "1900"
-    by_name = gark(
-        "show", "heun", "--catalogue", str(tmp_path), "--format", "json"
-    )
+    by_name = gark("show", "heun", "--catalogue", str(tmp_path), "--format", "json")
     named = json.loads(by_name.out)
     assert (named["name"], named["order"]) == ("heun", 3)
     assert named["facts"] == "found"
@@ -67,9 +65,7 @@ def test_the_text_has_what_people_look_for(tmp_path: Path) -> None:
 
 def test_values_of_parameters_are_judged() -> None:
     """With ``--set`` the index says nothing of the method."""
-    run = gark(
-        *("show", "ark-ars222", "--set", "g=1/2", "--format", "json"),
-    )
+    run = gark(*("show", "ark-ars222", "--set", "g=1/2", "--format", "json"))
     shown = json.loads(run.out)
     assert shown["facts"] == "found"
     assert shown["gamma"] == "1/2"
@@ -78,9 +74,7 @@ def test_values_of_parameters_are_judged() -> None:
 
 def test_a_family_has_no_one_tableau(tmp_path: Path) -> None:
     """It is told as everywhere."""
-    (tmp_path / "f.gark.yaml").write_text(
-        "parameters: {t: free}\nA: [[t]]\nb: [1]\n"
-    )
+    (tmp_path / "f.gark.yaml").write_text("parameters: {t: free}\nA: [[t]]\nb: [1]\n")
     run = gark("show", "f.gark.yaml", cwd=tmp_path)
     assert run.code == 2
     assert "t" in run.err

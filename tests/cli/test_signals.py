@@ -32,9 +32,7 @@ def _as_from_a_terminal() -> None:
 
 
 @contextmanager
-def running(
-    *arguments: str, ignoring: bool = False
-) -> Iterator[subprocess.Popen[bytes]]:
+def running(*arguments: str, ignoring: bool = False) -> Iterator[subprocess.Popen[bytes]]:
     """The program at work; it is gone at the end."""
     with subprocess.Popen(
         [sys.executable, "-m", "garkcli", *arguments],
@@ -60,9 +58,7 @@ def wait_for(folder: Path, process: subprocess.Popen[bytes]) -> None:
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
-def test_a_report_that_is_cut_short_leaves_nothing(
-    name: str, tmp_path: Path
-) -> None:
+def test_a_report_that_is_cut_short_leaves_nothing(name: str, tmp_path: Path) -> None:
     """A signal while a file is being written takes it back: no file, no temporary one, no word, and
     128 plus the number of the signal.
     """
@@ -92,9 +88,7 @@ def test_signals_that_are_ignored_stay_so(tmp_path: Path) -> None:
     """Under ``nohup`` a terminal that closes does not end the run; SIGTERM still does."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with running(
-            *FOR_EVER, "-o", str(tmp_path / "trees"), ignoring=True
-        ) as process:
+        with running(*FOR_EVER, "-o", str(tmp_path / "trees"), ignoring=True) as process:
             wait_for(tmp_path, process)
             process.send_signal(signal.SIGHUP)
             size = next(tmp_path.iterdir()).stat().st_size

@@ -18,51 +18,20 @@ RUNS = {
         f"{EXAMPLES}/failing",
         "methods/ark-ars222.gark.yaml",
     ),
-    "check-failing": (
-        "check",
-        f"{EXAMPLES}/failing/collocation-misprinted.gark.yaml",
-    ),
+    "check-failing": ("check", f"{EXAMPLES}/failing/collocation-misprinted.gark.yaml"),
     "check-invalid": ("check", f"{EXAMPLES}/invalid/many-faults.gark.yaml"),
-    "check-zero-weight": (
-        "check",
-        f"{EXAMPLES}/valid/ark-own-weights.gark.yaml",
-    ),
-    "check-json": (
-        "check",
-        "methods/rectangular.gark.yaml",
-        "--format",
-        "json",
-    ),
+    "check-zero-weight": ("check", f"{EXAMPLES}/valid/ark-own-weights.gark.yaml"),
+    "check-json": ("check", "methods/rectangular.gark.yaml", "--format", "json"),
     "trees": ("trees", "-N", "2", "-n", "3", "--root", "1"),
-    "trees-count": (
-        "trees",
-        "-N",
-        "3",
-        "-n",
-        "12",
-        "--upto",
-        "--count",
-        "--root",
-        "2",
-    ),
+    "trees-count": ("trees", "-N", "3", "-n", "12", "--upto", "--count", "--root", "2"),
     "conditions": ("conditions", "--order", "4"),
     "conditions-file": ("conditions", VERLET, "--order", "3"),
     "conditions-latex": ("conditions", "--order", "3", "--format", "latex"),
     "tableau": ("tableau", "methods/collocation-conjugate.gark.yaml"),
-    "tableau-decimals": (
-        "tableau",
-        "methods/gauss6-lobatto7.gark.yaml",
-        "--digits",
-        "3",
-    ),
+    "tableau-decimals": ("tableau", "methods/gauss6-lobatto7.gark.yaml", "--digits", "3"),
     "tableau-latex": ("tableau", VERLET, "--format", "latex"),
     "conjugate-pair": ("conjugate", "methods/collocation.gark.yaml", "--pair"),
-    "conjugate-yaml": (
-        "conjugate",
-        "methods/gauss6-lobatto7.gark.yaml",
-        "--format",
-        "yaml",
-    ),
+    "conjugate-yaml": ("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"),
     "converge": ("converge", VERLET),
     "converge-several": (
         "converge",
@@ -108,11 +77,7 @@ def record(arguments: tuple[str, ...], run: Run) -> str:
     """A run as text."""
     head = f"$ gark {' '.join(arguments)}\nexit code {run.code}\n"
     return "".join(
-        [
-            head,
-            f"\n-- stdout --\n{run.out}",
-            f"\n-- stderr --\n{run.err}" if run.err else "",
-        ]
+        [head, f"\n-- stdout --\n{run.out}", f"\n-- stderr --\n{run.err}" if run.err else ""]
     )
 
 
@@ -126,17 +91,11 @@ def test_a_run_is_as_recorded(name: str) -> None:
     assert_recorded(SNAPSHOTS / f"{name}.txt", record(RUNS[name], run))
 
 
-@pytest.mark.parametrize(
-    "name", [name for name in RUNS if name not in SOURCES]
-)
+@pytest.mark.parametrize("name", [name for name in RUNS if name not in SOURCES])
 def test_a_run_fits_the_terminal(name: str) -> None:
     """No line of the report is wider than 80 columns, file names apart."""
     run = gark(*RUNS[name])
-    lines = [
-        line
-        for line in (run.out + run.err).splitlines()
-        if ".gark.yaml" not in line
-    ]
+    lines = [line for line in (run.out + run.err).splitlines() if ".gark.yaml" not in line]
     assert [line for line in lines if len(line) > 80] == []
 
 

@@ -36,9 +36,7 @@ def shown_texts() -> list[str]:
     texts = []
     for path in (ROOT / "garkcli").rglob("*.py"):
         nodes = list(ast.walk(ast.parse(path.read_text("utf-8"))))
-        documenting = {
-            id(node.value) for node in nodes if isinstance(node, ast.Expr)
-        }
+        documenting = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
         if path.parent.name == "cli":
             documenting = set()
         texts += [
@@ -55,17 +53,13 @@ def test_every_sign_of_the_program_has_an_ascii_form() -> None:
     """Whatever text of the package may be shown, no sign of it becomes a code point, a question
     mark or nothing.
     """
-    signs = {
-        sign for text in shown_texts() for sign in text if sign.isprintable()
-    }
+    signs = {sign for text in shown_texts() for sign in text if sign.isprintable()}
     # limits of ranges of signs, and the sign for signs that are not shown
     signs -= {"\U00010000", "\N{REPLACEMENT CHARACTER}"}
     assert len(signs) > 100
     forms = {sign: ascii_form(sign) for sign in signs}
     assert all(form.isascii() for form in forms.values())
-    assert [
-        x for x, form in forms.items() if form != x and set(form) & {"\\", "?"}
-    ] == []
+    assert [x for x, form in forms.items() if form != x and set(form) & {"\\", "?"}] == []
     assert "" not in forms.values()
 
 
@@ -97,9 +91,7 @@ def test_columns_stay_where_they_are() -> None:
     arguments = ("trees", "-N", "2", "-n", "3", "--root", "1")
     meant, made = gark(*arguments).out, gark(*arguments, encoding="ascii").out
     drawn = str.maketrans("●╰┬─╯│", "o`+-'|")
-    for before, after in zip(
-        meant.splitlines()[1:-1], made.splitlines()[1:-1], strict=True
-    ):
+    for before, after in zip(meant.splitlines()[1:-1], made.splitlines()[1:-1], strict=True):
         assert after[DRAWING:] == before.translate(drawn)[DRAWING:]
         assert after[DRAWING - 2 : DRAWING] == "  "
 
@@ -121,20 +113,11 @@ def test_any_text_can_be_written(text: str, encoding: str) -> None:
 
 
 @pytest.mark.parametrize("format_", ["json", "yaml"])
-def test_formats_with_escapes_lose_nothing(
-    format_: str, tmp_path: Path
-) -> None:
+def test_formats_with_escapes_lose_nothing(format_: str, tmp_path: Path) -> None:
     """Where the stream lacks a sign, JSON and YAML have it as an escape, and read back the same."""
     method = "methods: [{family: gauss, stages: 2}]\nname: Störmer γ 𝟙 中\n"
     (tmp_path / "m.gark.yaml").write_text(method, encoding="utf-8")
-    run = gark(
-        "conjugate",
-        "m.gark.yaml",
-        "--format",
-        format_,
-        cwd=tmp_path,
-        encoding="cp1252",
-    )
+    run = gark("conjugate", "m.gark.yaml", "--format", format_, cwd=tmp_path, encoding="cp1252")
     assert run.out.isascii()
     read = json.loads if format_ == "json" else yaml.safe_load
     assert read(run.out)["name"] == "symplectic conjugate of Störmer γ 𝟙 中"
@@ -153,19 +136,13 @@ def test_a_file_is_utf_8_whatever_the_stream_is(tmp_path: Path) -> None:
 # -- processes
 
 
-def shell(
-    command: str, **variables: str
-) -> subprocess.CompletedProcess[bytes]:
+def shell(command: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
     """What a shell makes of a command in which gark is ``$GARK``."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80"}
     environment["GARK"] = f"{sys.executable} -m garkcli"
     environment.update(variables)
     return subprocess.run(
-        ["bash", "-c", command],
-        cwd=ROOT,
-        env=environment,
-        capture_output=True,
-        timeout=120,
+        ["bash", "-c", command], cwd=ROOT, env=environment, capture_output=True, timeout=120
     )
 
 
@@ -182,24 +159,17 @@ def shell(
 def test_a_process_without_utf_8(variables: dict[str, str]) -> None:
     """The program writes Greek into a pipe of another encoding, without a fault."""
     done = shell(
-        "$GARK trees -N 2 -n 3; $GARK --help; $GARK check methods/rk4.gark.yaml",
-        **variables,
+        "$GARK trees -N 2 -n 3; $GARK --help; $GARK check methods/rk4.gark.yaml", **variables
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.count(b"?") == 1  # that of the help
-    assert b"sigma = 2" in done.stdout or "σ = 2" in done.stdout.decode(
-        "utf-8"
-    )
+    assert b"sigma = 2" in done.stdout or "σ = 2" in done.stdout.decode("utf-8")
 
 
 @pytest.mark.parametrize(
     ("command", "code", "says"),
     [
-        (
-            "$GARK check methods/rk4.gark.yaml >&-",
-            2,
-            b"standard output is closed",
-        ),
+        ("$GARK check methods/rk4.gark.yaml >&-", 2, b"standard output is closed"),
         ("$GARK --help >&-", 2, b"standard output is closed"),
         ("$GARK check methods/rk4.gark.yaml -q >&-", 0, b""),
         ("$GARK check - <&-", 2, b"standard input is closed"),
@@ -226,8 +196,7 @@ def test_a_closed_stream_takes_no_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "command",
-    ["check methods/rk4.gark.yaml", "trees -N 3 -n 8", "schema", "--help"],
+    "command", ["check methods/rk4.gark.yaml", "trees -N 3 -n 8", "schema", "--help"]
 )
 def test_nobody_reads_the_report(command: str) -> None:
     """The exit code is that of a program that SIGPIPE ends, never that of a claim that fails."""
@@ -239,9 +208,7 @@ def test_nobody_reads_the_report(command: str) -> None:
 
 def test_somebody_stops_reading() -> None:
     """What fills a pipe ends with 141 when its reader stops."""
-    done = shell(
-        "$GARK trees -N 3 -n 9 --yes | head -1; exit ${PIPESTATUS[0]}"
-    )
+    done = shell("$GARK trees -N 3 -n 9 --yes | head -1; exit ${PIPESTATUS[0]}")
     assert (done.returncode, done.stderr) == (141, b"")
 
 
@@ -273,56 +240,32 @@ def test_a_full_disk() -> None:
     ],
     ids=" ".join,
 )
-@pytest.mark.parametrize(
-    "file", [f"{HOSTILE}.gark.yaml", "a\n::error::b.gark.yaml", "\udcff.yaml"]
-)
-def test_a_file_name_gives_no_orders(
-    arguments: tuple[str, ...], file: str, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("file", [f"{HOSTILE}.gark.yaml", "a\n::error::b.gark.yaml", "\udcff.yaml"])
+def test_a_file_name_gives_no_orders(arguments: tuple[str, ...], file: str, tmp_path: Path) -> None:
     """No sign of a file name reaches a terminal or the runner of a job as an order, for a method
     and for a file that is none, and bytes that are no UTF-8 are no fault.
     """
-    for text in (
-        "methods: [{family: gauss, stages: 2}]\n",
-        f'methods: [{{family: "{HOSTILE}"}}]',
-    ):
+    for text in ("methods: [{family: gauss, stages: 2}]\n", f'methods: [{{family: "{HOSTILE}"}}]'):
         try:
             (tmp_path / file).write_text(text, encoding="utf-8")
         except UnicodeEncodeError:
             pytest.skip("names of files are ASCII here")
-        run = gark(
-            arguments[0],
-            file,
-            *arguments[1:],
-            cwd=tmp_path,
-            GITHUB_ACTIONS="true",
-        )
+        run = gark(arguments[0], file, *arguments[1:], cwd=tmp_path, GITHUB_ACTIONS="true")
         assert run.code in (0, 2)
         shown = run.out + run.err
         assert all(sign.isprintable() or sign == "\n" for sign in shown)
-        assert not any(
-            line.lstrip().startswith("::") for line in shown.splitlines()
-        )
+        assert not any(line.lstrip().startswith("::") for line in shown.splitlines())
 
 
 def test_options_that_do_not_exist_are_named_harmlessly() -> None:
     """What was typed is shown, and orders nothing."""
-    for wrong in (
-        "--a\x1b[2J",
-        "--problem=\x1b[2J\u202e",
-        "-\x9b",
-        "\x1b]0;x\x07",
-    ):
+    for wrong in ("--a\x1b[2J", "--problem=\x1b[2J\u202e", "-\x9b", "\x1b]0;x\x07"):
         run = gark("converge", "methods/rk4.gark.yaml", wrong)
         assert run.code == 2
-        assert all(
-            sign.isprintable() or sign == "\n" for sign in run.out + run.err
-        )
+        assert all(sign.isprintable() or sign == "\n" for sign in run.out + run.err)
         run = gark(wrong)
         assert run.code == 2
-        assert all(
-            sign.isprintable() or sign == "\n" for sign in run.out + run.err
-        )
+        assert all(sign.isprintable() or sign == "\n" for sign in run.out + run.err)
 
 
 @given(st.text())
@@ -332,9 +275,7 @@ def test_escapes_are_those_of_the_format(text: str) -> None:
     made = written_out(whole, "json")
     assert made.replace("\n", "").isprintable()
     assert json.loads(made) == {"name": text}
-    assert all(
-        json.loads(f'"{escaped(sign, "json")}"') == sign for sign in text[:5]
-    )
+    assert all(json.loads(f'"{escaped(sign, "json")}"') == sign for sign in text[:5])
 
 
 # -- colour
@@ -351,9 +292,7 @@ def test_escapes_are_those_of_the_format(text: str) -> None:
         ({"FORCE_COLOR": "1", "NO_COLOR": ""}, True),
     ],
 )
-def test_colour_as_the_environment_asks(
-    variables: dict[str, str], coloured: bool
-) -> None:
+def test_colour_as_the_environment_asks(variables: dict[str, str], coloured: bool) -> None:
     """FORCE_COLOR colours where there is no terminal, reports and errors alike; NO_COLOR wins; an
     option is stronger than both.
     """
@@ -362,24 +301,18 @@ def test_colour_as_the_environment_asks(
     invalid = "tests/examples/invalid/octal.gark.yaml"
     assert ("\x1b[" in gark("tableau", invalid, **variables).err) is coloured
     assert "\x1b[" in gark("check", file, "--color", "always", **variables).out
-    assert (
-        "\x1b[" not in gark("check", file, "--color", "never", **variables).out
-    )
+    assert "\x1b[" not in gark("check", file, "--color", "never", **variables).out
 
 
 @given(st.sampled_from("ωαΩ²⁴ᵀ"), st.sampled_from("hqM"))
-def test_words_of_two_letters_do_not_run_together(
-    sign: str, letter: str
-) -> None:
+def test_words_of_two_letters_do_not_run_together(sign: str, letter: str) -> None:
     """A spelled letter beside a letter, and a letter after an exponent, have a gap between them."""
     assert plain_line(f"{sign}{letter}") == f"{ascii_form(sign)} {letter}"
     gap = "" if ascii_form(sign).startswith("^") else " "
     assert plain_line(f"{letter}{sign}") == f"{letter}{gap}{ascii_form(sign)}"
 
 
-def test_consoles_of_windows_are_told_to_show_colours(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_consoles_of_windows_are_told_to_show_colours(monkeypatch: pytest.MonkeyPatch) -> None:
     """There, once; nothing is looked for elsewhere."""
     told: list[str] = []
     console = ModuleType("colorama")

@@ -17,13 +17,7 @@ from garkcli.report.symplectic_subject import subject_of_method
 from garkcli.tableau.forms import pair, with_linear
 from garkcli.trees.count import count_trees
 from garkcli.trees.notation import parse_tree
-from garkcli.trees.symplectic import (
-    KINDS,
-    Kind,
-    class_of,
-    structure_of,
-    superfluous_classes,
-)
+from garkcli.trees.symplectic import KINDS, Kind, class_of, structure_of, superfluous_classes
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
@@ -102,16 +96,11 @@ def test_text_of_both_commands() -> None:
     left.
     """
     assert gark(*TREES, "-n", "3", "--members").out == TEXT
-    assert (
-        gark(*CONDITIONS, VERLET, "-n", "3", "--only", "--members").out
-        == CONDITIONS_TEXT
-    )
+    assert gark(*CONDITIONS, VERLET, "-n", "3", "--only", "--members").out == CONDITIONS_TEXT
 
 
 @pytest.mark.parametrize(("kind", "terms", "wanted"), COUNTS)
-def test_counts_are_those_of_the_table(
-    kind: str, terms: int, wanted: list[int]
-) -> None:
+def test_counts_are_those_of_the_table(kind: str, terms: int, wanted: list[int]) -> None:
     """``--count`` gives the documented numbers, and the listing has as many rows."""
     asked = (*TREES, "--kind", kind, "-N", str(terms), "--upto")
     counted = data(*asked, "-n", "8", "--count")
@@ -127,10 +116,7 @@ def test_counts_in_every_format() -> None:
     assert gark(*asked).out.startswith(
         "order 3: 20 instead of 104\n20 independent conditions of order 3"
     )
-    assert (
-        gark(*asked, "--format", "csv").out
-        == "kind,order,count,instead_of\npair,3,20,104\n"
-    )
+    assert gark(*asked, "--format", "csv").out == "kind,order,count,instead_of\npair,3,20,104\n"
     assert json.loads(gark(*asked, "--format", "ndjson").out) == data(*asked)
     assert gark(*asked, "--format", "latex").out == "3 & 20 & 104 \\\\\n"
     large = data(*TREES, "-n", "300", "--count")["count"]
@@ -151,61 +137,35 @@ def test_members_add_up_to_all_trees(kind: Kind) -> None:
     admissible = structure.admissible
     colours = range(admissible.colours)
     edges = [[m in row for m in colours] for row in admissible.branches]
-    assert found["instead_of"] == count_trees(
-        len(colours), 4, edges, admissible.linear
-    )
+    assert found["instead_of"] == count_trees(len(colours), 4, edges, admissible.linear)
     for row in found["classes"]:
         assert row["stands_for"] == len(row["members"])
         assert row["representative"] in row["members"]
-        centred = class_of(
-            structure, parse_tree(row["representative"])
-        ).centred
+        centred = class_of(structure, parse_tree(row["representative"])).centred
         assert all(
-            class_of(structure, parse_tree(tree)).centred == centred
-            for tree in row["members"]
+            class_of(structure, parse_tree(tree)).centred == centred for tree in row["members"]
         )
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_formats_agree(kind: Kind) -> None:
     """JSON, ndjson, CSV and text list the same classes with σ, γ and the number of members."""
-    asked = (
-        *TREES,
-        "--kind",
-        kind,
-        "-N",
-        "2",
-        "-n",
-        "4",
-        "--upto",
-        "--members",
-    )
+    asked = (*TREES, "--kind", kind, "-N", "2", "-n", "4", "--upto", "--members")
     rows = data(*asked)["classes"]
     assert rows
     assert [
-        json.loads(line)
-        for line in gark(*asked, "--format", "ndjson").out.splitlines()
+        json.loads(line) for line in gark(*asked, "--format", "ndjson").out.splitlines()
     ] == rows
-    in_csv = list(
-        csv.DictReader(io.StringIO(gark(*asked, "--format", "csv").out))
-    )
-    assert [x["members"].split() for x in in_csv] == [
-        x["members"] for x in rows
+    in_csv = list(csv.DictReader(io.StringIO(gark(*asked, "--format", "csv").out)))
+    assert [x["members"].split() for x in in_csv] == [x["members"] for x in rows]
+    assert [(x["kind"], x["representative"], int(x["stands_for"])) for x in in_csv] == [
+        (kind, x["representative"], x["stands_for"]) for x in rows
     ]
-    assert [
-        (x["kind"], x["representative"], int(x["stands_for"])) for x in in_csv
-    ] == [(kind, x["representative"], x["stands_for"]) for x in rows]
     in_text = re.findall(
-        r"^  (\S+) +σ = (\d+) +γ = (\d+) +(\d+) tree",
-        gark(*asked).out,
-        re.MULTILINE,
+        r"^  (\S+) +σ = (\d+) +γ = (\d+) +(\d+) tree", gark(*asked).out, re.MULTILINE
     )
     assert in_text == [
-        (
-            x["representative"],
-            *(str(x[k]) for k in ("sigma", "gamma", "stands_for")),
-        )
-        for x in rows
+        (x["representative"], *(str(x[k]) for k in ("sigma", "gamma", "stands_for"))) for x in rows
     ]
     for row in rows:
         tree = parse_tree(row["representative"])
@@ -222,21 +182,14 @@ def test_text_names_the_colours_within_80_columns() -> None:
     assert run.out.startswith("colours: 1 V1, 2 V2,")
     assert "24 F12" in run.out
     assert max(map(len, run.out.splitlines())) <= 80
-    assert (
-        "colours:"
-        not in gark(*TREES, "--kind", "self-conjugate", "-n", "3").out
-    )
+    assert "colours:" not in gark(*TREES, "--kind", "self-conjugate", "-n", "3").out
 
 
 def test_sheet_has_a_drawing_for_each_class(tmp_path: Path) -> None:
     """``--svg`` draws the representatives, each vertex a circle."""
     target = tmp_path / "sheet.svg"
     assert gark(*TREES, "-n", "4", "--svg", str(target)).code == 0
-    circles = (
-        ET.parse(target)
-        .getroot()
-        .findall(".//{http://www.w3.org/2000/svg}circle")
-    )
+    circles = ET.parse(target).getroot().findall(".//{http://www.w3.org/2000/svg}circle")
     assert len(circles) == 8 * 4
 
 
@@ -247,15 +200,12 @@ def test_conditions_of_a_kind_are_those_of_its_classes() -> None:
     found = data(*CONDITIONS, "--kind", "semi-separable", "-n", "4")
     classes = data(*TREES, "--kind", "semi-separable", "-n", "4", "--upto")
     assert found["symplectic"] == {
-        k: classes[k]
-        for k in ("kind", "terms", "colours", "count", "instead_of")
+        k: classes[k] for k in ("kind", "terms", "colours", "count", "instead_of")
     }
     assert [(x["tree"], x["stands_for"]) for x in found["conditions"]] == [
         (x["representative"], x["stands_for"]) for x in classes["classes"]
     ]
-    assert found["conditions"][-1]["condition"].endswith(
-        f"= 1/{found['conditions'][-1]['gamma']}"
-    )
+    assert found["conditions"][-1]["condition"].endswith(f"= 1/{found['conditions'][-1]['gamma']}")
 
 
 def test_collocation_satisfies_all_classes_to_order_four() -> None:
@@ -270,17 +220,11 @@ def test_collocation_satisfies_all_classes_to_order_four() -> None:
     assert not any(x["holds"] for x in fifth)
     assert not any(
         x["holds"]
-        for x in data(
-            "conditions", COLLOCATION, "--pair", "-n", "5", "--only"
-        )["conditions"]
+        for x in data("conditions", COLLOCATION, "--pair", "-n", "5", "--only")["conditions"]
     )
-    failing = gark(
-        *CONDITIONS, COLLOCATION, "-n", "5", "--only", "--failing"
-    ).out
+    failing = gark(*CONDITIONS, COLLOCATION, "-n", "5", "--only", "--failing").out
     assert " ".join(failing.split()).endswith("of 5996; 662 fail")
-    assert gark(*CONDITIONS, COLLOCATION, "-n", "4", "--failing").out.endswith(
-        "; all hold\n"
-    )
+    assert gark(*CONDITIONS, COLLOCATION, "-n", "4", "--failing").out.endswith("; all hold\n")
 
 
 def test_classes_that_fail_are_those_of_conditions_that_fail() -> None:
@@ -288,15 +232,9 @@ def test_classes_that_fail_are_those_of_conditions_that_fail() -> None:
     conditions.
     """
     path = "methods/symplectic-gauss-lobatto4.gark.yaml"
-    rows = data(*CONDITIONS, path, "-n", "5", "--only", "--members")[
-        "conditions"
-    ]
-    every = data("conditions", path, "--pair", "-n", "5", "--only")[
-        "conditions"
-    ]
-    failing = {
-        tree for row in rows if not row["holds"] for tree in row["members"]
-    }
+    rows = data(*CONDITIONS, path, "-n", "5", "--only", "--members")["conditions"]
+    every = data("conditions", path, "--pair", "-n", "5", "--only")["conditions"]
+    failing = {tree for row in rows if not row["holds"] for tree in row["members"]}
     assert 0 < sum(row["holds"] for row in rows) < len(rows) == 662
     assert {row["tree"] for row in every if not row["holds"]} == {
         t for t in failing if t[-1] in "12"
@@ -309,9 +247,7 @@ def test_conditions_of_a_class_fail_together() -> None:
         x["tree"]: fmpq(*map(int, re.findall(r"-?\d+", x["residual"])))
         for x in data("conditions", VERLET, "-n", "3", "--only")["conditions"]
     }
-    for row in data(*CONDITIONS, VERLET, "-n", "3", "--only", "--members")[
-        "conditions"
-    ]:
+    for row in data(*CONDITIONS, VERLET, "-n", "3", "--only", "--members")["conditions"]:
         residual = every[row["tree"]]
         assert residual != 0
         assert {abs(every[tree]) for tree in row["members"]} == {abs(residual)}
@@ -321,17 +257,9 @@ def test_conditions_of_a_class_fail_together() -> None:
     ("path", "kind", "colours"),
     [
         (VERLET, "separable", ["q", "p"]),
-        (
-            "methods/semi-separable.gark.yaml",
-            "semi-separable",
-            ["V1", "F1", "F2"],
-        ),
+        ("methods/semi-separable.gark.yaml", "semi-separable", ["V1", "F1", "F2"]),
         ("methods/prk-lobatto-iiia-iiib.gark.yaml", "pair", ["q", "p"]),
-        (
-            "methods/three-colours.gark.yaml",
-            "pair",
-            ["V1", "V2", "V3", "F1", "F2", "F3"],
-        ),
+        ("methods/three-colours.gark.yaml", "pair", ["V1", "V2", "V3", "F1", "F2", "F3"]),
     ],
 )
 def test_kind_of_a_file(path: str, kind: str, colours: list[str]) -> None:
@@ -341,9 +269,7 @@ def test_kind_of_a_file(path: str, kind: str, colours: list[str]) -> None:
     terms = str(found["terms"])
     assert (
         found["count"]
-        == data(
-            *TREES, "--kind", kind, "-N", terms, "-n", "3", "--upto", "--count"
-        )["count"]
+        == data(*TREES, "--kind", kind, "-N", terms, "-n", "3", "--upto", "--count")["count"]
     )
 
 
@@ -363,18 +289,10 @@ def test_method_that_is_its_own_conjugate() -> None:
     pair.
     """
     found = data(*CONDITIONS, "-", "-n", "4", stdin=MIDPOINTS)
-    assert (found["symplectic"]["kind"], found["symplectic"]["count"]) == (
-        "self-conjugate",
-        23,
-    )
-    assert {x["holds"] for x in found["conditions"] if x["order"] < 3} == {
-        True
-    }
+    assert (found["symplectic"]["kind"], found["symplectic"]["count"]) == ("self-conjugate", 23)
+    assert {x["holds"] for x in found["conditions"] if x["order"] < 3} == {True}
     assert (
-        data(*CONDITIONS, "-", "-n", "2", "--pair", stdin=MIDPOINTS)[
-            "symplectic"
-        ]["kind"]
-        == "pair"
+        data(*CONDITIONS, "-", "-n", "2", "--pair", stdin=MIDPOINTS)["symplectic"]["kind"] == "pair"
     )
 
 
@@ -385,10 +303,7 @@ def test_blocks_that_a_file_lacks() -> None:
     found = data(*CONDITIONS, "-", "-n", "3", stdin=ADDITIVE)
     assert found["symplectic"]["count"] == len(found["conditions"]) == 2 * 5
     assert found["symplectic"]["instead_of"] == 2 * 20
-    assert all(
-        "1" not in x["tree"] or "2" not in x["tree"]
-        for x in found["conditions"]
-    )
+    assert all("1" not in x["tree"] or "2" not in x["tree"] for x in found["conditions"])
 
 
 def test_term_that_is_linear_in_part() -> None:
@@ -407,9 +322,9 @@ def test_file_that_is_not_symplectic(text: str) -> None:
     assert (run.code, run.out) == (2, "")
     assert "the method is not symplectic: " in run.err
     assert ("different weights" in run.err) == (text == WEIGHTS)
-    assert (
-        gark(*CONDITIONS, "-", "--pair", "-n", "1", stdin=text).code == 0
-    ) == (text == UNSYMPLECTIC)
+    assert (gark(*CONDITIONS, "-", "--pair", "-n", "1", stdin=text).code == 0) == (
+        text == UNSYMPLECTIC
+    )
 
 
 @pytest.mark.parametrize(
@@ -419,68 +334,38 @@ def test_file_that_is_not_symplectic(text: str) -> None:
             (*TREES, "--kind", "separable", "-N", "3", "-n", "2"),
             "separable problems have 2 terms, not 3",
         ),
-        (
-            (*CONDITIONS, "--kind", "nystrom", "-N", "1"),
-            "nystrom problems have 2 terms, not 1",
-        ),
+        ((*CONDITIONS, "--kind", "nystrom", "-N", "1"), "nystrom problems have 2 terms, not 1"),
         ((*TREES,), "which order?"),
         ((*TREES, "-n", "3", "--root", "1"), "free trees have no root"),
         ((*TREES, "--tree", "[]_1"), "free trees have no root"),
-        (
-            (*TREES, "-n", "3", "--colours-used", "1"),
-            "free trees have no root",
-        ),
+        ((*TREES, "-n", "3", "--colours-used", "1"), "free trees have no root"),
         (("trees", "-n", "3", "--members"), "--members is about free trees"),
         (("conditions", "--kind", "pair"), "--kind is about free trees"),
-        (
-            (*TREES, "-n", "2", "--members", "--format", "latex"),
-            "--members do not fit",
-        ),
+        ((*TREES, "-n", "2", "--members", "--format", "latex"), "--members do not fit"),
         ((*CONDITIONS, "--coloured"), "free trees have colours"),
-        (
-            (*CONDITIONS, COLLOCATION, "--kind", "pair"),
-            "the kind is that of FILE",
-        ),
-        (
-            (*CONDITIONS, COLLOCATION, "-N", "2"),
-            "the colours are those of FILE",
-        ),
+        ((*CONDITIONS, COLLOCATION, "--kind", "pair"), "the kind is that of FILE"),
+        ((*CONDITIONS, COLLOCATION, "-N", "2"), "the colours are those of FILE"),
         ((*CONDITIONS, "--failing"), "values are those of a method"),
-        (
-            (*CONDITIONS, "methods/ark-ars222.gark.yaml"),
-            "divides by the weights",
-        ),
+        ((*CONDITIONS, "methods/ark-ars222.gark.yaml"), "divides by the weights"),
     ],
 )
-def test_options_that_do_not_go_together(
-    arguments: tuple[str, ...], message: str
-) -> None:
+def test_options_that_do_not_go_together(arguments: tuple[str, ...], message: str) -> None:
     """Each is a problem of usage, told in words, without a report."""
     run = gark(*arguments)
     assert (run.code, run.out) == (2, "")
     assert message in run.err
 
 
-@pytest.mark.parametrize(
-    "arguments", [("trees", "-N", "2"), ("conditions",), TREES, CONDITIONS]
-)
-def test_pictures_in_latex_are_indented_evenly(
-    arguments: tuple[str, ...],
-) -> None:
+@pytest.mark.parametrize("arguments", [("trees", "-N", "2"), ("conditions",), TREES, CONDITIONS])
+def test_pictures_in_latex_are_indented_evenly(arguments: tuple[str, ...]) -> None:
     """No empty line follows a picture, and what is between its begin and its end is indented
     further.
     """
     lines = gark(*arguments, "-n", "3", "--format", "latex").out.splitlines()
     assert all(line.strip() for line in lines)
-    starts = [
-        k
-        for k, line in enumerate(lines)
-        if line.startswith("  \\begin{tikzpicture}")
-    ]
+    starts = [k for k, line in enumerate(lines) if line.startswith("  \\begin{tikzpicture}")]
     assert starts
     for k in starts:
-        end = next(
-            i for i in range(k, len(lines)) if "\\end{tikzpicture}" in lines[i]
-        )
+        end = next(i for i in range(k, len(lines)) if "\\end{tikzpicture}" in lines[i])
         assert lines[end].startswith("  \\end{tikzpicture} &")
         assert all(line.startswith("    \\") for line in lines[k + 1 : end])

@@ -26,14 +26,7 @@ RUNS = [
     ("conditions", "--symplectic", "-n", "6"),
     ("conditions", "-N", "2", "-n", "4", "--coloured"),
     ("conditions", "methods/rectangular.gark.yaml", "-n", "5"),
-    (
-        "conditions",
-        "methods/collocation.gark.yaml",
-        "-n",
-        "5",
-        "--pair",
-        "--failing",
-    ),
+    ("conditions", "methods/collocation.gark.yaml", "-n", "5", "--pair", "--failing"),
     *((command, "--help") for command in COMMANDS),
 ]
 OF_FILES = [
@@ -63,9 +56,7 @@ def test_a_text_fits_80_columns(run: tuple[str, ...], encoding: str) -> None:
 
 
 @pytest.mark.parametrize("run", OF_FILES, ids=lambda run: " ".join(run)[:40])
-def test_a_report_of_a_file_fits_80_columns_in_ascii(
-    run: tuple[str, ...],
-) -> None:
+def test_a_report_of_a_file_fits_80_columns_in_ascii(run: tuple[str, ...]) -> None:
     """So does every line of a report that does not name a file, whose path may be long."""
     lines = gark(*run, encoding="ascii").out.splitlines()
     assert len(lines) > 3
@@ -109,21 +100,15 @@ def test_gaps_between_columns_keep_two_blanks() -> None:
     row = "[[]]   σ = 1  γ = 2      b{l}ᵀA{l,m}𝟙 = 1/2"
     plain = plain_line(row)
     assert plain == "[[]]   sigma = 1  gamma = 2  b{l}^T A{l,m} 1 = 1/2"
-    assert re.split("  +", plain) == [
-        plain_line(x) for x in re.split("  +", row)
-    ]
+    assert re.split("  +", plain) == [plain_line(x) for x in re.split("  +", row)]
 
 
 def test_folding_loses_nothing() -> None:
     """A formula in lines is the formula, and only what has no place to break is too wide."""
-    text = (
-        "b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙) ⊙ (A{l,v}𝟙)) = 1/12   ∀ l,m,n,u,v"
-    )
+    text = "b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙) ⊙ (A{l,v}𝟙)) = 1/12   ∀ l,m,n,u,v"
     for width in range(12, 80):
         lines = folded(text, width, "  ")
-        assert "".join(line.strip() for line in lines).replace(
-            " ", ""
-        ) == text.replace(" ", "")
+        assert "".join(line.strip() for line in lines).replace(" ", "") == text.replace(" ", "")
         assert all(len(line) <= max(width, 16) for line in lines)
 
 
@@ -132,26 +117,11 @@ def test_conditions_in_decimals(format_: str) -> None:
     """--digits writes values and residuals in decimals, in every format; they are the exact ones,
     rounded.
     """
-    arguments = (
-        "conditions",
-        "methods/rk4.gark.yaml",
-        "-n",
-        "5",
-        "--only",
-        "--format",
-        format_,
-    )
-    exact, rounded = (
-        gark(*arguments).out,
-        gark(*arguments, "--digits", "4").out,
-    )
+    arguments = ("conditions", "methods/rk4.gark.yaml", "-n", "5", "--only", "--format", format_)
+    exact, rounded = (gark(*arguments).out, gark(*arguments, "--digits", "4").out)
     assert exact != rounded
     if format_ == "json":
-        pairs = zip(
-            json.loads(exact)["conditions"],
-            json.loads(rounded)["conditions"],
-            strict=True,
-        )
+        pairs = zip(json.loads(exact)["conditions"], json.loads(rounded)["conditions"], strict=True)
         for before, after in pairs:
             for key in ("value", "required", "residual"):
                 numerator, _, denominator = before[key].partition("/")
@@ -168,20 +138,10 @@ def test_names_in_csv_are_no_formulas(tmp_path: Path) -> None:
     for name in ("=1+1", "@SUM(A1)"):
         text = f'methods: [{{family: gauss, stages: 1}}]\nname: "{name}"\n'
         (tmp_path / f"{name[1]}.gark.yaml").write_text(text)
-    arguments = (
-        "converge",
-        ".",
-        "--problem",
-        "oscillator",
-        "--steps",
-        "1/2,1/4",
-    )
+    arguments = ("converge", ".", "--problem", "oscillator", "--steps", "1/2,1/4")
     run = gark(*arguments, "--format", "csv", cwd=tmp_path)
     heads, *rows = csv.reader(io.StringIO(run.out))
-    assert {row[heads.index("method")] for row in rows} == {
-        "'=1+1",
-        "'@SUM(A1)",
-    }
+    assert {row[heads.index("method")] for row in rows} == {"'=1+1", "'@SUM(A1)"}
     assert all(float(row[heads.index("h")]) > 0 for row in rows)
 
 
@@ -219,18 +179,13 @@ def test_a_text_fits_80_columns_in_ascii_too(
     assert too_wide == []
 
 
-def test_a_repair_too_wide_for_its_line_has_one_of_its_own(
-    tmp_path: Path,
-) -> None:
+def test_a_repair_too_wide_for_its_line_has_one_of_its_own(tmp_path: Path) -> None:
     """The wrong entry is named whole, in a line that is searched for as it stands."""
     broken = RK4.replace("1/2, 0, 0]", "1/3, 0, 0]")
     (tmp_path / "m.yaml").write_text(broken, encoding="utf-8")
     lines = gark("check", "m.yaml", cwd=tmp_path).out.splitlines()
     at = lines.index("        the claimed order would hold with")
-    assert (
-        lines[at + 1]
-        == "          A{1,1}, row 3, entry 2, = 1/2 instead of 1/3"
-    )
+    assert lines[at + 1] == "          A{1,1}, row 3, entry 2, = 1/2 instead of 1/3"
 
 
 def test_the_lists_are_columns() -> None:

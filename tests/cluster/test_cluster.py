@@ -23,9 +23,7 @@ from garkcli.sweep.store import RowStore
 from tests.cli.harness import gark
 
 distributed = pytest.importorskip("dask.distributed")
-pytestmark = pytest.mark.skipif(
-    os.name == "nt", reason="there are no such signals"
-)
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
 
 SPEC = """files: explicit.yaml
 search: {seeds: 1..4}
@@ -132,9 +130,7 @@ def test_an_item_that_ends_every_worker(cluster: Any) -> None:
     assert (number, outcome) == (0, "on the cluster, several times")
 
 
-def test_another_version(
-    cluster: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_version(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Workers with another version of garkcli are refused before they do anything."""
     assert _done("0.0.0", ends, 1)[1] is None
     monkeypatch.setattr("garkcli.crew.cluster.__version__", "0.0.0")
@@ -152,9 +148,7 @@ def test_nobody_there() -> None:
 
 def test_a_scheduler_that_goes_away() -> None:
     """It is said in a line; what was done before is kept by who asked."""
-    made = distributed.LocalCluster(
-        n_workers=1, processes=False, dashboard_address=":0"
-    )
+    made = distributed.LocalCluster(n_workers=1, processes=False, dashboard_address=":0")
     with made, Cluster(abs, made.scheduler_address, lost) as workers:
         assert list(workers.as_they_come([-1])) == [(0, 1)]
         coming = workers.as_they_come([-2] * 2000)

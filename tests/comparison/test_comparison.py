@@ -38,7 +38,9 @@ from tests.methodfile.test_writer import tableaus
 
 RK4 = loads((ROOT / "methods/rk4.gark.yaml").read_text(encoding="utf-8"))
 HEUN = "{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}"
-MISPRINT = "{A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 2, 0]], b: [1/6, 1/3, 1/3, 1/6]}"
+MISPRINT = (
+    "{A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 2, 0]], b: [1/6, 1/3, 1/3, 1/6]}"
+)
 
 
 @given(st.data())
@@ -48,9 +50,7 @@ def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
     tableau = data.draw(tableaus())
     stages = [len(colour.b) for colour in tableau.colours]
     further = data.draw(further_of(stages, 1))
-    one = GarkMethod(
-        tableau=tableau, embedded=further.embedded, dense=further.dense
-    )
+    one = GarkMethod(tableau=tableau, embedded=further.embedded, dense=further.dense)
     sheet = sheet_of(one)
     other = renumbered(sheet, data.draw(orders_of(sheet)))
     first, second = grid_of(sheet), grid_of(other)
@@ -62,9 +62,7 @@ def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
 
 @given(st.data())
 @settings(max_examples=12)
-def test_doubled_stages_and_other_colours_are_seen_through(
-    data: st.DataObject,
-) -> None:
+def test_doubled_stages_and_other_colours_are_seen_through(data: st.DataObject) -> None:
     """A stage that stands there twice, stages and colours in another order: the same method."""
     sheet = each_its_own(sheet_of(GarkMethod(tableau=data.draw(tableaus()))))
     turned = renumbered(sheet, data.draw(orders_of(sheet)))
@@ -75,10 +73,7 @@ def test_doubled_stages_and_other_colours_are_seen_through(
     assert found.sameness.is_reduced
     order = data.draw(st.permutations(range(sheet.tableau.size)))
     colours = with_colours(turned, order)
-    assert compare(of_sheet(sheet), of_sheet(colours), limit=2).relation in {
-        "identical",
-        "same",
-    }
+    assert compare(of_sheet(sheet), of_sheet(colours), limit=2).relation in {"identical", "same"}
 
 
 def with_colours(sheet: Sheet, order: list[int]) -> Sheet:
@@ -109,9 +104,7 @@ def test_one_changed_entry_is_found(data: st.DataObject) -> None:
     block[i][j] = block[i][j] + step
     blocks = {**tableau.blocks, (k, m): tuple(map(tuple, block))}
     changed = replace(tableau, blocks=blocks)
-    found = compare(
-        GarkMethod(tableau=tableau), GarkMethod(tableau=changed), limit=3
-    )
+    found = compare(GarkMethod(tableau=tableau), GarkMethod(tableau=changed), limit=3)
     (gap,) = found.gaps
     (entry,) = gap.gaps
     assert (gap.kind, gap.colour, gap.seen) == ("A", k, m)
@@ -165,10 +158,7 @@ def test_what_alone_is_different_is_said() -> None:
     midpoint = "{A: [[0, 0], [1/2, 0]], b: [0, 1]}"
     other = loads(midpoint.replace("]}", "], c: [0, 1/3]}"))
     found = compare(loads(midpoint), other)
-    assert (found.relation, found.remark) == (
-        "different",
-        "nodes alone differ",
-    )
+    assert (found.relation, found.remark) == ("different", "nodes alone differ")
     path = ROOT / "methods/stoermer-verlet.gark.yaml"
     verlet = path.read_text(encoding="utf-8")
     nystrom = verlet.replace("structure: separable", "structure: nystrom")
@@ -196,10 +186,7 @@ def test_nodes_without_radicals() -> None:
     radau = loads("methods: {family: radau-iia, stages: 5}")
     assert compare(gauss, gauss).relation == "identical"
     assert compare(gauss, radau, limit=1).relation == "different"
-    run = gark(
-        *("tableau", "-", "--format", "yaml", "--digits", "25"),
-        stdin=gauss.text,
-    )
+    run = gark(*("tableau", "-", "--format", "yaml", "--digits", "25"), stdin=gauss.text)
     decimals = loads(run.out)
     assert compare(gauss, decimals, limit=1).relation == "within-rounding"
     exact = replace(decimals, tolerance=None)
@@ -246,16 +233,11 @@ def test_a_stage_for_the_estimate_is_not_left_out() -> None:
     """The last stage of the pair has no weight, but an embedded one; without it the step alone is
     that of the method of three stages.
     """
-    plain = loads(
-        "{A: [[0, 0, 0], [1/2, 0, 0], [0, 3/4, 0]], b: [2/9, 1/3, 4/9]}"
-    )
+    plain = loads("{A: [[0, 0, 0], [1/2, 0, 0], [0, 3/4, 0]], b: [2/9, 1/3, 4/9]}")
     found = compare(loads(PAIR), plain)
     assert found.relation == "different"
     assert found.sameness is not None
-    assert (found.sameness.is_reduced, found.sameness.step_only) == (
-        True,
-        True,
-    )
+    assert (found.sameness.is_reduced, found.sameness.step_only) == (True, True)
 
 
 def test_many_alike_stages_end_the_search() -> None:
@@ -264,14 +246,10 @@ def test_many_alike_stages_end_the_search() -> None:
     """
     size = 8
     ring = tuple(
-        tuple(fmpq(j in {(i + 1) % size, (i - 1) % size}) for j in range(size))
-        for i in range(size)
+        tuple(fmpq(j in {(i + 1) % size, (i - 1) % size}) for j in range(size)) for i in range(size)
     )
     squares = tuple(
-        tuple(
-            fmpq(i // 4 == j // 4 and (i - j) % 4 in {1, 3})
-            for j in range(size)
-        )
+        tuple(fmpq(i // 4 == j // 4 and (i - j) % 4 in {1, 3}) for j in range(size))
         for i in range(size)
     )
     grids = [grid_of(sheet_of(loads(graph(rows)))) for rows in (ring, squares)]
@@ -346,32 +324,20 @@ def test_a_tolerance_is_a_difference_of_the_files_alone() -> None:
     assert "not decided" in text
     assert "none against 1e-3" in diff_markdown.render(found, files)
     data = json.loads(diff_json.render(found, files))
-    assert (data["first"]["tolerance"], data["second"]["tolerance"]) == (
-        None,
-        "1/1000",
-    )
+    assert (data["first"]["tolerance"], data["second"]["tolerance"]) == (None, "1/1000")
 
 
 def test_exit_codes() -> None:
     """0 where the methods are the same, with --strict where every entry is."""
-    for text, code, strict in (
-        (MISPRINT, 1, 1),
-        (RENUMBERED, 0, 1),
-        (RK4.text, 0, 0),
-    ):
+    for text, code, strict in ((MISPRINT, 1, 1), (RENUMBERED, 0, 1), (RK4.text, 0, 0)):
         arguments = ("diff", "methods/rk4.gark.yaml", "-")
         assert gark(*arguments, stdin=text).code == code
         assert gark(*arguments, "--strict", stdin=text).code == strict
 
 
-RENUMBERED = write_tableau_file(
-    renumbered(sheet_of(RK4), [[2, 0, 1, 3]]).tableau, "turned"
-)
+RENUMBERED = write_tableau_file(renumbered(sheet_of(RK4), [[2, 0, 1, 3]]).tableau, "turned")
 PAIR_OF_COLOURS = "ark: {A: [[[0]], [[1]]], b: [1]}"
-ROUNDED = (
-    RK4.text.split("expect")[0].replace("1/6", "0.166666666667")
-    + "tolerance: 1e-11\n"
-)
+ROUNDED = RK4.text.split("expect")[0].replace("1/6", "0.166666666667") + "tolerance: 1e-11\n"
 
 
 def test_trees_and_entries_in_words() -> None:
@@ -380,9 +346,7 @@ def test_trees_and_entries_in_words() -> None:
     assert "A  1 of 16  row 4, entry 3: 1 against 2, off by 1" in run.out
     assert "order 2  [[]]: 2/3 instead of 1/2" in run.out
     assert "that the second alone meets: none" in run.out
-    shown = diff_markdown.render(
-        compare(RK4, loads(MISPRINT)), ("a|b", "second")
-    )
+    shown = diff_markdown.render(compare(RK4, loads(MISPRINT)), ("a|b", "second"))
     assert "`a\\|b`" in shown
     assert "| `[[]]` | 2 | met | not met |" in shown
 

@@ -19,14 +19,7 @@ from garkcli.constructions.schemes.registry import SCHEMES
 from garkcli.constructions.splitting import drift_and_kick
 from garkcli.convergence.convergence import converge
 from garkcli.errors import MethodError
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    identity,
-    scale,
-    solve,
-    subtract,
-)
+from garkcli.exact.matrix import Matrix, Vector, identity, scale, solve, subtract
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
@@ -86,9 +79,7 @@ def explicit_methods(draw: st.DrawFn) -> Method:
 
 @settings(max_examples=20, deadline=None)
 @given(st.lists(st.tuples(explicit_methods(), small), min_size=1, max_size=3))
-def test_a_composition_takes_its_substeps(
-    substeps: list[tuple[Method, fmpq]],
-) -> None:
+def test_a_composition_takes_its_substeps(substeps: list[tuple[Method, fmpq]]) -> None:
     """One step of the composition is that of its methods one after the other, exactly."""
     made = composed([Substep(gark([x], {}), g) for x, g in substeps])
     A, b = made.blocks[0, 0], made.colours[0].b
@@ -197,9 +188,7 @@ def _growth(tableau: Tableau, z: fmpq) -> fmpq:
     A, b = tableau.blocks[0, 0], tableau.colours[0].b
     system = subtract(identity(len(b)), scale(z, A))
     stages = solve(system, tuple((fmpq(1),) for _ in b))
-    return 1 + z * sum(
-        (w * y[0] for w, y in zip(b, stages, strict=True)), fmpq(0)
-    )
+    return 1 + z * sum((w * y[0] for w, y in zip(b, stages, strict=True)), fmpq(0))
 
 
 SCHEMES_USED: dict[str, tuple[str, int]] = {
@@ -291,15 +280,10 @@ def test_equal_stages_are_one() -> None:
     """Where substeps meet in one value there is one stage: the trapezoidal rule twice has three
     stages, Verlet seventeen times eighteen velocities and seventeen forces.
     """
-    twice = loads(
-        "compose: {of: {family: lobatto-iiia, stages: 2}, steps: [1/2, 1/2]}"
-    )
+    twice = loads("compose: {of: {family: lobatto-iiia, stages: 2}, steps: [1/2, 1/2]}")
     assert twice.stages == (3,)
     assert twice.c == (0, fmpq(1, 2), 1)
-    assert loads(f"compose: {{of: {VERLET}, scheme: kahan-li-8}}").stages == (
-        18,
-        17,
-    )
+    assert loads(f"compose: {{of: {VERLET}, scheme: kahan-li-8}}").stages == (18, 17)
 
 
 def test_processing() -> None:
@@ -347,37 +331,27 @@ def test_composition_of_gark_methods() -> None:
             ]
         )
     with pytest.raises(MethodError, match="2 colours"):
-        composed(
-            [Substep(alone("heun"), fmpq(1)), Substep(once.tableau, fmpq(1))]
-        )
+        composed([Substep(alone("heun"), fmpq(1)), Substep(once.tableau, fmpq(1))])
 
 
 def test_fractions_may_be_unknown() -> None:
     """A composition with free parameters is a family: of three substeps g, 1 − 2g, g of the
     midpoint rule the order 4 needs the cubic of the triple jump.
     """
-    text = (
-        "parameters: {g: free}\n"
-        f"compose: {{of: {MIDPOINT}, steps: [g, 1 - 2*g, g]}}"
-    )
+    text = f"parameters: {{g: free}}\ncompose: {{of: {MIDPOINT}, steps: [g, 1 - 2*g, g]}}"
     family = loads_family(text)
     assert family.parameters == ("g",)
     value = "1/(2 - cbrt(2))"
     assert find_order(loads(text, settings={"g": value})).order == 4
     jump = loads(f"compose: {{of: {MIDPOINT}, scheme: triple-jump}}")
-    assert list(map(str, loads(text, settings={"g": value}).b)) == list(
-        map(str, jump.b)
-    )
+    assert list(map(str, loads(text, settings={"g": value}).b)) == list(map(str, jump.b))
 
 
 @pytest.mark.parametrize(
     ("text", "order"),
     [
         (f"compose: {{of: {VERLET}, scheme: triple-jump}}", 4),
-        (
-            "extrapolate: {of: {splitting: {scheme: lie, of: heun}}, order: 2}",
-            2,
-        ),
+        ("extrapolate: {of: {splitting: {scheme: lie, of: heun}}, order: 2}", 2),
     ],
 )
 def test_observed_orders(text: str, order: int) -> None:

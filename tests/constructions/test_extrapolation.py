@@ -22,10 +22,7 @@ ORDERS = {
     f"{{of: {MIDPOINT}, order: 4, sequence: romberg}}": ((3,), 4),
     f"{{of: {MIDPOINT}, sequence: [1, 2, 3], symmetric: false}}": ((6,), 4),
     f"{{of: {VERLET}, order: 4}}": ((4, 3), 4),
-    "{of: {splitting: {scheme: lie, of: explicit-euler}}, order: 3}": (
-        (4, 6),
-        3,
-    ),
+    "{of: {splitting: {scheme: lie, of: explicit-euler}}, order: 3}": ((4, 6), 3),
     "{of: {family: gauss, stages: 2}, order: 8, from: 4}": ((12,), 8),
 }
 """What is extrapolated, its stages and its order."""
@@ -51,9 +48,7 @@ def test_the_families_are_extrapolations(sequence: str) -> None:
         ("explicit-euler", "extrapolated-euler"),
         ("{family: radau-iia, stages: 1}", "extrapolated-implicit-euler"),
     ):
-        made = loads(
-            f"extrapolate: {{of: {base}, order: 4, sequence: {sequence}}}"
-        )
+        made = loads(f"extrapolate: {{of: {base}, order: 4, sequence: {sequence}}}")
         family = diagonal_method(name, 4, sequence=sequence)
         assert made.tableau == gark([family], {})
 
@@ -69,10 +64,7 @@ def test_rounded_methods_are_extrapolated_within_their_tolerance() -> None:
 @pytest.mark.parametrize(
     ("rounded", "exact"),
     [
-        (
-            "{A: [[], [0.6666666666666667]], b: [0.25, 0.75]}",
-            "{A: [[], [2/3]], b: [1/4, 3/4]}",
-        ),
+        ("{A: [[], [0.6666666666666667]], b: [0.25, 0.75]}", "{A: [[], [2/3]], b: [1/4, 3/4]}"),
         (
             "{A: [[0.25, -0.0386751345948129], [0.5386751345948129, 0.25]], b: [0.5, 0.5]}",
             "{family: gauss, stages: 2}",
@@ -83,9 +75,7 @@ def test_rounded_methods_are_extrapolated_within_their_tolerance() -> None:
         ),
     ],
 )
-def test_the_tolerance_of_the_file_holds_for_its_methods(
-    rounded: str, exact: str
-) -> None:
+def test_the_tolerance_of_the_file_holds_for_its_methods(rounded: str, exact: str) -> None:
     """A method that is spelled out in decimals is extrapolated as the one that it is meant to be:
     with as many rows, though its exact order is smaller.
     """
@@ -117,10 +107,7 @@ def test_free_parameters() -> None:
         ("{of: heun, sequence: [1, 2], order: 3}", "say the order"),
         ("{of: {A: [[0]], b: [2]}, order: 3}", "order 0"),
         ("{of: rk4, order: 30, sequence: romberg}", "limit 200"),
-        (
-            "{of: {family: gauss, stages: 7}, order: 16}",
-            "no simple|without simple",
-        ),
+        ("{of: {family: gauss, stages: 7}, order: 16}", "no simple|without simple"),
         ("{of: rk4, order: 40}", "stages \\(limit 400\\)"),
     ],
 )

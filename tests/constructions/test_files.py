@@ -145,9 +145,7 @@ def test_the_schema_refuses_what_does_not_load(text: str) -> None:
         loads(text)
 
 
-def test_names_of_the_catalogue(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_names_of_the_catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A name is the method of the catalogue, its tolerance included; names that lead in a circle
     and families are refused where they stand.
     """
@@ -164,10 +162,7 @@ def test_names_of_the_catalogue(
     assert method.stages == (3,)
     assert str(method.tolerance) == "1/1000000000"
     assert find_order(method).order == 4
-    for name, message in (
-        ("one", "made from itself"),
-        ("family", "free parameters"),
-    ):
+    for name, message in (("one", "made from itself"), ("family", "free parameters")):
         with pytest.raises(MethodFileError, match=message) as caught:
             loads(f"adjoint: {name}")
         assert [(x.line, x.column) for x in caught.value.faults] == [(1, 10)]
@@ -190,10 +185,7 @@ def test_further_weights_are_left_behind(text: str, tmp_path: Path) -> None:
     """
     pair = "{A: [[], [1]], b: [1/2, 1/2], embedded: [1, 0], "
     pair += "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}}"
-    for base, left in (
-        (pair, ["embedded weights", "dense output"]),
-        ("heun", None),
-    ):
+    for base, left in ((pair, ["embedded weights", "dense output"]), ("heun", None)):
         path = tmp_path / "made.yaml"
         path.write_text(text % base, encoding="utf-8")
         outcome = check_file(str(path), limit=4)
@@ -208,15 +200,9 @@ def test_further_weights_are_left_behind(text: str, tmp_path: Path) -> None:
 
 def test_adjoint_twice_is_the_method() -> None:
     """In a file, too, at points and in a stage algebra."""
-    for text in (
-        "{family: gauss, stages: 5}",
-        "rk4",
-        "{splitting: {scheme: ruth-3}}",
-    ):
+    for text in ("{family: gauss, stages: 5}", "rk4", "{splitting: {scheme: ruth-3}}"):
         once = loads(
-            f"compose: {{of: {text}, steps: [1]}}"
-            if "gauss" not in text
-            else f"methods: {text}"
+            f"compose: {{of: {text}, steps: [1]}}" if "gauss" not in text else f"methods: {text}"
         )
         twice = loads(f"adjoint: {{adjoint: {text}}}")
         assert twice.tableau == once.tableau
@@ -228,7 +214,4 @@ def test_steps_of_different_methods() -> None:
         "compose: {steps: [{of: explicit-euler, step: 1/2}, {of: {family: radau-iia, stages: 1}, step: 1/2}]}"
     )
     assert list(map(str, method.b)) == ["1/2", "1/2"]
-    assert [list(map(str, row)) for row in method.A] == [
-        ["0", "0"],
-        ["1/2", "1/2"],
-    ]
+    assert [list(map(str, row)) for row in method.A] == [["0", "0"], ["1/2", "1/2"]]

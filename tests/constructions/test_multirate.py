@@ -26,10 +26,7 @@ IRK21 = "{c: [0, 1, 1], gamma: [[[1, 0, 0], [-1/2, 0, 1/2]]]}"
 """MRI-GARK-IRK21a: the trapezoidal rule for the slow part."""
 KNOTH_WOLKE = "{A: [[], [1/3], [-3/16, 15/16]], b: [1/6, 3/10, 8/15]}"
 HEUN_3 = "{A: [[], [1/3], [0, 2/3]], b: [1/4, 0, 3/4]}"
-EX2 = (
-    "{fast-slow: [[(lambda - 1)/M, 0], [(2*lambda - 1)/(2*M), 0]],"
-    " slow-fast: [[0, 0], [1/2, 0]]}"
-)
+EX2 = "{fast-slow: [[(lambda - 1)/M, 0], [(2*lambda - 1)/(2*M), 0]], slow-fast: [[0, 0], [1/2, 0]]}"
 ORDERS = {
     f"{{mis: {KNOTH_WOLKE}, fast: kutta, steps: 2}}": 3,
     f"{{mis: {HEUN_3}, fast: kutta, steps: 2}}": 2,
@@ -80,23 +77,15 @@ FIELDS = (fast_field, slow_field)
 def step_of(tableau: Tableau, y: fmpq, h: fmpq) -> fmpq:
     """One explicit step of a tableau, whatever the order in which its stages can be computed."""
     slopes: dict[tuple[int, int], fmpq] = {}
-    wanted = [
-        (m, i)
-        for m, colour in enumerate(tableau.colours)
-        for i in range(len(colour.b))
-    ]
+    wanted = [(m, i) for m, colour in enumerate(tableau.colours) for i in range(len(colour.b))]
     while len(slopes) < len(wanted):
         for m, i in wanted:
             row = _row(tableau, m, i)
             if (m, i) not in slopes and row.keys() <= slopes.keys():
-                value = y + sum(
-                    (h * w * slopes[x] for x, w in row.items()), fmpq(0)
-                )
+                value = y + sum((h * w * slopes[x] for x, w in row.items()), fmpq(0))
                 slopes[m, i] = FIELDS[m](value)
     weights = {
-        (m, i): b
-        for m, colour in enumerate(tableau.colours)
-        for i, b in enumerate(colour.b)
+        (m, i): b for m, colour in enumerate(tableau.colours) for i, b in enumerate(colour.b)
     }
     return y + sum((h * w * slopes[x] for x, w in weights.items()), fmpq(0))
 
@@ -115,9 +104,7 @@ def _row(tableau: Tableau, m: int, i: int) -> dict[tuple[int, int], fmpq]:
 Forcing = Callable[[fmpq], fmpq]
 
 
-def forced(
-    fast: Method, y: fmpq, steps: int, width: fmpq, forcing: Forcing
-) -> fmpq:
+def forced(fast: Method, y: fmpq, steps: int, width: fmpq, forcing: Forcing) -> fmpq:
     """The fast problem dv/dτ = width · f(v) + forcing(τ) from 0 to 1 by small explicit steps."""
     h = fmpq(1, steps)
     for n in range(steps):
@@ -139,9 +126,7 @@ def _dot(row: Vector, slopes: Sequence[fmpq]) -> fmpq:
 
 
 @pytest.mark.parametrize(("name", "steps"), [("heun", 2), ("kutta", 1)])
-def test_polynomial_coupling_is_the_fast_problem(
-    name: str, steps: int
-) -> None:
+def test_polynomial_coupling_is_the_fast_problem(name: str, steps: int) -> None:
     """One step of the tableau is what a solver does: from slow stage to slow stage the fast problem
     with the polynomial of slow slopes, solved by small steps; exactly.
     """
@@ -149,11 +134,7 @@ def test_polynomial_coupling_is_the_fast_problem(
     made = loads(f"multirate: {{mri: {ERK33}, fast: {name}, steps: {steps}}}")
     start, H = fmpq(1, 2), fmpq(1, 4)
     gamma: tuple[Sequence[Sequence[fmpq]], ...] = (
-        (
-            [fmpq(1, 3)],
-            [fmpq(-1, 3), fmpq(2, 3)],
-            [fmpq(0), fmpq(-2, 3), fmpq(1)],
-        ),
+        ([fmpq(1, 3)], [fmpq(-1, 3), fmpq(2, 3)], [fmpq(0), fmpq(-2, 3), fmpq(1)]),
         ([fmpq(0)], [fmpq(0)] * 2, [fmpq(1, 2), fmpq(0), fmpq(-1, 2)]),
     )
     y, slopes = start, []
@@ -198,9 +179,7 @@ def test_coupling_matrices_are_in_their_places() -> None:
     other, A^{s,f,λ}/M side by side.
     """
     coupling = "{fast-slow: [[lambda, M]], slow-fast: [[0], [lambda*M]]}"
-    made = loads(
-        f"multirate: {{slow: heun, fast: explicit-euler, steps: 3, coupling: {coupling}}}"
-    )
+    made = loads(f"multirate: {{slow: heun, fast: explicit-euler, steps: 3, coupling: {coupling}}}")
     blocks: dict[tuple[int, int], Matrix] = dict(made.tableau.blocks)
     assert blocks[0, 1] == ((1, 3), (2, 3), (3, 3))
     assert blocks[1, 0] == ((0, 0, 0), (1, 2, 3))
@@ -226,8 +205,7 @@ def test_a_table_with_the_row_of_the_beginning() -> None:
         " [[0,0,0,0], [0,0,0,0], [0,0,0,0], [1/2,0,-1/2,0]]]}"
     )
     one, other = (
-        loads(f"multirate: {{mri: {x}, fast: heun, steps: 2}}").tableau
-        for x in (ERK33, padded)
+        loads(f"multirate: {{mri: {x}, fast: heun, steps: 2}}").tableau for x in (ERK33, padded)
     )
     assert one == other
 

@@ -40,8 +40,7 @@ def test_invariants_are_kept(invariant: sympy.Expr) -> None:
 
 
 @pytest.mark.parametrize(
-    "invariant",
-    [X, X * PX, X * PY + Y * PX, MOMENTUM + PX / 10**9, KEPLER.terms[0]],
+    "invariant", [X, X * PX, X * PY + Y * PX, MOMENTUM + PX / 10**9, KEPLER.terms[0]]
 )
 def test_others_are_told_with_their_change(invariant: sympy.Expr) -> None:
     """Also those that change little, or have no derivative along the solution at the start."""
@@ -51,20 +50,14 @@ def test_others_are_told_with_their_change(invariant: sympy.Expr) -> None:
     # a series for the solution, to second order from the perihelion: x = 2/5 − t²/2 (5/2)², y = 2t
     # − …
     if invariant == X:
-        assert change == pytest.approx(
-            -(float(time) ** 2) / 2 * 6.25, rel=0.01
-        )
+        assert change == pytest.approx(-(float(time) ** 2) / 2 * 6.25, rel=0.01)
 
 
-def test_nothing_is_said_without_a_solution(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_nothing_is_said_without_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
     """A problem without invariants; and one whose solution ends at once, however few steps are
     tried before that is seen.
     """
     monkeypatch.setattr("garkcli.convergence.reference.MAX_TRIED", 100)
     assert changing(hamiltonian("pendulum", 2)) == ()
-    at_once = replace(
-        kepler_with(X), initial=(fmpq(1, 10**6), fmpq(0), fmpq(0), fmpq(0))
-    )
+    at_once = replace(kepler_with(X), initial=(fmpq(1, 10**6), fmpq(0), fmpq(0), fmpq(0)))
     assert changing(at_once) == ()

@@ -24,14 +24,8 @@ ONE = fmpq(1)
 
 def collocated(s: int, t: int) -> Tableau:
     """Gauss s × Lobatto IIIA t with collocation blocks."""
-    one, other = (
-        diagonal_method("gauss", s),
-        diagonal_method("lobatto-iiia", t),
-    )
-    return gark(
-        [one, other],
-        {(0, 1): collocation(one, other), (1, 0): collocation(other, one)},
-    )
+    one, other = (diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t))
+    return gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
 
 
 def alone(name: str, s: int | None = None) -> Tableau:
@@ -59,9 +53,7 @@ def default(tableau: Tableau, omega: fmpq = ONE) -> Oscillator:
         (pair(collocated(6, 7)), 12),
     ],
 )
-def test_observed_order_is_the_predicted_one(
-    tableau: Tableau, order: int
-) -> None:
+def test_observed_order_is_the_predicted_one(tableau: Tableau, order: int) -> None:
     """From order 1 to 16 the slope is the order to two decimals: never that of round-off."""
     result = converge(tableau, default(tableau))
     assert result.observed_order == pytest.approx(order, abs=3e-3)
@@ -87,13 +79,8 @@ def test_split_decides_what_is_visible() -> None:
     takes part.
     """
     one, other = diagonal_method("gauss", 1), diagonal_method("gauss", 2)
-    tableau = gark(
-        [one, other],
-        {(0, 1): collocation(one, other), (1, 0): collocation(other, one)},
-    )
-    unsplit = converge(
-        tableau, Oscillator(ONE, ((fmpq(0), fmpq(0)), (ONE, ONE)))
-    )
+    tableau = gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
+    unsplit = converge(tableau, Oscillator(ONE, ((fmpq(0), fmpq(0)), (ONE, ONE))))
     split = converge(tableau, default(tableau))
     assert (unsplit.visible_order, split.visible_order) == (4, 2)
     assert unsplit.observed_order == pytest.approx(4, abs=1e-3)
@@ -103,27 +90,14 @@ def test_split_decides_what_is_visible() -> None:
 def test_errors_are_those_of_stepping() -> None:
     """rk4 with its classical polynomial, stepped in floats: the same errors and energy errors."""
     omega = fmpq(3, 2)
-    result = converge(
-        alone("rk4"),
-        default(alone("rk4"), omega),
-        fmpq(6),
-        [fmpq(1, 4), fmpq(1, 8)],
-    )
+    result = converge(alone("rk4"), default(alone("rk4"), omega), fmpq(6), [fmpq(1, 4), fmpq(1, 8)])
     w = float(omega)
     L = np.array([[0.0, 1.0], [-w * w, 0.0]])
     start = np.array([1.0, w / 2])
-    end = np.array(
-        [
-            np.cos(6 * w) + np.sin(6 * w) / 2,
-            w * (np.cos(6 * w) / 2 - np.sin(6 * w)),
-        ]
-    )
+    end = np.array([np.cos(6 * w) + np.sin(6 * w) / 2, w * (np.cos(6 * w) / 2 - np.sin(6 * w))])
     for row, h in zip(result.rows, (0.25, 0.125), strict=True):
         R = sum(
-            (
-                np.linalg.matrix_power(h * L, k) / f
-                for k, f in enumerate((1, 1, 2, 6, 24))
-            ),
+            (np.linalg.matrix_power(h * L, k) / f for k, f in enumerate((1, 1, 2, 6, 24))),
             np.zeros((2, 2)),
         )
         q, p = np.linalg.matrix_power(R, round(6 / h)) @ start
@@ -136,10 +110,7 @@ def test_errors_are_those_of_stepping() -> None:
 def test_units_do_not_matter() -> None:
     """A faster oscillator in its own units of time has the very same errors."""
     tableau = symplectic_pair(collocated(2, 3), [0], [1])
-    slow, fast = (
-        converge(tableau, default(tableau, omega))
-        for omega in (ONE, fmpq(22, 7))
-    )
+    slow, fast = (converge(tableau, default(tableau, omega)) for omega in (ONE, fmpq(22, 7)))
     for one, other in zip(slow.rows, fast.rows, strict=True):
         assert float(one.error / other.error) == pytest.approx(1, abs=1e-9)
     assert slow.observed_order == pytest.approx(fast.observed_order)
@@ -148,13 +119,9 @@ def test_units_do_not_matter() -> None:
 def test_gauss_conserves_energy_exactly() -> None:
     """Not small: zero. The pair's energy error is not, and it has the order of the method."""
     gauss, tableau = alone("gauss", 2), pair(collocated(2, 3))
-    assert all(
-        row.energy_error == 0 for row in converge(gauss, default(gauss)).rows
-    )
+    assert all(row.energy_error == 0 for row in converge(gauss, default(gauss)).rows)
     rows = converge(tableau, default(tableau)).rows
-    assert float(
-        rows[-2].energy_error / rows[-1].energy_error
-    ) == pytest.approx(16, abs=0.1)
+    assert float(rows[-2].energy_error / rows[-1].energy_error) == pytest.approx(16, abs=0.1)
 
 
 def test_coincidence_is_bounded_and_not_called_zero() -> None:
@@ -168,9 +135,7 @@ def test_coincidence_is_bounded_and_not_called_zero() -> None:
         [[none, none], [full, none]], [(ONE,), (ONE,)], [None, None]
     )  # p with the new q
     whole = converge(tableau, default(tableau), fmpq(6), [ONE]).rows[0]
-    thirds = converge(
-        tableau, default(tableau, fmpq(3)), fmpq(2), [fmpq(1, 3)]
-    ).rows[0]
+    thirds = converge(tableau, default(tableau, fmpq(3)), fmpq(2), [fmpq(1, 3)]).rows[0]
     assert whole.energy_error == 0
     assert thirds.energy_error.contains(0)
     assert not thirds.energy_error.is_zero()
@@ -206,25 +171,16 @@ def test_rounded_coefficients_end_the_ladder() -> None:
     0, and shows.
     """
     rk4 = diagonal_method("rk4")
-    b = tuple(
-        fmpq(x, 10**10)
-        for x in (1666666667, 3333333333, 3333333333, 1666666666)
-    )
+    b = tuple(fmpq(x, 10**10) for x in (1666666667, 3333333333, 3333333333, 1666666666))
     tableau = spelled_out([[rk4.A]], [b], [None])
     within = converge(tableau, default(tableau), tolerance=fmpq(1, 10**9))
-    assert (within.visible_order, within.predicted_order, within.verdict) == (
-        4,
-        4,
-        "agree",
-    )
+    assert (within.visible_order, within.predicted_order, within.verdict) == (4, 4, "agree")
     exact = converge(tableau, default(tableau))
     assert (exact.visible_order, exact.verdict) == (0, "agree")
 
 
 @pytest.mark.parametrize("missed", [12, 30, 90])
-def test_a_condition_missed_by_little_shows_in_a_short_time(
-    missed: int,
-) -> None:
+def test_a_condition_missed_by_little_shows_in_a_short_time(missed: int) -> None:
     """rk4 with a weight off by 10^−12 … 10^−90: the steps of usual size show 4, tiny ones the order
     0 that the certificate proves.
     """
@@ -277,12 +233,7 @@ def test_heavy_libraries_are_not_imported() -> None:
         "converge(gark([d('rk4')], {}), Oscillator.default(1, fmpq(1)))\n"
         "print([x for x in ('numpy', 'matplotlib', 'sympy') if x in sys.modules])"
     )
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout == "[]\n"
 
 
@@ -292,7 +243,5 @@ def test_too_many_steps_are_refused() -> None:
     """
     with pytest.raises(UsageProblem, match="limit 1000000000000000"):
         converge(alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**18))
-    rows = converge(
-        alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**14)
-    ).rows
+    rows = converge(alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**14)).rows
     assert 1 <= len(rows) < 8

@@ -12,14 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.ladder import (
-    MAX_ROWS,
-    ROWS,
-    halvings,
-    is_complete,
-    plateau,
-    trimmed,
-)
+from garkcli.convergence.ladder import MAX_ROWS, ROWS, halvings, is_complete, plateau, trimmed
 from garkcli.convergence.result import Row, observed_order
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
@@ -33,9 +26,7 @@ def rows_of(error: Callable[[float], float], count: int) -> list[Row]:
     """Rows with h = 1, 1/2, …"""
     made: list[Row] = []
     for k in range(count):
-        slope = (
-            None if k == 0 else log2(error(2.0 ** (1 - k)) / error(2.0**-k))
-        )
+        slope = None if k == 0 else log2(error(2.0 ** (1 - k)) / error(2.0**-k))
         made.append(Row(fmpq(1, 2**k), arb(error(2.0**-k)), slope, arb(0)))
     return made
 
@@ -50,15 +41,8 @@ def ladder_of(error: Callable[[float], float]) -> list[Row]:
     raise AssertionError("the ladder has no end")
 
 
-@given(
-    order=st.integers(1, 12),
-    a=st.floats(-0.5, 0.5),
-    b=st.floats(-1, 1),
-    c=st.floats(0.01, 100),
-)
-def test_ladder_ends_near_the_order(
-    order: int, a: float, b: float, c: float
-) -> None:
+@given(order=st.integers(1, 12), a=st.floats(-0.5, 0.5), b=st.floats(-1, 1), c=st.floats(0.01, 100))
+def test_ladder_ends_near_the_order(order: int, a: float, b: float, c: float) -> None:
     """Whatever the expansion of the error: it is small at the start, and shows the order at the
     end.
     """
@@ -92,8 +76,7 @@ def test_plateau_is_small() -> None:
 
     def rows(*slopes: float) -> list[Row]:
         return [
-            Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0))
-            for k, s in enumerate(slopes)
+            Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0)) for k, s in enumerate(slopes)
         ]
 
     rounding = arb(1) / 10**9
@@ -132,11 +115,7 @@ def test_ladder_fits_the_method(order: int) -> None:
     """On the pendulum: Euler begins with small steps, the rectangular method with large ones; both
     in few rows.
     """
-    tableau = (
-        RECTANGULAR
-        if order == 4
-        else gark([diagonal_method("explicit-euler")], {})
-    )
+    tableau = RECTANGULAR if order == 4 else gark([diagonal_method("explicit-euler")], {})
     rows = converge(tableau, hamiltonian("pendulum", terms_of(tableau))).rows
     assert len(rows) == ROWS
     assert 1e-6 < float(rows[0].error) < 0.1

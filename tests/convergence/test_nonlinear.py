@@ -50,9 +50,7 @@ def observed(tableau: Tableau, name: str, seed: int = 1) -> Convergence:
         (RK4, "fput", 4),
     ],
 )
-def test_observed_order_is_the_exact_one(
-    tableau: Tableau, name: str, order: int
-) -> None:
+def test_observed_order_is_the_exact_one(tableau: Tableau, name: str, order: int) -> None:
     """Within 0.01 of the certificate's order, and the last slope within 0.05."""
     result = observed(tableau, name)
     assert (result.predicted_order, result.visible_order) == (order, order)
@@ -89,13 +87,9 @@ def test_seed_makes_another_problem() -> None:
 
 def test_disagreement_is_told() -> None:
     """Two large steps show no order: slopes far from 4 do not agree."""
-    result = converge(
-        RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 2), fmpq(1, 4)]
-    )
+    result = converge(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 2), fmpq(1, 4)])
     assert not result.agrees
-    assert not converge(
-        RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 8)]
-    ).agrees
+    assert not converge(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 8)]).agrees
 
 
 def test_equal_parts_may_only_gain() -> None:
@@ -103,9 +97,7 @@ def test_equal_parts_may_only_gain() -> None:
     disagreement.
     """
     methods = [diagonal_method("gauss", 2)] * 3
-    blocks = {
-        (l, m): methods[0].A for l in range(3) for m in range(3) if l != m
-    }
+    blocks = {(l, m): methods[0].A for l in range(3) for m in range(3) if l != m}
     result = observed(gark_tableau(methods, blocks), "pendulum")
     assert result.problem.terms[1] == result.problem.terms[2]
     assert result.agrees
@@ -117,10 +109,7 @@ def test_rounded_coefficients_end_on_a_plateau() -> None:
     """
     rk4 = diagonal_method("rk4")
     b = (*rk4.b[:3], rk4.b[3] + fmpq(1, 10**9))
-    tableau, problem = (
-        spelled_out([[rk4.A]], [b], [None]),
-        hamiltonian("pendulum", 1),
-    )
+    tableau, problem = (spelled_out([[rk4.A]], [b], [None]), hamiltonian("pendulum", 1))
     steps = [fmpq(4, 4 * 2**k) for k in range(9)]
     result = converge(tableau, problem, steps=steps, tolerance=fmpq(1, 10**8))
     assert result.plateau > 0
@@ -130,20 +119,11 @@ def test_rounded_coefficients_end_on_a_plateau() -> None:
 
 def test_invariants_are_reported() -> None:
     """Angular momentum is kept to round-off by the pair, in the table, JSON and CSV."""
-    run = gark(
-        "converge",
-        VERLET,
-        "--problem",
-        "kepler",
-        "--steps",
-        "1/16,1/32,1/64,1/128",
-    )
+    run = gark("converge", VERLET, "--problem", "kepler", "--steps", "1/16,1/32,1/64,1/128")
     assert run.code == 0
     assert "angular momentum error" in run.out
     assert run.out.count("< 1e-1") == 4
-    data = json.loads(
-        gark("converge", VERLET, "--problem", "kepler", "--format", "json").out
-    )
+    data = json.loads(gark("converge", VERLET, "--problem", "kepler", "--format", "json").out)
     assert data["problem"] == "kepler"
     for step in data["steps"]:
         assert step["invariant_errors"]["angular momentum"] <= 1e-12
@@ -154,32 +134,14 @@ def test_invariants_are_reported() -> None:
     ("code", "said", "arguments"),
     [
         (2, "H{1} of generic depends on q", ("--problem", "generic")),
-        (
-            2,
-            "--omega is for the oscillator",
-            ("--problem", "kepler", "--omega", "2"),
-        ),
-        (
-            2,
-            "--seed is for the problems generic",
-            ("--problem", "pendulum", "--seed", "2"),
-        ),
-        (
-            2,
-            "--seed is for the problems generic",
-            ("--omega", "2", "--seed", "2"),
-        ),
-        (
-            2,
-            "not a whole number of steps",
-            ("--problem", "pendulum", "--steps", "3/7"),
-        ),
+        (2, "--omega is for the oscillator", ("--problem", "kepler", "--omega", "2")),
+        (2, "--seed is for the problems generic", ("--problem", "pendulum", "--seed", "2")),
+        (2, "--seed is for the problems generic", ("--omega", "2", "--seed", "2")),
+        (2, "not a whole number of steps", ("--problem", "pendulum", "--steps", "3/7")),
         (1, "THEY DISAGREE", ("--problem", "kepler", "--steps", "1/2,1/4")),
     ],
 )
-def test_command_says_what_is_wrong(
-    code: int, said: str, arguments: tuple[str, ...]
-) -> None:
+def test_command_says_what_is_wrong(code: int, said: str, arguments: tuple[str, ...]) -> None:
     """Options of another problem, misfits and disagreement."""
     run = gark("converge", VERLET, *arguments)
     assert run.code == code
@@ -189,22 +151,13 @@ def test_command_says_what_is_wrong(
 def test_failing_step_ends_with_1() -> None:
     """The step, its size and the residual, on stderr."""
     run = gark(
-        "converge",
-        COLLOCATION,
-        "--problem",
-        "generic",
-        "--t-end",
-        "1000000",
-        "--steps",
-        "1000000",
+        "converge", COLLOCATION, "--problem", "generic", "--t-end", "1000000", "--steps", "1000000"
     )
     assert run.code == 1
     assert "step 1 of size 1000000" in run.err
 
 
-def made(
-    observed: float | None, is_sharp: bool = False, **changes: Any
-) -> Convergence:
+def made(observed: float | None, is_sharp: bool = False, **changes: Any) -> Convergence:
     """What would be observed with this order, where 4 is to be seen."""
     row = Row(fmpq(1), arb(1), None, arb(0))
     visible = Visible(4, is_sharp, "")
@@ -218,10 +171,7 @@ def made(
     [
         (made(4.01), "agree"),
         (made(3.0), "disagree"),
-        (
-            made(5.0),
-            "agree",
-        ),  # the pendulum may hide trees, and errors may cancel
+        (made(5.0), "agree"),  # the pendulum may hide trees, and errors may cancel
         (made(5.0, is_sharp=True), "disagree"),
         (made(3.5, short_order=4.0), "agree"),
         (made(3.5, short_order=3.0), "disagree"),
@@ -246,16 +196,9 @@ def test_small_error_constant_needs_tiny_steps() -> None:
     rk4 = diagonal_method("rk4")
     A = (
         *rk4.A[:3],
-        (
-            rk4.A[3][0],
-            rk4.A[3][1] + fmpq(1, 10**4),
-            rk4.A[3][2] - fmpq(1, 10**4),
-            rk4.A[3][3],
-        ),
+        (rk4.A[3][0], rk4.A[3][1] + fmpq(1, 10**4), rk4.A[3][2] - fmpq(1, 10**4), rk4.A[3][3]),
     )
-    result = converge(
-        spelled_out([[A]], [rk4.b], [None]), hamiltonian("pendulum", 1)
-    )
+    result = converge(spelled_out([[A]], [rk4.b], [None]), hamiltonian("pendulum", 1))
     assert (result.predicted_order, result.visible_order) == (3, 3)
     assert result.observed_order is not None
     assert result.observed_order > 3.5
@@ -268,23 +211,15 @@ def test_exact_solution_has_no_error() -> None:
     stays there.
     """
     (x,), (p,) = symbols(("x",), "q"), symbols(("x",), "p")
-    fall = Hamiltonian(
-        "fall", ("x",), (p**2 / 2 + x,), (fmpq(0), fmpq(1)), fmpq(2)
-    )
+    fall = Hamiltonian("fall", ("x",), (p**2 / 2 + x,), (fmpq(0), fmpq(1)), fmpq(2))
     rest = replace(hamiltonian("pendulum", 1), initial=(fmpq(0), fmpq(0)))
     for problem in (fall, rest):
         result = converge(RK4, problem)
         assert result.is_exact
-        assert (len(result.rows), result.observed_order, result.verdict) == (
-            1,
-            None,
-            "agree",
-        )
+        assert (len(result.rows), result.observed_order, result.verdict) == (1, None, "agree")
 
 
-def test_ladder_ends_before_too_many_steps(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_ladder_ends_before_too_many_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where there is room for few step sizes only, those are kept."""
     monkeypatch.setattr("garkcli.convergence.stepped_solver.MAX_STEPS", 8)
     result = converge(RECTANGULAR, hamiltonian("pendulum", 2))
@@ -297,9 +232,7 @@ def test_mixed_orders_need_a_shorter_time() -> None:
     that.
     """
     A = [["1/4", "-0.0386751345948"], ["0.5386751345948", "1/4"]]
-    tableau = spelled_out(
-        [[[[read(x) for x in row] for row in A]]], [[fmpq(1, 2)] * 2], [None]
-    )
+    tableau = spelled_out([[[[read(x) for x in row] for row in A]]], [[fmpq(1, 2)] * 2], [None])
     result = converge(tableau, hamiltonian("kepler", 1))
     assert result.observed_order == pytest.approx(4, abs=0.1)
     assert result.short_time is not None
@@ -319,17 +252,13 @@ def test_constant_force_is_exact_at_once() -> None:
     so that round-off is taken for no error without hundreds of digits.
     """
     (x,), (p,) = symbols(("x",), "q"), symbols(("x",), "p")
-    fall = Hamiltonian(
-        "fall", ("x",), (p**2 / 2 + x / 3,), (fmpq(0), fmpq(1, 7)), fmpq(2)
-    )
+    fall = Hamiltonian("fall", ("x",), (p**2 / 2 + x / 3,), (fmpq(0), fmpq(1, 7)), fmpq(2))
     result = converge(RK4, fall)
     assert result.is_exact
     assert result.rows[0].digits == 30
 
 
-def test_usage_errors_come_before_the_work(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_usage_errors_come_before_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
     """Steps that do not divide the time are refused before the order or a solution is looked
     for.
     """
@@ -356,7 +285,5 @@ def test_round_off_is_below_its_bound() -> None:
         solver = SteppedSolver(bound, problem.t_end, Visible(4, False, ""))
         floats = integrate(bound.at(), fmpq(1, 64), int(64 * problem.t_end))
         exact = integrate(bound.at(40), fmpq(1, 64), int(64 * problem.t_end))
-        distance = sum(
-            abs(arb(a) - b) for a, b in zip(floats, exact, strict=True)
-        )
+        distance = sum(abs(arb(a) - b) for a, b in zip(floats, exact, strict=True))
         assert distance < solver._round_off(15, fmpq(1, 64)) / 4

@@ -22,23 +22,14 @@ def test_period_of_kepler() -> None:
         end = reference(problem, near).to(digits)
         with ctx.workprec(300):
             assert (
-                max(
-                    abs(a - arb(b))
-                    for a, b in zip(end, problem.initial, strict=True)
-                )
+                max(abs(a - arb(b)) for a, b in zip(end, problem.initial, strict=True))
                 < arb(10) ** -digits
             )
 
 
 @pytest.mark.parametrize(
     ("digits", "t_end"),
-    [
-        (16, fmpq(30)),
-        (25, fmpq(30)),
-        (16, fmpq(2)),
-        (40, fmpq(2)),
-        (25, fmpq(1, 10)),
-    ],
+    [(16, fmpq(30)), (25, fmpq(30)), (16, fmpq(2)), (40, fmpq(2)), (25, fmpq(1, 10))],
     ids=str,
 )
 def test_linear_springs(digits: int, t_end: fmpq) -> None:
@@ -54,32 +45,23 @@ def test_linear_springs(digits: int, t_end: fmpq) -> None:
         x, y, px, py = (arb(z) for z in problem.initial)
         for sign in (1, -1):
             rate = (1 + 2 * k + sign * root) / 2  # the squared frequency
-            direction = (
-                k - rate
-            ) / k  # of x where y is 1, from the second equation
+            direction = (k - rate) / k  # of x where y is 1, from the second equation
             norm = direction**2 + 1
             q, p = (direction * x + y) / norm, (direction * px + py) / norm
             w = rate.sqrt()
             now = q * (w * t_end).cos() + p / w * (w * t_end).sin()
             speed = p * (w * t_end).cos() - w * q * (w * t_end).sin()
-            for i, part in enumerate(
-                (direction * now, now, direction * speed, speed)
-            ):
+            for i, part in enumerate((direction * now, now, direction * speed, speed)):
                 expected[i] += part
         allowed = arb(10) ** -digits * magnitude(found, problem)
-        assert (
-            max(abs(a - b) for a, b in zip(found, expected, strict=True))
-            < allowed
-        )
+        assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < allowed
 
 
 def test_all_splits_share_one_solution() -> None:
     """Two and three terms of the pendulum, one computation; more digits once are enough for fewer
     later.
     """
-    two, three = (
-        reference(hamiltonian("pendulum", n), fmpq(1)) for n in (2, 3)
-    )
+    two, three = (reference(hamiltonian("pendulum", n), fmpq(1)) for n in (2, 3))
     assert two is three
     two.to(30)
     assert two.to(20) == two.y
@@ -89,18 +71,14 @@ def test_all_splits_share_one_solution() -> None:
 def test_watch_is_told() -> None:
     """What is computed, and how far it is: the last word on a run is that it is done."""
     said: list[tuple[str, int, int]] = []
-    Reference(hamiltonian("pendulum", 1), fmpq(1)).to(
-        18, lambda *x: said.append(x)
-    )
+    Reference(hamiltonian("pendulum", 1), fmpq(1)).to(18, lambda *x: said.append(x))
     assert {what for what, _, _ in said} == {"reference solution, 18 digits"}
     assert said[-1][1] == said[-1][2]
     assert all(0 < done <= total for _, done, total in said)
 
 
 @pytest.mark.parametrize("digits", [16, 21])
-def test_collision_has_no_solution(
-    digits: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_collision_has_no_solution(digits: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """A planet without angular momentum falls into the sun at t = π/√8: nothing is made up
     beyond, however few steps are tried.
     """
@@ -108,9 +86,7 @@ def test_collision_has_no_solution(
 
     monkeypatch.setattr(module, "MAX_TRIED", 200)
     monkeypatch.setattr(module, "_REFINED", 8)
-    problem = replace(
-        hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0))
-    )
+    problem = replace(hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0)))
     with pytest.raises((StepFailed, UsageProblem)):
         Reference(problem, fmpq(2)).to(digits)
 
@@ -125,13 +101,10 @@ def test_a_solution_that_ends_is_told_when() -> None:
 
     ((x,), (p,)) = (symbols(("x",), group) for group in ("q", "p"))
     problem = replace(
-        hamiltonian("pendulum", 2),
-        terms=(p**2 / 2, -(x**4)),
-        initial=(fmpq(1), fmpq(1)),
+        hamiltonian("pendulum", 2), terms=(p**2 / 2, -(x**4)), initial=(fmpq(1), fmpq(1))
     )
     with pytest.raises(
-        UsageProblem,
-        match=r"no solution is found at t = 2: .* fail at t = 0\.75",
+        UsageProblem, match=r"no solution is found at t = 2: .* fail at t = 0\.75"
     ) as told:
         Reference(problem.unsplit(), fmpq(2)).to(16)
     assert "final time before 0.75" in (told.value.help or "")
@@ -140,7 +113,5 @@ def test_a_solution_that_ends_is_told_when() -> None:
 def test_search_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """With too few steps allowed it is said, with the time and the digits."""
     monkeypatch.setattr(module, "MAX_STEPS", 10)
-    with pytest.raises(
-        UsageProblem, match="t = 2 is not found to 40 digits in 10 steps"
-    ):
+    with pytest.raises(UsageProblem, match="t = 2 is not found to 40 digits in 10 steps"):
         Reference(hamiltonian("kepler", 1), fmpq(2)).to(40)

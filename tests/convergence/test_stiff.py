@@ -48,9 +48,7 @@ CATALOGUE = {
     "IMEX SSP3(4,3,3)": "sciml_IMEXSSP3433",
 }
 TESTS = [
-    (name, stiffness)
-    for name in ("prothero-robinson", "van-der-pol")
-    for stiffness in (1, 10**6)
+    (name, stiffness) for name in ("prothero-robinson", "van-der-pol") for stiffness in (1, 10**6)
 ]
 # Hairer and Wanner II, table IV.15.1: the power of h in the global error, with z = λh
 LITERATURE = {
@@ -100,12 +98,7 @@ def row(name: str) -> list[str]:
     tolerance = fmpq(0) if found.tolerance is None else found.tolerance
     order = measured(name, "prothero-robinson", 1).predicted_order
     stage_order = simplifying(found.tableau, tolerance=tolerance).eta
-    return [
-        name,
-        str(order),
-        str(stage_order),
-        *(shown(name, *test) for test in TESTS),
-    ]
+    return [name, str(order), str(stage_order), *(shown(name, *test) for test in TESTS)]
 
 
 def test_the_page_is_measured() -> None:
@@ -126,11 +119,7 @@ def test_the_page_is_measured() -> None:
         for k, (there, here) in enumerate(zip(printed, cells, strict=True)):
             is_measured = k > 2 and "fails" not in (there, here)
             # a cell may be on the edge between two tenths
-            assert (
-                abs(float(there) - float(here)) < 0.11
-                if is_measured
-                else there == here
-            )
+            assert abs(float(there) - float(here)) < 0.11 if is_measured else there == here
 
 
 @pytest.mark.parametrize("name", [*FAMILIES, *CATALOGUE])
@@ -140,9 +129,7 @@ def test_all_show_their_order_where_nothing_is_stiff(name: str) -> None:
         result = measured(name, on, 1)
         assert result.verdict == "agree"
         assert result.stiff is None
-        assert result.observed_order == pytest.approx(
-            result.predicted_order, abs=0.05
-        )
+        assert result.observed_order == pytest.approx(result.predicted_order, abs=0.05)
 
 
 @pytest.mark.parametrize(("name", "power"), LITERATURE.items())
@@ -154,9 +141,7 @@ def test_slopes_are_those_of_the_literature(name: str, power: int) -> None:
     is_reduced = power < result.predicted_order
     assert result.verdict == ("reduced" if is_reduced else "agree")
     if is_reduced:
-        assert result.short_order == pytest.approx(
-            result.predicted_order, abs=0.05
-        )
+        assert result.short_order == pytest.approx(result.predicted_order, abs=0.05)
 
 
 def test_imex_methods_are_reduced() -> None:

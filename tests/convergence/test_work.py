@@ -21,25 +21,14 @@ from tests.stepping.test_step import RECTANGULAR, RK4, coupled
 
 def test_explicit_method_is_counted_by_hand() -> None:
     """rk4 has four stages with a velocity and a force each, and nothing to solve."""
-    y, cost = work_of(
-        bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50
-    )
-    assert (cost.steps, cost.evaluations, cost.iterations, cost.jacobians) == (
-        50,
-        400,
-        0,
-        0,
-    )
+    y, cost = work_of(bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50)
+    assert (cost.steps, cost.evaluations, cost.iterations, cost.jacobians) == (50, 400, 0, 0)
     assert cost.seconds is not None
     assert 0 < cost.seconds < 1
-    assert y == integrate(
-        bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50
-    )
+    assert y == integrate(bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50)
 
 
-def test_clocks_that_tick_seldom_have_the_mean(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_clocks_that_tick_seldom_have_the_mean(monkeypatch: pytest.MonkeyPatch) -> None:
     """A clock that moves once in two hundred looks shows no single run: a hundred of them took a
     tick.
     """
@@ -70,10 +59,7 @@ def test_digits_cost_evaluations() -> None:
     """More digits take more iterations."""
     costs = []
     for digits in (15, 40):
-        state = Stepper(
-            bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(digits),
-            fmpq(1, 10),
-        )
+        state = Stepper(bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(digits), fmpq(1, 10))
         state.advance(20)
         costs.append(cost_of(state))
     assert costs[0].seconds is None
@@ -86,16 +72,10 @@ def test_time_is_measured_where_floats_reach() -> None:
     """
     tableau = pair(coupled(3, 4))
     steps = [fmpq(1, 2**k) for k in (0, 1, 2, 3, 7, 10)]
-    rows = converge(
-        tableau, hamiltonian("generic", 2), steps=steps, is_timed=True
-    ).rows
-    timed = [
-        row.cost is not None and row.cost.seconds is not None for row in rows
-    ]
+    rows = converge(tableau, hamiltonian("generic", 2), steps=steps, is_timed=True).rows
+    timed = [row.cost is not None and row.cost.seconds is not None for row in rows]
     assert timed[:4] == [True] * 4
     assert not timed[-1]
-    assert all(
-        row.cost is not None and row.cost.evaluations > 0 for row in rows
-    )
+    assert all(row.cost is not None and row.cost.evaluations > 0 for row in rows)
     assert rows[-1].cost is not None
     assert rows[-1].cost.steps == 1024

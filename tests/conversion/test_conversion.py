@@ -148,9 +148,7 @@ def test_methods_in_every_form(path: Path) -> None:
         )
 
 
-@pytest.mark.parametrize(
-    "name", ["ark-ars222", "prk-lobatto-iiia-iiib", "stoermer-verlet"]
-)
+@pytest.mark.parametrize("name", ["ark-ars222", "prk-lobatto-iiia-iiib", "stoermer-verlet"])
 def test_there_and_back(name: str) -> None:
     """An additive and a partitioned method as GARK methods, and back again."""
     method = load(str(ROOT / "methods" / f"{name}.gark.yaml"))
@@ -173,9 +171,7 @@ def test_the_canonical_form_knows_no_numbering(data: st.DataObject) -> None:
     stages = [len(colour.b) for colour in tableau.colours]
     further = data.draw(further_of(stages, 1))
     method = of(tableau, further)
-    other = renumbered(
-        sheet_of(method), data.draw(orders_of(sheet_of(method)))
-    )
+    other = renumbered(sheet_of(method), data.draw(orders_of(sheet_of(method))))
     k = data.draw(st.integers(0, len(tableau.spaces) - 1))
     longer = with_stage_twice(other, k)
     wanted = as_canonical(method)
@@ -186,16 +182,12 @@ def test_the_canonical_form_knows_no_numbering(data: st.DataObject) -> None:
 
 def of(tableau: Tableau, further: Further) -> GarkMethod:
     """A method."""
-    return GarkMethod(
-        tableau=tableau, embedded=further.embedded, dense=further.dense
-    )
+    return GarkMethod(tableau=tableau, embedded=further.embedded, dense=further.dense)
 
 
 def of_sheet(sheet: Sheet) -> GarkMethod:
     """A sheet as a method."""
-    return GarkMethod(
-        tableau=sheet.tableau, embedded=sheet.embedded, dense=sheet.dense
-    )
+    return GarkMethod(tableau=sheet.tableau, embedded=sheet.embedded, dense=sheet.dense)
 
 
 def with_stage_twice(sheet: Sheet, k: int) -> Sheet:
@@ -245,12 +237,7 @@ def test_what_a_file_says_stays() -> None:
     assert (method.name, made.left_out) == ("Bogacki-Shampine", ())
     assert "P. Bogacki" in str(method.reference)
     assert method.description == "the pair of two orders"
-    assert [x.key for x in method.claims] == [
-        "order",
-        "embedded-order",
-        "fsal",
-        "symplectic",
-    ]
+    assert [x.key for x in method.claims] == ["order", "embedded-order", "fsal", "symplectic"]
     assert_same_method(loads(PAIR), method)
 
 
@@ -268,11 +255,7 @@ def test_the_pair_is_claimed_what_was_claimed_of_it(tmp_path: Path) -> None:
     """The orders of the pair become those of the method; all of its claims hold."""
     method = load(str(ROOT / "methods" / "collocation.gark.yaml"))
     made = convert(method, "pair")
-    assert {x.key for x in made.method.claims} == {
-        "order",
-        "bound",
-        "sharp-bound",
-    }
+    assert {x.key for x in made.method.claims} == {"order", "bound", "sharp-bound"}
     assert "conjugate-order" in made.left_out
     path = tmp_path / "pair.gark.yaml"
     path.write_text(made.method.text, encoding="utf-8")
@@ -307,9 +290,7 @@ def test_claims_that_do_not_hold_are_left_out_and_named() -> None:
         ),
     ],
 )
-def test_what_has_no_such_form_is_refused(
-    text: str, to: str, why: str
-) -> None:
+def test_what_has_no_such_form_is_refused(text: str, to: str, why: str) -> None:
     """With the reason and a cure; the program ends with 2."""
     with pytest.raises(CannotConvert, match=why) as caught:
         convert(loads(text), to)

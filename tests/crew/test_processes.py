@@ -52,18 +52,14 @@ def test_how_processes_begin(monkeypatch: pytest.MonkeyPatch) -> None:
         ("win32", False, "spawn"),
     ):
         methods = ["fork", "spawn"] if can_fork else ["spawn"]
-        monkeypatch.setattr(
-            multiprocessing, "get_all_start_methods", lambda x=methods: x
-        )
+        monkeypatch.setattr(multiprocessing, "get_all_start_methods", lambda x=methods: x)
         monkeypatch.setattr(processes.sys, "platform", platform)
         assert start_method() == method
     monkeypatch.undo()
     assert start_method() in known()
 
 
-def test_processes_that_are_not_forked(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_processes_that_are_not_forked(monkeypatch: pytest.MonkeyPatch) -> None:
     """They get their items and give their outcomes as forked ones do."""
     monkeypatch.setattr(processes, "start_method", lambda: "spawn")
     with Crew(math.factorial, 1, lost) as crew:

@@ -25,9 +25,7 @@ def test_each_choice_says_what_it_leaves(tmp_path: Path) -> None:
     chosen = ["--choose", "c2=1/3", "--choose", "a32=0", "--format", "json"]
     none = gark(*command, *chosen)
     data = json.loads(none.out)
-    dimensions = [
-        (x["dimension_before"], x["dimension"]) for x in data["choices"]
-    ]
+    dimensions = [(x["dimension_before"], x["dimension"]) for x in data["choices"]]
     assert (none.code, dimensions) == (1, [(2, 1), (1, -1)])
 
 
@@ -37,10 +35,7 @@ def test_each_choice_says_what_it_leaves(tmp_path: Path) -> None:
         (["c9=1"], "no unknown 'c9'"),
         (["c2=sqrt(2)"], "a rational number is expected"),
         (["c2=1/0"], "--choose c2"),
-        (
-            [f"{x}=1" for x in ("c2", "c3", "a32", "b1", "b2", "b3")],
-            "leaves no unknown",
-        ),
+        ([f"{x}=1" for x in ("c2", "c3", "a32", "b1", "b2", "b3")], "leaves no unknown"),
     ],
 )
 def test_faults(choices: list[str], message: str, tmp_path: Path) -> None:

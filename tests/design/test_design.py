@@ -70,18 +70,9 @@ def decimals(found: Design, order: int) -> list[dict[str, float]]:
     ("families", "wanted"),
     [
         (("gauss", 2, "lobatto-iiia", 3), ["every-value"] * 4 + ["none"]),
-        (
-            ("gauss", 2, "lobatto-iiia", 4),
-            ["every-value"] * 2 + ["solutions"] * 2 + ["none"],
-        ),
-        (
-            ("gauss", 3, "lobatto-iiia", 5),
-            ["every-value"] * 4 + ["solutions"] * 2 + ["none"],
-        ),
-        (
-            ("radau-iia", 2, "lobatto-iiia", 3),
-            ["every-value"] * 2 + ["solutions", "none"],
-        ),
+        (("gauss", 2, "lobatto-iiia", 4), ["every-value"] * 2 + ["solutions"] * 2 + ["none"]),
+        (("gauss", 3, "lobatto-iiia", 5), ["every-value"] * 4 + ["solutions"] * 2 + ["none"]),
+        (("radau-iia", 2, "lobatto-iiia", 3), ["every-value"] * 2 + ["solutions", "none"]),
     ],
 )
 def test_combinations(families: tuple[object, ...], wanted: list[str]) -> None:
@@ -93,10 +84,7 @@ def test_combinations(families: tuple[object, ...], wanted: list[str]) -> None:
     assert kinds(found) == wanted
     for step in found.steps:
         for one in step.found:
-            assert (one.solution.values, one.solution.multiplicity) == (
-                {"tau": 1},
-                2,
-            )
+            assert (one.solution.values, one.solution.multiplicity) == ({"tau": 1}, 2)
     generic = wanted.count("every-value")
     for tau in ("0", "1/3", "-2"):
         method = loads(text, settings={"tau": tau})
@@ -120,9 +108,7 @@ def test_sdirk_of_three_stages() -> None:
     """Order 4 for the three γ that solve 24γ³ − 36γ² + 12γ − 1 = 0, all coefficients unknown."""
     found = find_parameters(loads_family(SDIRK3), 4)
     gammas = [values["g"] for values in decimals(found, 4)]
-    for gamma, known in zip(
-        gammas, (0.128886400516, 0.302534578183, 1.068579021302), strict=True
-    ):
+    for gamma, known in zip(gammas, (0.128886400516, 0.302534578183, 1.068579021302), strict=True):
         assert gamma == pytest.approx(known, abs=1e-11)
     (one,) = found.last.found
     assert str(one.solution.values["g"].field.modulus.degree()) == "3"  # type: ignore[union-attr]
@@ -144,29 +130,17 @@ def test_explicit_methods_of_three_stages() -> None:
     """Order 3 is a family of dimension 2, order 4 is none; chosen nodes leave one method."""
     found = find_parameters(loads_family(EXPLICIT3), 4)
     assert kinds(found) == ["every-value", "family", "family", "none"]
-    assert [
-        step.ideal.dimension for step in found.steps[:3] if step.ideal
-    ] == [5, 4, 2]
-    chosen = find_parameters(
-        loads_family(EXPLICIT3, settings={"c2": "1/3", "c3": "2/3"}), 3
-    )
+    assert [step.ideal.dimension for step in found.steps[:3] if step.ideal] == [5, 4, 2]
+    chosen = find_parameters(loads_family(EXPLICIT3, settings={"c2": "1/3", "c3": "2/3"}), 3)
     (one,) = chosen.last.found
-    assert one.solution.values == {
-        "a32": fmpq(2, 3),
-        "b2": 0,
-        "b3": fmpq(3, 4),
-    }
+    assert one.solution.values == {"a32": fmpq(2, 3), "b2": 0, "b3": fmpq(3, 4)}
 
 
 def test_splitting_of_four_stages() -> None:
     """All real splittings of order 4 with four maps a part: Forest's and Ruth's, both ways."""
     names = [f"{letter}{i}" for letter in "ab" for i in range(1, 5)]
-    rows_q = [
-        [f"a{j}" if j < i else "0" for j in range(1, 5)] for i in range(1, 5)
-    ]
-    rows_p = [
-        [f"b{j}" if j <= i else "0" for j in range(1, 5)] for i in range(1, 5)
-    ]
+    rows_q = [[f"a{j}" if j < i else "0" for j in range(1, 5)] for i in range(1, 5)]
+    rows_p = [[f"b{j}" if j <= i else "0" for j in range(1, 5)] for i in range(1, 5)]
 
     def text(rows: list[list[str]]) -> str:
         return "[" + ", ".join(f"[{', '.join(row)}]" for row in rows) + "]"
@@ -188,9 +162,7 @@ structure: separable
 def test_radicals_beside_unknowns() -> None:
     """√3 is an unknown with its sign: one of both γ goes with it."""
     found = find_parameters(
-        loads_family(
-            "parameters: {t: free}\nA: [[t, 0], [sqrt(3)/3, t]]\nb: [1/2, 1/2]\n"
-        )
+        loads_family("parameters: {t: free}\nA: [[t, 0], [sqrt(3)/3, t]]\nb: [1/2, 1/2]\n")
     )
     (one,) = found.steps[2].found
     assert (len(one.solution.real), one.accepted) == (2, (0,))
@@ -208,22 +180,14 @@ def test_ranges() -> None:
     assert chosen.values == {"g": "1/2 + sqrt(3)/6"}
 
 
-@pytest.mark.parametrize(
-    "text", [SDIRK2, SDIRK3, TAU.format("gauss", 2, "lobatto-iiia", 4)]
-)
+@pytest.mark.parametrize("text", [SDIRK2, SDIRK3, TAU.format("gauss", 2, "lobatto-iiia", 4)])
 def test_what_is_found_is_a_method_file(text: str) -> None:
     """The file with the values filled in is read again and has its claim."""
     family = loads_family(text)
     order = 4 if text is SDIRK3 else 3
-    chosen = first_method(
-        find_parameters(family, order, "method" if "A:" in text else "pair")
-    )
+    chosen = first_method(find_parameters(family, order, "method" if "A:" in text else "pair"))
     assert chosen is not None
-    claim = (
-        f"order: {chosen.order}"
-        if "A:" in text
-        else f"pair-order: {chosen.order}"
-    )
+    claim = f"order: {chosen.order}" if "A:" in text else f"pair-order: {chosen.order}"
     method = loads(with_values(family, chosen.values, "found", claim))
     assert [x.key for x in method.claims] == [claim.split(":")[0]]
     whole = method if "A:" in text else pair(method)
@@ -247,17 +211,13 @@ def _text(entries: list[tuple[int, int]], weight: Fraction) -> str:
     st.fractions(Fraction(1, 4), Fraction(3, 4), max_denominator=4),
     st.fractions(-2, 2, max_denominator=3),
 )
-def test_random_families(
-    entries: list[tuple[int, int]], weight: Fraction, t: Fraction
-) -> None:
+def test_random_families(entries: list[tuple[int, int]], weight: Fraction, t: Fraction) -> None:
     """A member has the order exactly where the ideal vanishes: at a random value and at rational
     solutions.
     """
     text = _text(entries, weight)
     found = find_parameters(loads_family(text))
-    values: dict[str, Mapping[str, object]] = {
-        str(t): {"t": fmpq(t.numerator, t.denominator)}
-    }
+    values: dict[str, Mapping[str, object]] = {str(t): {"t": fmpq(t.numerator, t.denominator)}}
     for step, one in product(found.steps, [0]):
         for solution in step.found[one:]:
             if solution.solution.field is None:
@@ -303,9 +263,7 @@ def test_reports_fit_a_screen() -> None:
         assert max(map(len, lines)) <= 80
 
 
-def test_conditions_are_given_up_in_time(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_conditions_are_given_up_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """Wherever the time is over while the conditions are made, the same ones are found later."""
     family = loads_family(SDIRK3)
 
@@ -315,9 +273,7 @@ def test_conditions_are_given_up_in_time(
     expected = texts(FamilyConditions(family.tableau, family.ring))
     for steps in range(9):
         readings = count()
-        monkeypatch.setattr(
-            conditions, "monotonic", lambda now=readings: next(now)
-        )
+        monkeypatch.setattr(conditions, "monotonic", lambda now=readings: next(now))
         made = FamilyConditions(family.tableau, family.ring)
         made.deadline = steps
         with pytest.raises(NotDecided):
@@ -333,13 +289,8 @@ def test_as_a_command(tmp_path: Path) -> None:
     run = gark("design", str(path))
     assert run.code == 0
     assert "g = 1/2 + sqrt(3)/6 = 0.788675134595…" in run.out
-    data = json.loads(
-        gark("design", str(path), "--order", "3", "--format", "json").out
-    )
-    assert (data["verdict"], data["ideal"]) == (
-        "solutions",
-        ["6*g^2 - 6*g + 1"],
-    )
+    data = json.loads(gark("design", str(path), "--order", "3", "--format", "json").out)
+    assert (data["verdict"], data["ideal"]) == ("solutions", ["6*g^2 - 6*g + 1"])
     assert [x["order"] for x in data["solutions"]] == [3, 3]
     assert data["schema"] == design_data.SCHEMA
     assert gark("design", str(path), "--order", "4").code == 1
@@ -357,19 +308,10 @@ def test_as_a_command(tmp_path: Path) -> None:
     assert gark("design", str(path), "--set", "g").code == 2
     assert gark("check", str(path)).code == 0
     refused = gark("energy", str(path))
-    assert (
-        refused.code,
-        "gark design finds values" in refused.out + refused.err,
-    ) == (
-        2,
-        True,
-    )
+    assert (refused.code, "gark design finds values" in refused.out + refused.err) == (2, True)
 
 
-CLASSICAL = (
-    "1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6",
-    "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 1/8",
-)
+CLASSICAL = ("1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6", "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 1/8")
 """Kutta's methods: c2, c3, a32, c4, a42, a43 and the weights."""
 
 
@@ -387,8 +329,7 @@ def test_explicit_methods_of_four_stages() -> None:
         for p in four.ideal.polynomials:
             terms = [(int(a), e) for e, a in p.to_dict().items()]
             assert not sum(
-                a * prod(x ** int(k) for x, k in zip(known, e, strict=True))
-                for a, e in terms
+                a * prod(x ** int(k) for x, k in zip(known, e, strict=True)) for a, e in terms
             )
 
 
@@ -402,9 +343,7 @@ def test_reduced_bases() -> None:
     made = reduced_basis([*reversed(found), found[0] * y], context)
     theirs = fmpz_mpoly_vec(found, context).autoreduction(groebner=True)
     assert len(made) > 3
-    assert {str(p) for p in made} == {
-        str(p if p.leading_coefficient() > 0 else -p) for p in theirs
-    }
+    assert {str(p) for p in made} == {str(p if p.leading_coefficient() > 0 else -p) for p in theirs}
     degrees = [p.total_degree() for p in made]
     assert degrees == sorted(degrees)
 
@@ -415,9 +354,7 @@ def test_long_polynomials_are_not_shown(tmp_path: Path) -> None:
     """
     path = tmp_path / "long.yaml"
     entry = " + ".join(f"{k + 1}{'0' * 110}{k + 7}*t**{k}" for k in range(4))
-    path.write_text(
-        f"parameters: {{t: free}}\nA: [['{entry}']]\nb: [1]\n", "utf-8"
-    )
+    path.write_text(f"parameters: {{t: free}}\nA: [['{entry}']]\nb: [1]\n", "utf-8")
     command = ("design", str(path), "--order", "2")
     assert "a root of a polynomial of degree 3\n" in gark(*command).out
     data = json.loads(gark(*command, "--format", "json").out)

@@ -51,9 +51,7 @@ def test_the_pairs_are_p_stable(name: str) -> None:
 
 
 @pytest.mark.parametrize("s", [1, 2, 3, 4])
-def test_interpolation_is_made_of_collocation_and_its_conjugate(
-    s: int,
-) -> None:
+def test_interpolation_is_made_of_collocation_and_its_conjugate(s: int) -> None:
     """A^{2,1} by −s and s + 1, A^{1,2} by s + 1 and −s, exactly."""
     interpolation = gauss_lobatto(s, "interpolation").blocks
     one = f"{{collocation: -{s}, conjugate-collocation: {s + 1}}}"
@@ -91,14 +89,8 @@ def test_the_least_principal_error() -> None:
     assert constants is not None
     assert constants.all.two_squared == squares(s, t)
     near = {
-        "least-error-gauss2-lobatto3": (
-            fmpq(366973, 1000000),
-            fmpq(577982, 1000000),
-        ),
-        "p-stable-least-error-gauss2-lobatto3": (
-            fmpq(383465, 1000000),
-            fmpq(1),
-        ),
+        "least-error-gauss2-lobatto3": (fmpq(366973, 1000000), fmpq(577982, 1000000)),
+        "p-stable-least-error-gauss2-lobatto3": (fmpq(383465, 1000000), fmpq(1)),
     }
     for name, (a, b) in near.items():
         found = error_constants(pair(tableau_of(name)), 5)

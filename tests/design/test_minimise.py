@@ -16,19 +16,13 @@ from garkcli.design.ideal import Ideal
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.climbing import climbed
-from garkcli.design.minimise.critical import (
-    critical_equations,
-    is_of_one_dimension,
-)
+from garkcli.design.minimise.critical import critical_equations, is_of_one_dimension
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.registry import OBJECTIVES, find_objective
 from garkcli.design.minimise.result import Candidate, Minimum
-from garkcli.design.minimise.squared_error import (
-    squared_coupling_error,
-    squared_error,
-)
+from garkcli.design.minimise.squared_error import squared_coupling_error, squared_error
 from garkcli.design.solutions import value_at
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_ball
@@ -54,12 +48,7 @@ b: [1 - 1/(2*c), 1/(2*c)]
 """
 
 
-def least(
-    text: str,
-    objective: str,
-    order: int | None = None,
-    whose: Whose = "method",
-) -> Minimum:
+def least(text: str, objective: str, order: int | None = None, whose: Whose = "method") -> Minimum:
     """The minimum over a family."""
     design = find_parameters(loads_family(text), order, whose)
     return minimise(design, find_objective(objective), 60)
@@ -102,14 +91,8 @@ def test_squared_errors_without_trees(path: str, is_pair: bool) -> None:
         assert listed is not None
         everything = squared_error(tableau, order, None)
         coupling = squared_coupling_error(tableau, order, None)
-        assert (
-            everything.numerator / everything.denominator
-            == listed.all.two_squared
-        )
-        assert (
-            coupling.numerator / coupling.denominator
-            == listed.coupling.two_squared
-        )
+        assert everything.numerator / everything.denominator == listed.all.two_squared
+        assert coupling.numerator / coupling.denominator == listed.coupling.two_squared
 
 
 def test_two_explicit_stages() -> None:
@@ -134,8 +117,7 @@ def test_unknown_entries() -> None:
 
 
 @pytest.mark.parametrize(
-    ("whose", "objective"),
-    [("method", "error"), ("method", "error-coupling"), ("pair", "error")],
+    ("whose", "objective"), [("method", "error"), ("method", "error-coupling"), ("pair", "error")]
 )
 def test_free_transfer(whose: Whose, objective: str) -> None:
     """Where a τ is left: at rational τ beside the minimiser the list of all trees has larger
@@ -171,12 +153,7 @@ def test_three_explicit_stages() -> None:
     [candidate] = minimum.minimisers
     found = floats(minimum, candidate)
     c2, c3 = found["c2"], found["c3"]
-    e = [
-        ((c2 + c3) / 3 - c2 * c3 / 2 - 1 / 4) / 6,
-        c3 / 6 - 1 / 8,
-        (c2 / 6 - 1 / 12) / 2,
-        -1 / 24,
-    ]
+    e = [((c2 + c3) / 3 - c2 * c3 / 2 - 1 / 4) / 6, c3 / 6 - 1 / 8, (c2 / 6 - 1 / 12) / 2, -1 / 24]
     by_c2 = [(1 / 3 - c3 / 2) / 6, 0, 1 / 12, 0]
     by_c3 = [(1 / 3 - c2 / 2) / 6, 1 / 6, 0, 0]
     for slopes in (by_c2, by_c3):
@@ -195,9 +172,7 @@ def test_finitely_many() -> None:
     assert gamma == pytest.approx(0.5 - 3**0.5 / 6)
     entries = [gamma, 1 - 2 * gamma, gamma, 1 / 2, 1 / 2]
     assert minimum.value is not None
-    assert float(minimum.value.ball(80)) == pytest.approx(
-        sum(x * x for x in entries)
-    )
+    assert float(minimum.value.ball(80)) == pytest.approx(sum(x * x for x in entries))
     assert (minimum.extent, minimum.candidates) == ("all", 2)
 
 
@@ -268,9 +243,9 @@ def test_emitted_file(tmp_path: Path) -> None:
     out = gark(*command.split(), "--emit", "best.yaml", cwd=tmp_path)
     objective = json.loads(out.out)["objective"]
     assert objective["among"] == "all"
-    assert objective["gradient"] in objective["minimisers"][0]["values"][
-        "tau"
-    ]["root_of"].replace("x", "tau")
+    assert objective["gradient"] in objective["minimisers"][0]["values"]["tau"]["root_of"].replace(
+        "x", "tau"
+    )
     assert gark("check", "best.yaml", cwd=tmp_path).code == 0
     method = load(str(tmp_path / "best.yaml"))
     assert find_order(pair(method.tableau)).order == 4
@@ -318,8 +293,7 @@ RANGE3 = "[0, 0, 0], [2*a, 0, 0], [0, 1/2, 0]"
             {"a": 1 / 4},
         ),
         (
-            "unknown: {stages: 3, shape: splitting}\n"
-            "design: {fix: {b3: 0, a3: a1, b2: b1}}",
+            "unknown: {stages: 3, shape: splitting}\ndesign: {fix: {b3: 0, a3: a1, b2: b1}}",
             "-stability-interval",
             2,
             "4",
@@ -408,10 +382,7 @@ def test_a_jump_at_an_end() -> None:
             first = ((1.0, 2.0), (-b1 * x, 1 - 2 * b1 * x))
             second = ((1.0, -1.0), (-b2 * x, 1 + b2 * x))
             rows, columns = first, list(zip(*second, strict=True))
-            trace = sum(
-                rows[k][0] * columns[k][0] + rows[k][1] * columns[k][1]
-                for k in range(2)
-            )
+            trace = sum(rows[k][0] * columns[k][0] + rows[k][1] * columns[k][1] for k in range(2))
         return z
 
     assert bounded_up_to(edge - 1e-5) < 3
@@ -479,10 +450,7 @@ def test_beside_a_critical_point(monkeypatch: pytest.MonkeyPatch) -> None:
 
     h = Fraction(1, 10**6)
     here = size(c2, c3)
-    for right, left in (
-        (size(c2 + h, c3), size(c2 - h, c3)),
-        (size(c2, c3 + h), size(c2, c3 - h)),
-    ):
+    for right, left in ((size(c2 + h, c3), size(c2 - h, c3)), (size(c2, c3 + h), size(c2, c3 - h))):
         assert abs(right - left) / (2 * h) < h
         assert right + left > 2 * here
     assert minimum.value is not None
@@ -548,9 +516,7 @@ MOTZKIN = X**4 * Y**2 + X**2 * Y**4 - 3 * X**2 * Y**2 + 1
         (MOTZKIN, fmpq(1, 1000), False),
     ],
 )
-def test_bounds_in_the_plane(
-    numerator: fmpq_mpoly, bound: fmpq, is_bound: bool
-) -> None:
+def test_bounds_in_the_plane(numerator: fmpq_mpoly, bound: fmpq, is_bound: bool) -> None:
     """Also where an infimum is approached along xy = 1 and not reached, and of T. Motzkin's
     polynomial, which is not negative and no sum of squares.
     """
@@ -560,9 +526,7 @@ def test_bounds_in_the_plane(
 
 def test_emitted_claims(tmp_path: Path) -> None:
     """A level that files can claim is claimed, and ``gark check`` proves it."""
-    (tmp_path / "sdirk.yaml").write_text(
-        "unknown: {stages: 2, shape: sdirk}\n"
-    )
+    (tmp_path / "sdirk.yaml").write_text("unknown: {stages: 2, shape: sdirk}\n")
     command = "design sdirk.yaml --order 3 --minimise -ssp --emit best.yaml"
     assert gark(*command.split(), cwd=tmp_path).code == 0
     text = (tmp_path / "best.yaml").read_text(encoding="utf-8")
@@ -604,8 +568,7 @@ def test_what_gets_better_for_ever() -> None:
 
 
 @pytest.mark.parametrize(
-    ("head", "rest"),
-    [("[1, 1]", ""), ("[1, 2]", "design: {nodes-in-unit-interval: true}\n")],
+    ("head", "rest"), [("[1, 1]", ""), ("[1, 2]", "design: {nodes-in-unit-interval: true}\n")]
 )
 def test_a_range_of_one_number(head: str, rest: str) -> None:
     """Of order 1 with the second node 1 alone: its error is that of the list of all trees."""

@@ -37,12 +37,8 @@ def program(folder: Path, answer: str, ending: str = "") -> str:
     return str(path)
 
 
-@pytest.mark.skipif(
-    sys.platform == "win32", reason="a script is no program there"
-)
-def test_a_right_answer_is_taken(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
+def test_a_right_answer_is_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Comments are passed over, and the basis is that of python-flint."""
     path = program(tmp_path, f"#Reduced Groebner basis data\n#---\n{BASIS}\n")
     monkeypatch.setattr(groebner, "find_msolve", lambda: path)
@@ -61,9 +57,7 @@ WRONG = {
 }
 
 
-@pytest.mark.skipif(
-    sys.platform == "win32", reason="a script is no program there"
-)
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
 @pytest.mark.parametrize("answer", WRONG.values(), ids=WRONG.keys())
 def test_a_wrong_answer_is_not(
     answer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -75,12 +69,9 @@ def test_a_wrong_answer_is_not(
         groebner.unproved_basis(CIRCLE, CONTEXT, None)
 
 
-@pytest.mark.skipif(
-    sys.platform == "win32", reason="a script is no program there"
-)
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
 @pytest.mark.parametrize(
-    "ending",
-    ["sys.exit(1)", "import time; time.sleep(60)", "raise MemoryError"],
+    "ending", ["sys.exit(1)", "import time; time.sleep(60)", "raise MemoryError"]
 )
 def test_a_program_that_fails_leaves_it_open(
     ending: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -98,9 +89,7 @@ def test_a_question_has_no_sign_in_front() -> None:
     assert text == "x1,x2\n0\n1*x1^1-1,\n-1*x2^1+2\n"
 
 
-def _by_msolve(
-    text: str, order: int, monkeypatch: pytest.MonkeyPatch
-) -> Design:
+def _by_msolve(text: str, order: int, monkeypatch: pytest.MonkeyPatch) -> Design:
     """A design by msolve alone, where it is installed."""
     if msolve.find_msolve() is None:
         pytest.skip("msolve is not installed")
@@ -116,9 +105,7 @@ def test_gauss_from_three_stages(monkeypatch: pytest.MonkeyPatch) -> None:
         assert one.order is not None
         assert one.order.order == 6
         for root in one.solution.real:
-            values = [
-                value_at(one.solution.values[f"c{i}"], root) for i in (1, 2, 3)
-            ]
+            values = [value_at(one.solution.values[f"c{i}"], root) for i in (1, 2, 3)]
             nodes.append(tuple(float(value.ball(80)) for value in values))
     gauss = (0.1127016654, 0.5, 0.8872983346)
     assert len(nodes) == 6
@@ -128,10 +115,7 @@ def test_gauss_from_three_stages(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "that there are no others is not" in " ".join(text.split())
 
 
-CLASSICAL = {
-    "RK4": {"c2": "1/2", "c3": "1/2"},
-    "3/8 rule": {"c2": "1/3", "c3": "2/3"},
-}
+CLASSICAL = {"RK4": {"c2": "1/2", "c3": "1/2"}, "3/8 rule": {"c2": "1/3", "c3": "2/3"}}
 
 
 @pytest.mark.parametrize("name", CLASSICAL)
@@ -140,16 +124,12 @@ def test_classical_methods_of_four_stages(name: str) -> None:
     a family with b₃ free, in which 1/3 gives it.
     """
     nodes = CLASSICAL[name]
-    found = find_parameters(
-        loads_family(EXPLICIT4, settings=nodes), 4, seconds=30
-    )
+    found = find_parameters(loads_family(EXPLICIT4, settings=nodes), 4, seconds=30)
     if name == "RK4":
         assert found.last.ideal is not None
         assert (found.last.kind, found.last.ideal.dimension) == ("family", 1)
         nodes = {**nodes, "b3": "1/3"}
-        found = find_parameters(
-            loads_family(EXPLICIT4, settings=nodes), 4, seconds=30
-        )
+        found = find_parameters(loads_family(EXPLICIT4, settings=nodes), 4, seconds=30)
     (one,) = found.last.found
     values = {x: str(value) for x, value in one.solution.values.items()}
     if name == "RK4":
@@ -168,9 +148,7 @@ KUTTA = {"c2": "1/3", "c3": "2/3", "c4": "1", "a32": "1", "a42": "-1", "a43": "1
          "b1": "1/8", "b2": "3/8", "b3": "3/8", "b4": "1/8"}  # fmt: skip
 
 
-def test_explicit_methods_of_four_stages_and_order_four(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_explicit_methods_of_four_stages_and_order_four(monkeypatch: pytest.MonkeyPatch) -> None:
     """All of them: a family of dimension 2 with c₄ = 1 (W. Kutta 1901), among them both classical
     methods, and not what has another c₄.
     """
@@ -227,9 +205,7 @@ def test_implicit_explicit_methods_of_four_stages() -> None:
     assert has_alexander(found)
 
 
-def test_implicit_explicit_methods_by_msolve(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_implicit_explicit_methods_by_msolve(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same γ without a choice of nodes, where the first stage has no weight."""
     found = _by_msolve(IMEX4.format("b1: 0"), 3, monkeypatch)
     assert found.last.kind == "family"

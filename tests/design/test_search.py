@@ -21,11 +21,7 @@ from garkcli.design.design import find_parameters
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import damped_step, least_squares
 from garkcli.design.search.points import Fixings, polished, rank
-from garkcli.design.search.recognise import (
-    minimal_polynomial,
-    rational,
-    recognised,
-)
+from garkcli.design.search.recognise import minimal_polynomial, rational, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.run import Result, Solution, results
 from garkcli.design.search.search import BITS, Search
@@ -82,9 +78,7 @@ def system_of(family: FamilyFile, order: int) -> Residuals:
     return Residuals(family.tableau, family.ring, order, relations)
 
 
-def finished(
-    search: Search, starts: int, seed: int = 0, most: int = 5
-) -> Result:
+def finished(search: Search, starts: int, seed: int = 0, most: int = 5) -> Result:
     """The result of a whole search."""
     return list(results(search, starts, seed, most))[-1]
 
@@ -100,18 +94,13 @@ def finished(
     ],
     ids=["explicit", "rational", "two colours", "polynomial stages", "splitting"],
 )  # fmt: skip
-def test_residuals_are_those_of_the_conditions(
-    text: str, values: dict[str, str]
-) -> None:
+def test_residuals_are_those_of_the_conditions(text: str, values: dict[str, str]) -> None:
     """Over the tree table, in floats and in balls, what ``conditions`` computes tree by tree; and the
     gradients are the differences of residuals.
     """
     family = loads_family(text)
     system = system_of(family, 4)
-    exact = [
-        fmpq(*map(int, (values[x] + "/1").split("/")[:2]))
-        for x in family.ring.names
-    ]
+    exact = [fmpq(*map(int, (values[x] + "/1").split("/")[:2])) for x in family.ring.names]
     point = np.array([[float(x.p) / float(x.q)] for x in exact])
     found, gradients = system.at(point)
     balls = np.empty((len(exact), 1), object)
@@ -126,9 +115,7 @@ def test_residuals_are_those_of_the_conditions(
         assert isinstance(wanted, fmpq)
         with ctx.workprec(300):  # flint makes a ball of the number first
             assert enclosed[number, 0].contains(wanted)
-        assert found[number, 0] == pytest.approx(
-            float(wanted.p) / float(wanted.q), abs=1e-12
-        )
+        assert found[number, 0] == pytest.approx(float(wanted.p) / float(wanted.q), abs=1e-12)
     step = 1e-6
     for unknown in range(len(exact)):
         ahead, behind = point.copy(), point.copy()
@@ -149,9 +136,7 @@ def test_what_happens_to_a_start_does_not_depend_on_the_others() -> None:
     assert np.array_equal(turned.points[:, ::-1], together.points)
     assert together.succeeded.any()
     for k in range(3):
-        alone = least_squares(
-            search.conditions.at, columns[:, k : k + 1].copy()
-        )
+        alone = least_squares(search.conditions.at, columns[:, k : k + 1].copy())
         assert np.array_equal(alone.points[:, 0], together.points[:, k])
         assert alone.succeeded[0] == together.succeeded[k]
 
@@ -191,28 +176,14 @@ def test_starts_are_the_same_everywhere() -> None:
 
 @pytest.mark.parametrize(
     ("text", "order", "starts"),
-    [
-        (SDIRK2, 3, 10),
-        (RADICAL, 3, 10),
-        (explicit(3), 3, 5),
-        (explicit(4), 4, 8),
-    ],
+    [(SDIRK2, 3, 10), (RADICAL, 3, 10), (explicit(3), 3, 5), (explicit(4), 4, 8)],
     ids=["sdirk", "radical", "explicit 3", "explicit 4"],
 )
-def test_finds_are_methods(
-    text: str, order: int, starts: int, tmp_path: Path
-) -> None:
+def test_finds_are_methods(text: str, order: int, starts: int, tmp_path: Path) -> None:
     """Every file has its claim, and the order is that of the ordinary certificate."""
     (tmp_path / "family.yaml").write_text(text, encoding="utf-8")
     source, folder = str(tmp_path / "family.yaml"), tmp_path / "found"
-    arguments = [
-        "design",
-        source,
-        "--order",
-        str(order),
-        "--search",
-        str(starts),
-    ]
+    arguments = ["design", source, "--order", str(order), "--search", str(starts)]
     run = gark(*arguments, "--emit-all", str(folder), "--format", "json")
     report = json.loads(run.out)
     jsonschema.validate(report, report_schema("design-search"))
@@ -228,10 +199,7 @@ def test_finds_are_methods(
 def test_both_sdirk_methods() -> None:
     """All of two stages and order 3 are found, in radicals; a sign that is given decides."""
     methods = search_methods(loads_family(SDIRK2), 3, starts=20).methods
-    assert {x.values["g"] for x in methods} == {
-        "1/2 + sqrt(3)/6",
-        "1/2 - sqrt(3)/6",
-    }
+    assert {x.values["g"] for x in methods} == {"1/2 + sqrt(3)/6", "1/2 - sqrt(3)/6"}
     (one,) = finished(Search(loads_family(RADICAL), 3), 20).methods
     assert one.values["t"] == "1/2 - sqrt(3)/6"
 
@@ -240,11 +208,7 @@ def test_degenerate_solutions() -> None:
     """τ = 1 is a double solution: least squares end near it, and it is told exactly."""
     search = Search(loads_family(TAU), 3, "pair")
     (one,) = finished(search, 1).methods
-    assert (one.proof, one.order, dict(one.values)) == (
-        "exact",
-        4,
-        {"tau": "1"},
-    )
+    assert (one.proof, one.order, dict(one.values)) == ("exact", 4, {"tau": "1"})
 
 
 def forest_ruth() -> list[float]:
@@ -285,11 +249,7 @@ class Part:
     """Some equations in some unknowns, the others as they are."""
 
     def __init__(
-        self,
-        system: Residuals,
-        rows: tuple[int, ...],
-        columns: tuple[int, ...],
-        point: Any,
+        self, system: Residuals, rows: tuple[int, ...], columns: tuple[int, ...], point: Any
     ) -> None:
         self.system = system
         self.rows, self.columns = list(rows), list(columns)
@@ -313,15 +273,10 @@ class Part:
         x[:, 0] = [self.point[k] for k in self.columns]
         for _ in range(60):
             values, gradients = self.at(x)
-            matrix = np.array(
-                [[float(a.mid()) for a in row] for row in gradients[:, :, 0]]
-            )
+            matrix = np.array([[float(a.mid()) for a in row] for row in gradients[:, :, 0]])
             inverse = np.linalg.inv(matrix)
             for i in range(7):
-                change = sum(
-                    (arb(inverse[i, j]) * values[j, 0] for j in range(7)),
-                    arb(0),
-                )
+                change = sum((arb(inverse[i, j]) * values[j, 0] for j in range(7)), arb(0))
                 x[i, 0] = (x[i, 0] - change).mid()
         return x
 
@@ -332,10 +287,7 @@ def test_existence_is_proved_or_not(tmp_path: Path) -> None:
     """
     for text, proof in ((NINTH, "exists"), (TWICE, "numerical")):
         (tmp_path / "family.yaml").write_text(text, encoding="utf-8")
-        source, target = (
-            str(tmp_path / "family.yaml"),
-            tmp_path / "one.gark.yaml",
-        )
+        source, target = (str(tmp_path / "family.yaml"), tmp_path / "one.gark.yaml")
         arguments = ["design", source, "--order", "2", "--search", "6"]
         run = gark(*arguments, "--emit", str(target), "--format", "json")
         (method,) = json.loads(run.out)["methods"]
@@ -401,11 +353,7 @@ def test_krawczyk_needs_a_zero() -> None:
     generators = Generators(family.tableau, family.ring, 3)
     system = Fixings(generators)
     assert len(generators.functions) == 1
-    for near, is_there in (
-        (0.5, False),
-        (0.2, False),
-        (0.5 - 3**0.5 / 6, True),
-    ):
+    for near, is_there in ((0.5, False), (0.2, False), (0.5 - 3**0.5 / 6, True)):
         x = polished(system, [near], 300) if is_there else None
         point = np.array([[arb(near)]], object) if x is None else x
         assert is_proved(system, point, 300) == is_there
@@ -425,11 +373,7 @@ def test_recognition(p: Any, q: Any, radicand: int) -> None:
     a, b = fmpq(p.numerator, p.denominator), fmpq(q.numerator, q.denominator)
     with ctx.workprec(bits + 20):
         root = arb(radicand).sqrt()
-        numbers = {
-            "a": arb(a).mid(),
-            "x": (a + b * root).mid(),
-            "y": (root - a).mid(),
-        }
+        numbers = {"a": arb(a).mid(), "x": (a + b * root).mid(), "y": (root - a).mid()}
     assert rational(numbers["a"], bits) == a
     found = recognised(numbers, bits)
     assert found is not None
@@ -455,10 +399,7 @@ def test_what_is_not_recognised() -> None:
 def test_short_numbers_are_near(present: float) -> None:
     """The shortest first, none twice, none far away; zero behind them unless it is the value."""
     short, more, *fine = values_near(present)
-    assert all(
-        abs(x - fmpq(*present.as_integer_ratio())) <= fmpq(1, 8)
-        for x in short + more
-    )
+    assert all(abs(x - fmpq(*present.as_integer_ratio())) <= fmpq(1, 8) for x in short + more)
     lengths = [x.q for x in short + more if x]
     assert lengths == sorted(lengths)
     assert len(set(map(str, short + more))) == len(short + more)
@@ -493,14 +434,9 @@ def test_nothing_found_and_misuse(tmp_path: Path) -> None:
         assert word in wrong.err
 
 
-@pytest.mark.parametrize(
-    ("end", "code"), [(KeyboardInterrupt(), 130), (WorkerLost("lost"), 3)]
-)
+@pytest.mark.parametrize(("end", "code"), [(KeyboardInterrupt(), 130), (WorkerLost("lost"), 3)])
 def test_an_interrupt_keeps_what_is_found(
-    end: BaseException,
-    code: int,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    end: BaseException, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Interrupted in the second proof, or a worker lost: the first method is reported and written."""
     path = tmp_path / "family.yaml"
@@ -516,14 +452,7 @@ def test_an_interrupt_keeps_what_is_found(
         return work(self, tasks)
 
     monkeypatch.setattr(Alone, "as_they_come", until)
-    arguments = [
-        "--order",
-        "3",
-        "--search",
-        "9",
-        "--emit-all",
-        str(tmp_path / "out"),
-    ]
+    arguments = ["--order", "3", "--search", "9", "--emit-all", str(tmp_path / "out")]
     run = gark("design", str(path), *arguments)
     assert run.code == code
     assert "interrupted" in run.out

@@ -61,9 +61,7 @@ def small(slow: fmpq, greatest: fmpq | None) -> StableValues:
     st.sampled_from([fmpq(1, 2), fmpq(2)]),
     st.sampled_from([fmpq(3), fmpq(10)]),
 )
-def test_against_single_values(
-    t: Fraction, slow: fmpq, greatest: fmpq
-) -> None:
+def test_against_single_values(t: Fraction, slow: fmpq, greatest: fmpq) -> None:
     """A rational t belongs to the set exactly where the method with it is stable from 0 to the
     bound, as ``gark stability`` decides that.
     """
@@ -127,9 +125,7 @@ def test_the_report(tmp_path: Path) -> None:
         (("--p-stable", "--slow", "-1", "--fast", "F2"), "not negative"),
     ],
 )
-def test_options_that_do_not_fit(
-    options: tuple[str, ...], message: str
-) -> None:
+def test_options_that_do_not_fit(options: tuple[str, ...], message: str) -> None:
     """They are refused before anything is computed."""
     result = gark("design", ASK, *options)
     assert result.code == 2

@@ -19,17 +19,11 @@ from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.report.schemas import report_schema
-from garkcli.stability.linear import (
-    is_a_stable,
-    is_l_stable,
-    stability_function,
-)
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from tests.cli.harness import gark
 
 SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
-THREE = (
-    "unknown: {stages: 3, shape: sdirk}\ndesign: {order: 4, a-stable: true}\n"
-)
+THREE = "unknown: {stages: 3, shape: sdirk}\ndesign: {order: 4, a-stable: true}\n"
 
 
 @pytest.fixture(scope="module")
@@ -69,15 +63,10 @@ def test_order_and_stability_as_a_command(tmp_path: Path) -> None:
     data = json.loads(both)
     jsonschema.validate(data, report_schema("design"))
     assert [x["stable"] for x in data["solutions"]] == [False, True]
-    every = gark(
-        "design", str(path), "--order", "2", "--l-stable", "--format", "json"
-    )
+    every = gark("design", str(path), "--order", "2", "--l-stable", "--format", "json")
     data = json.loads(every.out)
     jsonschema.validate(data, report_schema("design"))
-    assert [x["point"] for x in data["stable"][0]["set"]] == [
-        "1 - sqrt(2)/2",
-        "1 + sqrt(2)/2",
-    ]
+    assert [x["point"] for x in data["stable"][0]["set"]] == ["1 - sqrt(2)/2", "1 + sqrt(2)/2"]
 
 
 def test_wishes_that_have_no_meaning(tmp_path: Path) -> None:
@@ -145,6 +134,4 @@ def test_radicands_have_no_square_factors() -> None:
 def test_elements_without_radicals_are_written_in_theta() -> None:
     """A field of which only the polynomial is known has elements that can be printed."""
     field = NumberField(fmpq_poly([-2, 0, 0, 1]), ())
-    assert str(field.element(fmpq_poly([1, fmpq(-1, 2), 3]))) == (
-        "1 - theta/2 + 3*theta**2"
-    )
+    assert str(field.element(fmpq_poly([1, fmpq(-1, 2), 3]))) == ("1 - theta/2 + 3*theta**2")

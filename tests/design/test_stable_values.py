@@ -16,11 +16,7 @@ from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stability.linear import (
-    is_a_stable,
-    is_l_stable,
-    stability_function,
-)
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
@@ -40,23 +36,16 @@ LARGE = 1 + 2**0.5 / 2
 
 def found(text: str, wanted: Wanted, is_pair: bool = False) -> StableValues:
     """The set for a family."""
-    return stable_values(
-        loads_family(text), wanted, "pair" if is_pair else "method"
-    )
+    return stable_values(loads_family(text), wanted, "pair" if is_pair else "method")
 
 
-def texts(
-    values: StableValues,
-) -> list[tuple[str | None, str | None, bool, bool]]:
+def texts(values: StableValues) -> list[tuple[str | None, str | None, bool, bool]]:
     """The set with its ends as text."""
 
     def text(root: RealRoot | None) -> str | None:
         return None if root is None else root_text(root)
 
-    return [
-        (text(x.start), text(x.end), x.has_start, x.has_end)
-        for x in values.found
-    ]
+    return [(text(x.start), text(x.end), x.has_start, x.has_end) for x in values.found]
 
 
 @pytest.mark.parametrize(
@@ -74,16 +63,10 @@ def texts(
             ],
         ),
         (STIFF2, "l-stable", [("1 - sqrt(2)/2", "1 + sqrt(2)/2", True, True)]),
-        (
-            THETA.replace("free", "{free: true, range: [0, 1]}"),
-            "a-stable",
-            None,
-        ),
+        (THETA.replace("free", "{free: true, range: [0, 1]}"), "a-stable", None),
     ],
 )
-def test_known_sets(
-    text: str, wanted: Wanted, known: list[object] | None
-) -> None:
+def test_known_sets(text: str, wanted: Wanted, known: list[object] | None) -> None:
     """The θ-method for θ ≥ 1/2, L-stable at 1; SDIRK of two stages for γ ≥ 1/4, L-stable at
     γ = 1 ± √2/2 (Hairer and Wanner, section IV.6); a range cuts the set.
     """
@@ -105,14 +88,8 @@ DIAGONAL = "parameters: {t: free}\nA: [[1, 0], [0, 1]]\nb: [t, 1 - t]\n"
         (IMPLICIT + "c: [1/8]\n", []),
         (IMPLICIT + "c: [3/4]\n", [("3/4", "3/4", True, True)]),
         (IMPLICIT + "design: {fix: {t: 1/8}}\n", []),
-        (
-            DIAGONAL + "design: {positive-weights: true}\n",
-            [("0", "1", False, False)],
-        ),
-        (
-            IMPLICIT + "design: {nodes-in-unit-interval: true}\n",
-            [("1/2", "1", True, True)],
-        ),
+        (DIAGONAL + "design: {positive-weights: true}\n", [("0", "1", False, False)]),
+        (IMPLICIT + "design: {nodes-in-unit-interval: true}\n", [("1/2", "1", True, True)]),
     ],
 )
 def test_what_the_file_wants_as_well(text: str, known: list[object]) -> None:
@@ -132,9 +109,7 @@ def test_what_the_file_wants_as_well(text: str, known: list[object]) -> None:
         (("gauss", 2, "lobatto-iiia", 4), [("1", "1", True, True)]),
     ],
 )
-def test_combinations_that_are_p_stable(
-    families: tuple[object, ...], wanted: list[object]
-) -> None:
+def test_combinations_that_are_p_stable(families: tuple[object, ...], wanted: list[object]) -> None:
     """Gauss × Lobatto: interpolation alone, an isolated point of the parameter; of the method and
     of its symplectic pair.
     """
@@ -156,11 +131,7 @@ def contains(values: StableValues, t: fmpq) -> bool:
     """Whether a rational number belongs to the set."""
     root = RealRoot.rational(t)
     for x in values.found:
-        behind = (
-            x.start is None
-            or x.start < root
-            or (x.has_start and x.start == root)
-        )
+        behind = x.start is None or x.start < root or (x.has_start and x.start == root)
         before = x.end is None or root < x.end or (x.has_end and x.end == root)
         if behind and before:
             return True
@@ -176,15 +147,11 @@ def contains(values: StableValues, t: fmpq) -> bool:
         ("gauss", 2, "lobatto-iiia", 4),
     ],
 )
-def test_against_single_values(
-    families: tuple[object, ...], wanted: Wanted
-) -> None:
+def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> None:
     """Many rational values, and those next to each end, are decided one by one."""
     text = TAU.format(*families)
     values = found(text, wanted)
-    tried = [fmpq(k, 4) for k in range(-10, 34, 3)] + [
-        fmpq(k) for k in range(-1, 8)
-    ]
+    tried = [fmpq(k, 4) for k in range(-10, 34, 3)] + [fmpq(k) for k in range(-1, 8)]
     for x in values.found:
         for end in (x.start, x.end):
             if end is not None:
@@ -199,13 +166,8 @@ _ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
 
 
 @settings(max_examples=20)
-@given(
-    st.lists(_ENTRY, min_size=5, max_size=5),
-    st.sampled_from(["a-stable", "l-stable"]),
-)
-def test_random_families(
-    entries: list[tuple[int, int]], wanted: Wanted
-) -> None:
+@given(st.lists(_ENTRY, min_size=5, max_size=5), st.sampled_from(["a-stable", "l-stable"]))
+def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None:
     """Of two stages with entries linear in t, one with a pole: sets against single values."""
     a, b, c, d, w = (f"({p} + {q}*t)/2" for p, q in entries)
     if any(entries[1]):  # 0/(t - 3) is 0 for every t
@@ -215,9 +177,7 @@ def test_random_families(
 
 @settings(max_examples=12)
 @given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
-def test_random_families_on_the_oscillator(
-    entries: list[tuple[int, int]], b: int
-) -> None:
+def test_random_families_on_the_oscillator(entries: list[tuple[int, int]], b: int) -> None:
     """The same of P-stability, with two entries that are linear in t."""
     a, c = (f"({p} + {q}*t)/2" for p, q in entries)
     compare(f"A: [[{a}, 0], [{c}, {a}]]\nb: [{b}/2, 1 - {b}/2]\n", "p-stable")
@@ -251,42 +211,25 @@ def test_as_a_command(tmp_path: Path) -> None:
     run = gark("design", str(path), "--a-stable")
     assert run.code == 0
     assert "    1/2 ≤ t\n" in run.out
-    data = json.loads(
-        gark("design", str(path), "--l-stable", "--format", "json").out
-    )
-    assert (data["schema"], data["wanted"]) == (
-        "gark/design-stability/1",
-        "l-stable",
-    )
+    data = json.loads(gark("design", str(path), "--l-stable", "--format", "json").out)
+    assert (data["schema"], data["wanted"]) == ("gark/design-stability/1", "l-stable")
     assert data["set"] == [{"point": "1"}]
-    path.write_text(
-        "parameters: {t: free}\nA: [[t/9]]\nb: [1 + t*t]\n", encoding="utf-8"
-    )
+    path.write_text("parameters: {t: free}\nA: [[t/9]]\nb: [1 + t*t]\n", encoding="utf-8")
     none = gark("design", str(path), "--p-stable")
     assert none.code in {0, 1}
-    path.write_text(
-        "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\n",
-        encoding="utf-8",
-    )
+    path.write_text("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\n", encoding="utf-8")
     explicit = gark("design", str(path), "--a-stable")
     assert (explicit.code, "for no value of t" in explicit.out) == (1, True)
     one = gark("design", str(path), "--a-stable", "--order", "2")
     assert (one.code, "not A-stable, which is wanted" in one.out) == (1, True)
     both = gark("design", str(path), "--a-stable", "--emit", str(path) + "x")
     assert (both.code, "ask for one" in both.err) == (2, True)
-    path.write_text(
-        "parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8"
-    )
+    path.write_text("parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8")
     two = gark("design", str(path), "--a-stable")
     assert (two.code, "--set u=1/2" in two.err) == (2, True)
-    path.write_text(
-        "parameters: {t: free}\nA: [[t + sqrt(2)]]\nb: [1]\n", encoding="utf-8"
-    )
+    path.write_text("parameters: {t: free}\nA: [[t + sqrt(2)]]\nb: [1]\n", encoding="utf-8")
     roots = gark("design", str(path), "--a-stable")
-    assert (roots.code, "roots among the coefficients" in roots.err) == (
-        2,
-        True,
-    )
+    assert (roots.code, "roots among the coefficients" in roots.err) == (2, True)
 
 
 def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:
@@ -301,9 +244,7 @@ def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:
     none = gark("design", str(path), "--a-stable")
     wanted = "A-stable, and as the file wants it, for no value of t"
     assert (none.code, wanted in none.out) == (1, True)
-    path.write_text(
-        f"{IMPLICIT}design: {{l-stable: true}}\n", encoding="utf-8"
-    )
+    path.write_text(f"{IMPLICIT}design: {{l-stable: true}}\n", encoding="utf-8")
     refused = gark("design", str(path), "--a-stable")
     assert (refused.code, "L-stable" in refused.err) == (2, True)
 

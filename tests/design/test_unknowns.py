@@ -23,9 +23,7 @@ def shaped(stages: int, shape: str) -> str:
 
 def dimensions(found: Design) -> list[int]:
     """Of the methods of each order."""
-    return [
-        step.ideal.dimension for step in found.steps if step.ideal is not None
-    ]
+    return [step.ideal.dimension for step in found.steps if step.ideal is not None]
 
 
 def decimals(found: Design, name: str) -> list[float]:
@@ -57,11 +55,7 @@ def test_given_nodes_are_conditions() -> None:
     text = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\nc: [0, {}]\n'
     found = find_parameters(loads_family(text.format("1/3")), 2)
     (one,) = found.last.found
-    assert list(map(str, one.solution.values.values())) == [
-        "1/3",
-        "-1/2",
-        "3/2",
-    ]
+    assert list(map(str, one.solution.values.values())) == ["1/3", "-1/2", "3/2"]
     free = find_parameters(loads_family(text.format('"?"')), 2)
     assert dimensions(free) == [2, 1]
 
@@ -92,9 +86,7 @@ def test_singly_diagonally_implicit_methods() -> None:
     (1 + 2 cos(π/18)/√3)/2.
     """
     two = find_parameters(loads_family(shaped(2, "sdirk")), 3)
-    assert decimals(two, "gamma") == pytest.approx(
-        [0.2113248654, 0.7886751346]
-    )
+    assert decimals(two, "gamma") == pytest.approx([0.2113248654, 0.7886751346])
     three = find_parameters(loads_family(shaped(3, "sdirk")), 4)
     gammas = [0.1288864005, 0.3025345782, 1.0685790213]
     assert decimals(three, "gamma") == pytest.approx(gammas)
@@ -125,15 +117,8 @@ def test_symmetric_compositions(stages: int, order: int, real: int) -> None:
 def test_shapes_do_what_they_say() -> None:
     """Each shape on three stages, entry by entry."""
     (rows,) = layout_of(3, ["esdirk", "stiffly-accurate"]).A
-    assert rows == (
-        ("0", "0", "0"),
-        ("c2 - gamma", "gamma", "0"),
-        ("b1", "b2", "gamma"),
-    )
-    assert layout_of(2, ["splitting"]).A == (
-        (("a1", "0"), ("a1", "a2")),
-        (("0", "0"), ("b1", "0")),
-    )
+    assert rows == (("0", "0", "0"), ("c2 - gamma", "gamma", "0"), ("b1", "b2", "gamma"))
+    assert layout_of(2, ["splitting"]).A == ((("a1", "0"), ("a1", "a2")), (("0", "0"), ("b1", "0")))
     explicit, implicit = layout_of(2, ["imex"]).A
     assert explicit == (("0", "0"), ("c2", "0"))
     assert implicit == (("0", "0"), ("c2 - gamma", "gamma"))
@@ -142,9 +127,7 @@ def test_shapes_do_what_they_say() -> None:
         assert (shape.name, bool(shape.summary)) == (name, True)
 
 
-@pytest.mark.parametrize(
-    "shape", ["[full, palindromic]", "[dirk, palindromic]"]
-)
+@pytest.mark.parametrize("shape", ["[full, palindromic]", "[dirk, palindromic]"])
 def test_palindromes_are_symmetric(shape: str) -> None:
     """Whatever the unknowns are, the method is its own adjoint: odd orders come for nothing."""
     family = loads_family(shaped(3, shape))
@@ -183,18 +166,14 @@ def test_what_is_found_is_a_method_file(text: str, order: int) -> None:
     family = loads_family(text)
     chosen = first_method(find_parameters(family, order))
     assert chosen is not None
-    written = with_values(
-        family, chosen.values, "head", f"order: {chosen.order}"
-    )
+    written = with_values(family, chosen.values, "head", f"order: {chosen.order}")
     method = loads(written)
     assert not re.search(r"unknown:|\?", written)
     assert [x.value for x in method.claims] == [order]
     assert find_order(method).order == order
 
 
-@pytest.mark.parametrize(
-    "shape", ["imex", "splitting", "[esdirk, stiffly-accurate]"]
-)
+@pytest.mark.parametrize("shape", ["imex", "splitting", "[esdirk, stiffly-accurate]"])
 def test_a_shape_with_values_is_a_method_file(shape: str) -> None:
     """Parts on shared stages and parts of their own are spelled out too."""
     family = loads_family(shaped(2, shape))
@@ -219,6 +198,6 @@ def test_the_misspelt_key_is_read_on() -> None:
     """``unknown`` misspelt is one fault that says so, and what it says is read as meant."""
     with pytest.raises(MethodFileError) as told:
         loads_family("unknwon: {stages: 2, shape: sdirk}\n")
-    assert [
-        (fault.line, fault.column, fault.help) for fault in told.value.faults
-    ] == [(1, 1, "did you mean 'unknown'?")]
+    assert [(fault.line, fault.column, fault.help) for fault in told.value.faults] == [
+        (1, 1, "did you mean 'unknown'?")
+    ]

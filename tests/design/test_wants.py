@@ -32,18 +32,14 @@ def taken(found: Design, name: str) -> list[float]:
     values = []
     for one in found.last.found:
         for index in one.accepted:
-            value = value_at(
-                one.solution.values[name], one.solution.real[index]
-            )
+            value = value_at(one.solution.values[name], one.solution.real[index])
             values.append(float(value.ball(80)))
     return sorted(values)
 
 
 def test_alexander() -> None:
     """Stiffly accurate, R(∞) = 0, three stages, order 3: γ is a root of 6γ³ − 18γ² + 9γ − 1."""
-    with open(
-        "tests/examples/families/wanted.gark.yaml", encoding="utf-8"
-    ) as stream:
+    with open("tests/examples/families/wanted.gark.yaml", encoding="utf-8") as stream:
         found = find_parameters(loads_family(stream.read()))
     assert found.last.order == 3
     assert taken(found, "gamma") == pytest.approx([0.1589838999, 0.4358665215])
@@ -55,17 +51,13 @@ def test_two_stages_that_damp() -> None:
     found = find_parameters(loads_family(f"{SDIRK2}{wanted}, R-infinity: 0}}"))
     assert taken(found, "gamma") == pytest.approx([0.2928932188, 1.7071067812])
     text = f"{SDIRK2}{wanted}, R-infinity: 0, positive-weights: true}}"
-    assert taken(
-        find_parameters(loads_family(text)), "gamma"
-    ) == pytest.approx([0.2928932188])
+    assert taken(find_parameters(loads_family(text)), "gamma") == pytest.approx([0.2928932188])
 
 
 def test_the_value_at_infinity() -> None:
     """R(∞) of the two stages of order 3 is 1 − √3 for γ = 1/2 + √3/6 and 1 + √3 for the other."""
     text = SDIRK2 + "design: {order: 3, R-infinity: 1 - sqrt(3)}"
-    assert taken(
-        find_parameters(loads_family(text)), "gamma"
-    ) == pytest.approx([0.7886751346])
+    assert taken(find_parameters(loads_family(text)), "gamma") == pytest.approx([0.7886751346])
 
 
 def test_symplectic_and_pair_order() -> None:
@@ -126,9 +118,7 @@ def test_an_implicit_explicit_method() -> None:
 def test_nodes_are_filtered_by_exact_signs() -> None:
     """A node at the end of the interval is inside of it."""
     text = 'A: [[0, 0], ["?", 0]]\nb: [1/2, 1/2]\ndesign: {{order: 2, {}}}\n'
-    inside = find_parameters(
-        loads_family(text.format("nodes-in-unit-interval: true"))
-    )
+    inside = find_parameters(loads_family(text.format("nodes-in-unit-interval: true")))
     assert taken(inside, "a21") == [1]
 
 
@@ -169,15 +159,9 @@ def test_what_cannot_be_met(tmp_path: object) -> None:
     """Wishes that contradict each other leave no value, before any tree."""
     path = f"{tmp_path}/wanted.yaml"
     with open(path, "w", encoding="utf-8") as stream:
-        stream.write(
-            SDIRK2
-            + "design: {stiffly-accurate: true, fix: {gamma: 1, b2: 2}}\n"
-        )
+        stream.write(SDIRK2 + "design: {stiffly-accurate: true, fix: {gamma: 1, b2: 2}}\n")
     run = gark("design", path, "--order", "1")
-    assert (run.code, "what is wanted besides cannot be met" in run.out) == (
-        1,
-        True,
-    )
+    assert (run.code, "what is wanted besides cannot be met" in run.out) == (1, True)
 
 
 def test_every_want_has_a_file() -> None:
@@ -218,9 +202,7 @@ def test_what_is_not_worked_out_in_time() -> None:
 
 
 @pytest.mark.parametrize("options", [["--search", "8"], ["--p-stable"]])
-def test_nothing_goes_by_what_is_not_worked_out(
-    options: list[str], tmp_path: Path
-) -> None:
+def test_nothing_goes_by_what_is_not_worked_out(options: list[str], tmp_path: Path) -> None:
     """Neither a search nor a set of stable values passes over it."""
     path = tmp_path / "pair.gark.yaml"
     path.write_text(PAIR_OF_ORDER_60, encoding="utf-8")

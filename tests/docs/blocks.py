@@ -9,9 +9,7 @@ from pathlib import Path
 
 from tests.cli.harness import ROOT
 
-FENCE = re.compile(
-    r"^(?P<indent>\s*)(?P<fence>`{3,}|~{3,})\s*(?P<language>.*)$"
-)
+FENCE = re.compile(r"^(?P<indent>\s*)(?P<fence>`{3,}|~{3,})\s*(?P<language>.*)$")
 NAME = re.compile(r"`([\w./-]+\.\w+)`:\n\n\Z")
 
 
@@ -44,11 +42,7 @@ class Block:
 
 def pages() -> list[Path]:
     """Everything people read that is Markdown, as far as it is no record of changes."""
-    return [
-        ROOT / "README.md",
-        ROOT / "CONTRIBUTING.md",
-        *sorted((ROOT / "docs").rglob("*.md")),
-    ]
+    return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def blocks(page: Path) -> Iterator[Block]:
@@ -72,12 +66,7 @@ def blocks(page: Path) -> Iterator[Block]:
         else:
             raise ValueError(f"{page}:{number}: the block has no end")
         yield Block(
-            page,
-            number,
-            fence["language"].strip(),
-            name[1] if name else "",
-            text,
-            fence["indent"],
+            page, number, fence["language"].strip(), name[1] if name else "", text, fence["indent"]
         )
 
 

@@ -57,9 +57,7 @@ class _File:
             is_function = isinstance(child, ast.FunctionDef)
             self._walk(child, child if is_function else function)
 
-    def _assign(
-        self, target: ast.expr, value: ast.expr, function: ast.AST
-    ) -> None:
+    def _assign(self, target: ast.expr, value: ast.expr, function: ast.AST) -> None:
         if isinstance(target, ast.Name):
             place = (function, target.id)
             self.assigned.setdefault(place, []).append(value)
@@ -113,10 +111,7 @@ def sites() -> list[Site]:
             if message is None:
                 continue
             where = f"{file.path.relative_to(ROOT)}:{node.lineno}"
-            found += [
-                Site(where, text)
-                for text in _texts(message, file, node, depth=3)
-            ]
+            found += [Site(where, text) for text in _texts(message, file, node, depth=3)]
     return found
 
 
@@ -145,17 +140,12 @@ def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
     return None
 
 
-def _texts(
-    node: ast.expr, file: _File, at: ast.AST, depth: int
-) -> Iterator[str]:
+def _texts(node: ast.expr, file: _File, at: ast.AST, depth: int) -> Iterator[str]:
     """What an expression may say; nothing where it hands on what another site has said."""
     if isinstance(node, ast.Constant):
         yield str(node.value)
     elif isinstance(node, ast.JoinedStr):
-        yield "".join(
-            str(x.value) if isinstance(x, ast.Constant) else HOLE
-            for x in node.values
-        )
+        yield "".join(str(x.value) if isinstance(x, ast.Constant) else HOLE for x in node.values)
     elif isinstance(node, ast.IfExp):
         yield from _texts(node.body, file, at, depth)
         yield from _texts(node.orelse, file, at, depth)
@@ -200,9 +190,7 @@ def _parameter(name: str, function: ast.AST) -> int | None:
     return place - (1 if names[0] in {"self", "cls"} else 0)
 
 
-def _of_callers(
-    function: ast.AST, file: _File, place: int, name: str, depth: int
-) -> Iterator[str]:
+def _of_callers(function: ast.AST, file: _File, place: int, name: str, depth: int) -> Iterator[str]:
     assert isinstance(function, ast.FunctionDef)
     if function.name in METHODS:
         return  # each of its calls is a site of its own

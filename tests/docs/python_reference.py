@@ -78,9 +78,7 @@ VALUES = (
     "check.meanings:Meaning",
 )
 """What calls return, in the order of the page."""
-SECTION = re.compile(
-    r"^(Args|Attributes|Returns|Raises|Errors|Source): ?", re.MULTILINE
-)
+SECTION = re.compile(r"^(Args|Attributes|Returns|Raises|Errors|Source): ?", re.MULTILINE)
 
 
 @dataclass
@@ -213,8 +211,7 @@ def member(name: str, value: Any, own: str) -> str:
     for label in ("Returns", "Raises"):
         if label in doc.sections:
             more = "; ".join(
-                f"`{error}`: {why}" if error else why
-                for error, why in items(doc.sections[label])
+                f"`{error}`: {why}" if error else why for error, why in items(doc.sections[label])
             )
             text += f" {label} {linked(more, own)}"
     return f"* {head}: {text}"
@@ -264,9 +261,7 @@ def of_class(thing: Any) -> Docstring:
         for base in of_page(thing)[1:]:
             further = Docstring.of(base).sections.get("Attributes", "")
             own = doc.sections.get("Attributes", "")
-            doc.sections["Attributes"] = (
-                f"{further.rstrip()}\n{own.strip(chr(10))}"
-            )
+            doc.sections["Attributes"] = f"{further.rstrip()}\n{own.strip(chr(10))}"
     return doc
 
 
@@ -300,9 +295,7 @@ def type_text(name: str, place: str) -> str:
     with open(source, encoding="utf-8") as file:
         nodes = ast.parse(file.read()).body
     for node, after in pairwise(nodes):
-        is_named = isinstance(node, ast.AnnAssign) and isinstance(
-            node.target, ast.Name
-        )
+        is_named = isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name)
         if is_named and node.target.id == (other or name):
             assert isinstance(after, ast.Expr)
             told = ast.literal_eval(after.value)

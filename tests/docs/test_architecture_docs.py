@@ -8,12 +8,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TEXT = (ROOT / "docs" / "contributing" / "architecture.md").read_text(
-    encoding="utf-8"
-)
-ROOMS = sorted(
-    path.parent.name for path in (ROOT / "garkcli").glob("*/__init__.py")
-)
+TEXT = (ROOT / "docs" / "contributing" / "architecture.md").read_text(encoding="utf-8")
+ROOMS = sorted(path.parent.name for path in (ROOT / "garkcli").glob("*/__init__.py"))
 
 
 def part(room: str) -> str:
@@ -27,9 +23,7 @@ def part(room: str) -> str:
 def test_every_file_has_its_place(room: str) -> None:
     """The files named are those that exist."""
     named = set(re.findall(r"\b(\w+\.py)\b", part(room)))
-    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")} - {
-        "__init__.py"
-    }
+    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")} - {"__init__.py"}
     assert named == exist
 
 

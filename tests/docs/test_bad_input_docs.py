@@ -48,9 +48,7 @@ Made by running every file of `tests/examples/invalid`; of a file with several f
 
 def cell(text: str) -> str:
     """A text as one cell of a Markdown table; ``…`` stands for what does not fit."""
-    text = " ".join(
-        "".join(x if x.isprintable() else " " for x in text).split()
-    )
+    text = " ".join("".join(x if x.isprintable() else " " for x in text).split())
     text = text if len(text) <= LONGEST else f"{text[: LONGEST - 1].rstrip()}…"
     for sign in "\\`*_|":
         text = text.replace(sign, f"\\{sign}")
@@ -60,8 +58,7 @@ def cell(text: str) -> str:
 def code(text: str) -> str:
     """A line of a file as code in a cell; nothing where there is no line."""
     text = "".join(
-        x if x.isprintable() else "\N{REPLACEMENT CHARACTER}"
-        for x in text.replace("\t", "    ")
+        x if x.isprintable() else "\N{REPLACEMENT CHARACTER}" for x in text.replace("\t", "    ")
     )
     text = " ".join(text.split())
     text = text if len(text) <= WIDTH else f"{text[: WIDTH - 1].rstrip()}…"
@@ -80,11 +77,7 @@ def row(path: Path) -> str:
     with pytest.raises(MethodFileError) as caught:
         load(str(path))
     fault, lines = caught.value.faults[0], caught.value.text.splitlines()
-    line = (
-        around(lines[fault.line - 1], fault.column)
-        if fault.line <= len(lines)
-        else ""
-    )
+    line = around(lines[fault.line - 1], fault.column) if fault.line <= len(lines) else ""
     kind = path.name.removesuffix(SUFFIX).replace("-", " ")
     told = f"{cell(fault.message)} | {cell(fault.help)}"
     return f"| {kind} | {code_of(fault.message)} | {code(line)} | {told} |\n"
@@ -110,9 +103,7 @@ def test_every_row_has_five_cells() -> None:
     """Nothing in a message or a line breaks the table: each row has five cells, and a message."""
     _, _, table = PAGE.read_text(encoding="utf-8").partition(EXAMPLES)
     rows = table.splitlines()
-    assert len(rows) == len(
-        list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}"))
-    )
+    assert len(rows) == len(list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
     for line in rows:
         cells = line.replace("\\|", "").split("|")[1:-1]
         assert len(cells) == 5

@@ -151,9 +151,7 @@ def check_toml(block: Block) -> None:
 def check_python(block: Block) -> None:
     """Examples with prompts, which ``test_python_docs`` runs on every page that has some."""
     assert block.text.startswith(">>> "), block.where
-    ast.parse(
-        "\n".join(re.findall(r"^(?:>>>|\.\.\.) ?(.*)$", block.text, re.M))
-    )
+    ast.parse("\n".join(re.findall(r"^(?:>>>|\.\.\.) ?(.*)$", block.text, re.M)))
 
 
 def check_json(block: Block) -> None:
@@ -173,9 +171,7 @@ CHECKS: dict[str, Callable[[Block], None]] = {
 }
 
 
-@pytest.mark.parametrize(
-    "page", pages(), ids=lambda page: str(page.relative_to(ROOT))
-)
+@pytest.mark.parametrize("page", pages(), ids=lambda page: str(page.relative_to(ROOT)))
 def test_every_block_is_run_or_read(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -200,9 +196,7 @@ def test_no_exception_is_stale() -> None:
     commands that are not run are on some page.
     """
     everything = [block for page in pages() for block in blocks(page)]
-    places = {
-        (x.page.relative_to(ROOT).as_posix(), x.language) for x in everything
-    }
+    places = {(x.page.relative_to(ROOT).as_posix(), x.language) for x in everything}
     assert set(TESTED) <= places
     for (page, _), test in TESTED.items():
         text = (ROOT / "tests/docs" / test).read_text(encoding="utf-8")

@@ -40,20 +40,11 @@ def commands() -> list[str]:
     """Every ``gark`` command of the page, in its order: in shell blocks, in workflows, in running
     text.
     """
-    shell = [
-        line
-        for language, text in BLOCKS
-        if language == "sh"
-        for line in text.splitlines()
-    ]
+    shell = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
     steps = [step for workflow in WORKFLOWS for step in scripts(workflow)]
-    spoken = [
-        x for x in re.findall(r"`(gark [^`]+)`", PAGE) if x != "gark check"
-    ]
+    spoken = [x for x in re.findall(r"`(gark [^`]+)`", PAGE) if x != "gark check"]
     return [
-        x.partition(" >>")[0].strip()
-        for x in [*shell, *steps, *spoken]
-        if x.startswith("gark ")
+        x.partition(" >>")[0].strip() for x in [*shell, *steps, *spoken] if x.startswith("gark ")
     ]
 
 
@@ -63,11 +54,7 @@ def scripts(part: Any) -> list[str]:
         return [x for item in part for x in scripts(item)]
     if not isinstance(part, dict):
         return []
-    own = (
-        [part["run"]]
-        if isinstance(part.get("run"), str)
-        else list(part.get("script", []))
-    )
+    own = [part["run"]] if isinstance(part.get("run"), str) else list(part.get("script", []))
     return own + [x for value in part.values() for x in scripts(value)]
 
 
@@ -77,9 +64,7 @@ def uses(part: Any) -> list[dict[str, Any]]:
         return [x for item in part for x in uses(item)]
     if not isinstance(part, dict):
         return []
-    return [part] * ("uses" in part) + [
-        x for value in part.values() for x in uses(value)
-    ]
+    return [part] * ("uses" in part) + [x for value in part.values() for x in uses(value)]
 
 
 @pytest.fixture(scope="module")
@@ -112,9 +97,7 @@ def test_a_command_runs(command: str, project: Path) -> None:
     run = gark(*arguments, cwd=project)
     assert (run.code, run.err) == (0, ""), command
     if "-o" in arguments:
-        text = (project / arguments[arguments.index("-o") + 1]).read_text(
-            encoding="utf-8"
-        )
+        text = (project / arguments[arguments.index("-o") + 1]).read_text(encoding="utf-8")
         assert (
             ET.fromstring(text).tag == "testsuites"
             if text.startswith("<?xml")
@@ -166,63 +149,34 @@ def test_settings_of_an_editor_name_the_schema() -> None:
 def test_every_format_has_its_row() -> None:
     """The table of formats is the list of formats."""
     table = PAGE.partition("## Formats")[2].partition("##")[0]
-    assert sorted(re.findall(r"^\| `(\w+)`", table, re.MULTILINE)) == sorted(
-        ["auto", *FORMATS]
-    )
+    assert sorted(re.findall(r"^\| `(\w+)`", table, re.MULTILINE)) == sorted(["auto", *FORMATS])
 
 
 def test_every_exit_code_has_its_row(tmp_path: Path) -> None:
     """The table of docs/command-line.md is that of the program, and the first three are met."""
     page = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     table = page.partition("## Exit codes")[2].partition("##")[0]
-    assert re.findall(r"^\| (\d+) \|", table, re.MULTILINE) == [
-        "0",
-        "1",
-        "2",
-        "3",
-        "130",
-        "141",
-    ]
-    for code, text in enumerate(
-        ("", "expect: {order: 3}", "expct: {order: 2}")
-    ):
-        (tmp_path / "m.gark.yaml").write_text(
-            f"methods: [{{family: gauss, stages: 1}}]\n{text}\n"
-        )
+    assert re.findall(r"^\| (\d+) \|", table, re.MULTILINE) == ["0", "1", "2", "3", "130", "141"]
+    for code, text in enumerate(("", "expect: {order: 3}", "expct: {order: 2}")):
+        (tmp_path / "m.gark.yaml").write_text(f"methods: [{{family: gauss, stages: 1}}]\n{text}\n")
         assert gark("check", ".", cwd=tmp_path).code == code
 
 
 def test_the_action_is_used_as_it_is() -> None:
     """The step with our action gives only inputs that the action has."""
     action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-    (step,) = [
-        x for x in uses(WORKFLOWS) if x["uses"].startswith("OWNER/gark@")
-    ]
+    (step,) = [x for x in uses(WORKFLOWS) if x["uses"].startswith("OWNER/gark@")]
     assert set(step["with"]) <= set(action["inputs"])
-    assert (
-        gark(
-            "check",
-            step["with"]["files"],
-            *shlex.split(step["with"]["arguments"]),
-        ).code
-        == 0
-    )
+    assert gark("check", step["with"]["files"], *shlex.split(step["with"]["arguments"])).code == 0
 
 
 def test_the_hook_exists() -> None:
     """The hook that the page names is one that the repository offers."""
     offered = {
         hook["id"]
-        for hook in yaml.safe_load(
-            (ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8")
-        )
+        for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
     }
-    named = {
-        hook["id"]
-        for x in WORKFLOWS
-        for repo in x.get("repos", [])
-        for hook in repo["hooks"]
-    }
+    named = {hook["id"] for x in WORKFLOWS for repo in x.get("repos", []) for hook in repo["hooks"]}
     assert named
     assert named <= offered
 

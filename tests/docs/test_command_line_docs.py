@@ -19,16 +19,10 @@ def reference() -> str:
     parts = []
     for name in COMMANDS:
         result = runner.invoke(
-            gark,
-            [name, "--help"],
-            prog_name="gark",
-            terminal_width=80,
-            max_content_width=80,
+            gark, [name, "--help"], prog_name="gark", terminal_width=80, max_content_width=80
         )
         assert result.exit_code == 0, result.output
-        parts.append(
-            f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n"
-        )
+        parts.append(f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n")
     return "\n".join(parts)
 
 

@@ -9,9 +9,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-ROWS = re.findall(
-    r"^\| (?!add a|-)(.+?) \| (.+?) \| (.+?) \| (.+?) \|$", TEXT, re.M
-)
+ROWS = re.findall(r"^\| (?!add a|-)(.+?) \| (.+?) \| (.+?) \| (.+?) \|$", TEXT, re.M)
 PATHS = sorted(set(re.findall(r"`((?:garkcli|tests|docs)/[^`\s]+)`", TEXT)))
 
 

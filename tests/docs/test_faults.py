@@ -12,14 +12,7 @@ from hypothesis import strategies as st
 from garkcli.api.files import loads_problem
 from garkcli.check.meanings import meanings
 from garkcli.errors import GarkError, MethodFileError
-from garkcli.glossary.faults import (
-    HOLE,
-    UNKNOWN,
-    FaultKind,
-    by_code,
-    code_of,
-    codes_of,
-)
+from garkcli.glossary.faults import HOLE, UNKNOWN, FaultKind, by_code, code_of, codes_of
 from garkcli.methodfile.load import loads
 from tests.cli.harness import ROOT, gark
 from tests.docs.fault_sites import ERRORS, sites, source
@@ -66,9 +59,7 @@ def test_every_message_has_one_code() -> None:
         codes = codes_of(site.message.replace(HOLE, FILLED))
         if len(codes) != 1:
             wrong.append((site.place, site.message, codes))
-    assert wrong == [], (
-        f"each belongs among the messages of a kind in {ENTRIES}"
-    )
+    assert wrong == [], f"each belongs among the messages of a kind in {ENTRIES}"
 
 
 def test_no_site_escapes() -> None:
@@ -127,12 +118,8 @@ def _codes_of_run(command: str) -> set[str]:
     return set(map(code_of, said))
 
 
-@pytest.mark.parametrize(
-    "kind", [x for x in KINDS if x.example], ids=lambda x: x.code
-)
-def test_the_example_has_the_fault(
-    kind: FaultKind, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.parametrize("kind", [x for x in KINDS if x.example], ids=lambda x: x.code)
+def test_the_example_has_the_fault(kind: FaultKind, monkeypatch: pytest.MonkeyPatch) -> None:
     """What stands as the example of a kind is met with it."""
     monkeypatch.chdir(ROOT)
     is_command = kind.example.startswith("$ ")
@@ -159,9 +146,7 @@ OTHERS = [said.replace(HOLE, "x") for kind in KINDS for said in kind.says]
 @pytest.mark.parametrize("kind", KINDS, ids=lambda x: x.code)
 @settings(max_examples=5)
 @given(said=st.sampled_from(OTHERS), around=st.sampled_from(AROUND))
-def test_what_is_quoted_has_no_say(
-    kind: FaultKind, said: str, around: str
-) -> None:
+def test_what_is_quoted_has_no_say(kind: FaultKind, said: str, around: str) -> None:
     """A message keeps its code when what it quotes of a file reads like another message."""
     text = repr(around.format(said))
     for message in kind.says:
@@ -175,9 +160,7 @@ def test_names_that_read_like_messages_are_quoted() -> None:
     """
     said = "a: --emit: no method has the infimum of x"
     method = "A: [[0]]\nb: [1]\n"
-    assert _codes_of_file(f'{method}parameters: {{"{said}": 2}}') == {
-        "name-taken"
-    }
+    assert _codes_of_file(f'{method}parameters: {{"{said}": 2}}') == {"name-taken"}
     shape = f'unknown: {{stages: 2, shape: "{said}"}}'
     assert _codes_of_file(shape) == {"unknown-word"}
     problem = "variables: [q]\nhamiltonian: q\ninitial: {q: 1, pq: 0}\n"
@@ -191,22 +174,14 @@ def test_names_that_read_like_messages_are_quoted() -> None:
     ("message", "code"),
     [
         ("parameters: pi has a meaning already", "name-taken"),
-        (
-            "f{1}: right-hand sides by the names of variables are expected",
-            "mapping-expected",
-        ),
+        ("f{1}: right-hand sides by the names of variables are expected", "mapping-expected"),
         ("aliases: an empty name", "name-taken"),
         ("aliases: 'a' stands here twice", "doubled"),
         ("a hamiltonian and an rhs", "given-twice"),
-        (
-            "hamiltonian: a coefficient of about 9000 digits",
-            "number-too-large",
-        ),
+        ("hamiltonian: a coefficient of about 9000 digits", "number-too-large"),
     ],
 )
-def test_messages_that_are_put_together_have_codes(
-    message: str, code: str
-) -> None:
+def test_messages_that_are_put_together_have_codes(message: str, code: str) -> None:
     """What is made of several texts, which the source does not show as one, has its kind."""
     assert codes_of(message) == [code]
 

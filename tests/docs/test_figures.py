@@ -24,9 +24,7 @@ def size(path: Path) -> tuple[int, int]:
     return width, height
 
 
-def test_the_figure_is_drawn_anew(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_figure_is_drawn_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The script beside it makes the figure that the README shows."""
     folder = ROOT / "docs" / "figures"
     made = tmp_path / "rectangular.png"
@@ -81,9 +79,7 @@ def test_commands_of_the_gallery_are_commands(script: dict[str, Any]) -> None:
         assert name in context.params.values()
 
 
-def test_the_gallery_is_drawn_anew(
-    script: dict[str, Any], tmp_path: Path
-) -> None:
+def test_the_gallery_is_drawn_anew(script: dict[str, Any], tmp_path: Path) -> None:
     """The script draws what the page shows by the commands that stand there: of those that are
     drawn in no time the same, of another one a picture.
     """

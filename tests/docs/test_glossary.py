@@ -109,18 +109,14 @@ def test_every_line_that_is_recorded_is_explained() -> None:
     """
     texts = list(recorded())
     assert len(texts) > 100
-    wrong = {
-        (name, label) for name, text in texts for label in unexplained(text)
-    }
+    wrong = {(name, label) for name, text in texts for label in unexplained(text)}
     assert wrong == set()
     count = sum(len(set(labels(text))) for _, text in texts)
     assert count > 300
 
 
 @pytest.mark.parametrize("arguments", REPORTS, ids=" ".join)
-def test_every_line_of_a_report_is_explained(
-    arguments: tuple[str, ...],
-) -> None:
+def test_every_line_of_a_report_is_explained(arguments: tuple[str, ...]) -> None:
     """So is every line of reports that say much."""
     shown = gark(*arguments).out
     assert len(list(labels(shown))) >= 3
@@ -135,9 +131,7 @@ def test_every_label_of_the_renderers_is_explained() -> None:
     row = re.compile(r'^\s+\(\s*"([a-z][^"{}]*)",\s+[a-z]', re.MULTILINE)
     found = set()
     for path in sorted((ROOT / "garkcli/report").glob("*.py")):
-        if re.search(
-            r"_(text|orders|properties|conditions|further)", path.name
-        ):
+        if re.search(r"_(text|orders|properties|conditions|further)", path.name):
             text = path.read_text(encoding="utf-8")
             found |= {*call.findall(text), *row.findall(text)}
     assert len(found) > 12

@@ -35,9 +35,7 @@ def executed(node: ast.AST) -> Iterator[ast.AST]:
     pending = [node]
     while pending:
         for child in ast.iter_child_nodes(pending.pop()):
-            is_statement = not isinstance(
-                child, ast.expr
-            )  # which imports nothing
+            is_statement = not isinstance(child, ast.expr)  # which imports nothing
             if is_statement and not is_for_types_only(child):
                 yield child
                 pending.append(child)
@@ -60,31 +58,21 @@ def test_no_circle_of_imports() -> None:
     """Each module can be read after those it imports: components of the graph are single modules."""
     modules = module_files()
     graph = {
-        name: sorted(
-            imported_modules(path.read_text(encoding="utf-8"), modules)
-        )
+        name: sorted(imported_modules(path.read_text(encoding="utf-8"), modules))
         for name, path in modules.items()
     }
     assert len(graph) > 100
     assert not any(name in imported for name, imported in graph.items())
-    circles = [
-        component for component in components(graph) if len(component) > 1
-    ]
+    circles = [component for component in components(graph) if len(component) > 1]
     assert circles == []
 
 
 def test_imports_in_functions_are_seen_and_those_for_types_are_not() -> None:
     """What the graph is made of: any import that runs at some time."""
-    modules = dict.fromkeys(
-        ["garkcli.a", "garkcli.b", "garkcli.c", "garkcli.d"], Path()
-    )
+    modules = dict.fromkeys(["garkcli.a", "garkcli.b", "garkcli.c", "garkcli.d"], Path())
     text = (
         "from typing import TYPE_CHECKING\nimport garkcli.a\n"
         "if TYPE_CHECKING:\n    from garkcli.b import x\n"
         "def f():\n    from garkcli.c import y\n    from garkcli import d\n"
     )
-    assert imported_modules(text, modules) == {
-        "garkcli.a",
-        "garkcli.c",
-        "garkcli.d",
-    }
+    assert imported_modules(text, modules) == {"garkcli.a", "garkcli.c", "garkcli.d"}

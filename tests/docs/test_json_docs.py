@@ -51,38 +51,14 @@ REPORTS = {
     ],
     "converge": [
         ["converge", METHOD, "--problem", "oscillator"],
-        [
-            "converge",
-            METHOD,
-            "--problem",
-            "kepler",
-            "--steps",
-            "1/8,1/16",
-            "--work",
-        ],
+        ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16", "--work"],
         ["converge", METHOD, METHOD, "--problem", "oscillator"],
     ],
     "energy": [
         ["energy", METHOD, "--t-end", "100"],
         ["energy", METHOD, "--t-end", "1", "--modified"],
-        [
-            "energy",
-            METHOD,
-            "--problem",
-            "pendulum",
-            "--t-end",
-            "10",
-            "--bounded",
-        ],
-        [
-            "energy",
-            METHOD,
-            "--problem",
-            "pendulum",
-            "--t-end",
-            "10",
-            "--symplecticity",
-        ],
+        ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--bounded"],
+        ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--symplecticity"],
     ],
     "design": [
         ["design", "tests/examples/families/sdirk.gark.yaml"],
@@ -91,10 +67,7 @@ REPORTS = {
             *["--order", "3", "--search", "3"],
         ],
     ],
-    "export": [
-        ["list", "exports"],
-        ["export", METHOD, "--to", "json"],
-    ],
+    "export": [["list", "exports"], ["export", METHOD, "--to", "json"]],
     "audit": [["audit", "tests/bridges/sources/register.cpp"]],
     "import": [["import", "tests/bridges/sources/register.cpp"]],
     "list": [["list"], ["list", "methods", "rk4"]],
@@ -109,9 +82,7 @@ GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum|g")
 
 def section(name: str) -> str:
     """What the page says of a command."""
-    return re.split(
-        r"^## ", PAGE.partition(f"## gark {name}\n")[2], flags=re.MULTILINE
-    )[0]
+    return re.split(r"^## ", PAGE.partition(f"## gark {name}\n")[2], flags=re.MULTILINE)[0]
 
 
 def keys(data: Any) -> Iterator[str]:
@@ -135,9 +106,7 @@ def test_every_key_is_on_the_page(name: str) -> None:
         found = gark(*arguments, *format)
         assert found.code in {0, 1}, found.err
         report = json.loads(found.out)
-        wanted = {
-            key for key in keys(report) if not GIVEN_NAMES.fullmatch(key)
-        }
+        wanted = {key for key in keys(report) if not GIVEN_NAMES.fullmatch(key)}
         if isinstance(report, dict):  # lists have no name
             wanted.add(report["schema"])
         assert wanted <= described
@@ -155,14 +124,8 @@ def test_the_example_of_a_check_is_real() -> None:
     (method,), (real,) = shown["files"], found["files"]
     assert list(method) == list(real)
     assert method["claims"] == real["claims"][:1]
-    shortened = {
-        key for key in method if method[key] is None and real[key] is not None
-    }
-    assert shortened == {
-        "conjugate_witness",
-        "pair_witness",
-        "nonautonomous_witness",
-    }
+    shortened = {key for key in method if method[key] is None and real[key] is not None}
+    assert shortened == {"conjugate_witness", "pair_witness", "nonautonomous_witness"}
     for key in set(method) - shortened - {"claims"}:
         assert method[key] == real[key], key
 
@@ -173,9 +136,7 @@ def test_the_example_of_an_export_is_real(tmp_path: Path) -> None:
     shown = json.loads(example)
     fields = {key: shown[key] for key in ("A", "b", "c", "embedded")}
     (tmp_path / "m.yaml").write_text(json.dumps(fields), encoding="utf-8")
-    found = json.loads(
-        gark("export", "m.yaml", "--to", "json", cwd=tmp_path).out
-    )
+    found = json.loads(gark("export", "m.yaml", "--to", "json", cwd=tmp_path).out)
     left_out = {key for key in shown if shown[key] == "…"}
     assert left_out == {"name", "reference"}
     assert {**found, "name": "…", "reference": "…"} == shown
@@ -193,14 +154,8 @@ def test_what_a_failing_check_adds_is_on_the_page() -> None:
 @pytest.mark.parametrize(
     ("name", "arguments"),
     [
-        (
-            "converge",
-            ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16"],
-        ),
-        (
-            "converge",
-            ["converge", METHOD, METHOD, "--problem", "oscillator", "--work"],
-        ),
+        ("converge", ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16"]),
+        ("converge", ["converge", METHOD, METHOD, "--problem", "oscillator", "--work"]),
         ("energy", ["energy", METHOD, "--problem", "kepler", "--t-end", "10"]),
     ],
 )

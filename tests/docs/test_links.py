@@ -11,11 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 PACKAGE_PAGE = ROOT / "docs" / "package-page.md"
-PAGES = [
-    README,
-    ROOT / "CONTRIBUTING.md",
-    *sorted((ROOT / "docs").rglob("*.md")),
-]
+PAGES = [README, ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def without_code(text: str) -> str:
@@ -75,17 +71,13 @@ def missing(page: Path) -> list[str]:
     for link in links(page):
         name, _, anchor = link.partition("#")
         target = (page.parent / name) if name else page
-        is_there = target.exists() and (
-            not anchor or anchor in anchors(target)
-        )
+        is_there = target.exists() and (not anchor or anchor in anchors(target))
         if not is_there:
             found.append(link)
     return found
 
 
-@pytest.mark.parametrize(
-    "page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix()
-)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_every_link_leads_somewhere(page: Path) -> None:
     """A file that is there, and a heading that it has."""
     assert missing(page) == []
@@ -93,11 +85,7 @@ def test_every_link_leads_somewhere(page: Path) -> None:
 
 def test_links_to_other_sites_are_well_formed() -> None:
     """Whether they lead somewhere is for ``make links``, which needs a network."""
-    found = [
-        link
-        for page in PAGES
-        for link in outside(page.read_text(encoding="utf-8"))
-    ]
+    found = [link for page in PAGES for link in outside(page.read_text(encoding="utf-8"))]
     assert found
     assert [link for link in found if not is_well_formed(link)] == []
     for link in (
@@ -117,10 +105,7 @@ def test_every_page_is_found_from_the_readme() -> None:
     while ahead:
         page = ahead.pop()
         seen.add(page)
-        targets = {
-            (page.parent / link.partition("#")[0]).resolve()
-            for link in links(page)
-        }
+        targets = {(page.parent / link.partition("#")[0]).resolve() for link in links(page)}
         ahead += [x for x in targets if x.suffix == ".md" and x not in seen]
     assert set(PAGES) - seen == {PACKAGE_PAGE}
 

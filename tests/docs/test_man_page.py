@@ -46,14 +46,10 @@ def test_no_text_is_taken_for_a_request(program: dict[str, Any]) -> None:
     assert escaped(r'a\b -c "d"') == r"a\eb \-c \(dqd\(dq"
 
 
-def test_completion_is_told_as_in_the_documentation(
-    program: dict[str, Any],
-) -> None:
+def test_completion_is_told_as_in_the_documentation(program: dict[str, Any]) -> None:
     """The lines for the shells are those of docs/command-line.md."""
     text = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
-    rows = re.findall(
-        r"^\| (?:bash|zsh|fish) \| `(.*)` \| `(.*)` \|$", text, re.MULTILINE
-    )
+    rows = re.findall(r"^\| (?:bash|zsh|fish) \| `(.*)` \| `(.*)` \|$", text, re.MULTILINE)
     found = {file: line.replace(r"\|", "|") for file, line in rows}
     assert found == program["SHELLS"]
 
@@ -62,9 +58,7 @@ def test_the_page_is_installed() -> None:
     """The wheel has it where man looks for the page of a command."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     setuptools = tomllib.loads(text)["tool"]["setuptools"]
-    assert setuptools["data-files"] == {
-        "share/man/man1": [PAGE.relative_to(ROOT).as_posix()]
-    }
+    assert setuptools["data-files"] == {"share/man/man1": [PAGE.relative_to(ROOT).as_posix()]}
 
 
 @pytest.mark.skipif(not shutil.which("groff"), reason="there is no groff")

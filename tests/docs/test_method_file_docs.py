@@ -19,9 +19,7 @@ README = ROOT / "README.md"
 def blocks(path: Path, language: str) -> list[str]:
     """The fenced blocks of a language."""
     return re.findall(
-        rf"^```{language}\n(.*?)^```$",
-        path.read_text(encoding="utf-8"),
-        re.DOTALL | re.MULTILINE,
+        rf"^```{language}\n(.*?)^```$", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
     )
 
 
@@ -39,29 +37,17 @@ def is_whole(block: str) -> bool:
     """Whether a block is a whole file: a form without ``...``, and with its transfer where it has
     two methods.
     """
-    if (
-        "..." in block
-        or "A11" in block
-        or "AE" in block
-        or not keys(block) & set(FORMS)
-    ):
+    if "..." in block or "A11" in block or "AE" in block or not keys(block) & set(FORMS):
         return False
     methods = yaml.safe_load(block).get("methods")
     return methods is None or len(methods) == 1 or "transfer" in keys(block)
 
 
 PAGES = (DOCS, README, ROOT / "docs/tour.md")
-ALL = [
-    block
-    for path in PAGES
-    for block in blocks(path, "yaml")
-    if not block.startswith("- uses:")
-]
+ALL = [block for path in PAGES for block in blocks(path, "yaml") if not block.startswith("- uses:")]
 PROBLEMS = [block for block in ALL if is_problem(block)]
 WHOLE = [block for block in ALL if is_whole(block)]
-FRAGMENTS = [
-    block for block in ALL if not is_whole(block) and not is_problem(block)
-]
+FRAGMENTS = [block for block in ALL if not is_whole(block) and not is_problem(block)]
 
 
 def test_the_documentation_has_files() -> None:
@@ -80,14 +66,9 @@ def test_a_whole_file_loads(block: str) -> None:
 @pytest.mark.parametrize("block", PROBLEMS)
 def test_a_problem_is_a_file_of_the_repository(block: str) -> None:
     """The problem that the README shows is the file that it names, comments apart."""
-    files = [
-        path.read_text(encoding="utf-8")
-        for path in (ROOT / "problems").glob("*.yaml")
-    ]
+    files = [path.read_text(encoding="utf-8") for path in (ROOT / "problems").glob("*.yaml")]
     assert loads_problem(block).terms
-    assert block in [
-        re.sub(r"^#.*\n", "", text, flags=re.MULTILINE) for text in files
-    ]
+    assert block in [re.sub(r"^#.*\n", "", text, flags=re.MULTILINE) for text in files]
 
 
 @pytest.mark.parametrize("block", FRAGMENTS)
@@ -100,9 +81,7 @@ def test_a_fragment_has_only_keys_of_the_format(block: str) -> None:
 def test_every_key_is_explained() -> None:
     """Every key of the format has its place in the table of keys."""
     table = "\n".join(
-        line
-        for line in DOCS.read_text(encoding="utf-8").splitlines()
-        if line.startswith("|")
+        line for line in DOCS.read_text(encoding="utf-8").splitlines() if line.startswith("|")
     )
     missing = [key for key in KEYS if not re.search(rf"`{key}\b", table)]
     assert missing == []
@@ -116,8 +95,6 @@ def test_every_command_of_the_documentation_exists() -> None:
         path.read_text(encoding="utf-8")
         for path in (README, *sorted((ROOT / "docs").rglob("*.md")))
     ]
-    named = {
-        word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)
-    }
+    named = {word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)}
     assert named
     assert named <= {*COMMANDS, "help"}

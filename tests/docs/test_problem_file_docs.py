@@ -12,12 +12,7 @@ import pytest
 from garkcli.exact.formula import FUNCTIONS, parse_formula
 from garkcli.methodfile.formulas import PLACES
 from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.problem_text import (
-    KEYS,
-    MAX_INVARIANTS,
-    MAX_TERMS,
-    MAX_VARIABLES,
-)
+from garkcli.methodfile.problem_text import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "problem-file.md"
@@ -45,10 +40,7 @@ def test_words_are_those_of_the_program() -> None:
     """Keys, functions and limits."""
     for word in (*KEYS, *FUNCTIONS):
         assert re.search(rf"`{word}(: 1)?`", TEXT), word
-    assert (
-        f"{MAX_VARIABLES} variables, {MAX_TERMS} terms, {MAX_INVARIANTS} invariants"
-        in TEXT
-    )
+    assert f"{MAX_VARIABLES} variables, {MAX_TERMS} terms, {MAX_INVARIANTS} invariants" in TEXT
     assert PLACES == 60
     assert "sixty decimals" in TEXT
 
@@ -58,9 +50,7 @@ def test_two_readings_of_a_sum(code: str) -> None:
     """What the page says of terms with velocities of their own."""
     assert code in TEXT.replace("\n", " ")
     (p,) = (
-        loads_problem(
-            f"{{variables: [x], lagrangian: {code}, initial: {{x: 0, px: 1}}}}"
-        )
+        loads_problem(f"{{variables: [x], lagrangian: {code}, initial: {{x: 0, px: 1}}}}")
         .unsplit()
         .terms
     )

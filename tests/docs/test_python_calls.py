@@ -67,12 +67,7 @@ def rows() -> list[tuple[set[str], set[str], str]]:
         if len(cells) == 3 and not cells[0].startswith(("option", "---")):
             told = set(re.findall(r"`(-[\w-]+)`", cells[0]))
             if "filters" in cells[0]:
-                told |= {
-                    x
-                    for of, y in options()
-                    if of == "list"
-                    for x in y.split("/")
-                }
+                told |= {x for of, y in options() if of == "list" for x in y.split("/")}
             found.append((told, set(cells[1].split(", ")), cells[2]))
     return found
 
@@ -83,15 +78,12 @@ def test_every_option_is_an_argument() -> None:
     known = set(options())
     for command, option in known:
         assert any(
-            told & {*option.split("/")} and of & {command, "every command"}
-            for told, of, _ in table
+            told & {*option.split("/")} and of & {command, "every command"} for told, of, _ in table
         ), f"gark {command} {option}"
     for told, of, python in table:
         named = of - {"every command"}
         assert named <= set(COMMANDS)
-        every = {
-            x for of, y in known if of in (named or {of}) for x in y.split("/")
-        }
+        every = {x for of, y in known if of in (named or {of}) for x in y.split("/")}
         assert told <= every, told - every
         for call in re.findall(r"`(\w+)\(", python):
             assert call in garkcli.__all__, call
@@ -107,9 +99,7 @@ def shown(*arguments: str) -> str:
 def test_texts_are_those_of_the_commands() -> None:
     """Exports, certificates, references and schemas, to the letter."""
     rk4 = garkcli.load("rk4")
-    assert garkcli.export("rk4", "csv") == shown(
-        "export", "rk4", "--to", "csv"
-    )
+    assert garkcli.export("rk4", "csv") == shown("export", "rk4", "--to", "csv")
     assert garkcli.export(rk4, "csv") == garkcli.export("rk4", "csv")
     assert garkcli.certificate(rk4) == shown("certificate", "rk4")
     cited = shown("cite", "rk4", "--format", "text")
@@ -133,10 +123,7 @@ def test_claims_are_those_that_are_written(tmp_path: Path) -> None:
     written = path.read_text(encoding="utf-8")
     assert garkcli.with_claims(method) == written
     assert garkcli.check_file(str(path)).ok
-    assert all(
-        f"  {key}: {value}\n" in written
-        for key, value in garkcli.claims_of(method).items()
-    )
+    assert all(f"  {key}: {value}\n" in written for key, value in garkcli.claims_of(method).items())
     with pytest.raises(MethodError, match="no text"):
         garkcli.with_claims(method.conjugate)  # type: ignore[arg-type]
     with pytest.raises(MethodError, match="no method file"):
@@ -199,8 +186,7 @@ def test_a_sweep_runs_and_goes_on(tmp_path: Path) -> None:
     """Its rows are written, and a second run has nothing left to do."""
     spec = tmp_path / "s.yaml"
     spec.write_text(
-        "methods:\n  - {family: gauss, stages: [1, 2]}\ncolumns: [order]\n",
-        encoding="utf-8",
+        "methods:\n  - {family: gauss, stages: [1, 2]}\ncolumns: [order]\n", encoding="utf-8"
     )
     rows = str(tmp_path / "rows.jsonl")
     report = garkcli.run_sweep(str(spec), rows)

@@ -16,17 +16,13 @@ PAGES = [x for x in pages_with("python", ">>> ") if x.name not in RUN_AT_HOME]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_the_examples_print_what_the_page_says(
-    page: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_examples_print_what_the_page_says(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every example of the page, in order."""
     monkeypatch.chdir(ROOT)
     text = page.read_text(encoding="utf-8")
     # a closing fence is no output
     examples = text.replace("```python\n", "").replace("```\n", "")
-    test = doctest.DocTestParser().get_doctest(
-        examples, {}, page.name, str(page), 0
-    )
+    test = doctest.DocTestParser().get_doctest(examples, {}, page.name, str(page), 0)
     assert test.examples
     report: list[str] = []
     result = doctest.DocTestRunner(verbose=False).run(test, out=report.append)

@@ -15,15 +15,7 @@ import pytest
 
 import garkcli
 from garkcli.errors import GarkError
-from tests.docs.python_reference import (
-    VALUES,
-    Docstring,
-    home,
-    items,
-    of_class,
-    page,
-    returned,
-)
+from tests.docs.python_reference import VALUES, Docstring, home, items, of_class, page, returned
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "python-reference.md"
 MARK = "<!-- names -->\n\n"
@@ -48,9 +40,7 @@ def test_the_page_is_made_from_the_program() -> None:
 def test_every_name_has_its_section() -> None:
     """Once each, as has what a call says that it returns."""
     headings = [
-        line.removeprefix("### ")
-        for line in page().splitlines()
-        if line.startswith("### ")
+        line.removeprefix("### ") for line in page().splitlines() if line.startswith("### ")
     ]
     assert len(headings) == len(set(headings))
     assert {*garkcli.__all__} <= {*headings}
@@ -71,9 +61,7 @@ def test_examples_can_be_copied() -> None:
         made = {x.id for x in names if isinstance(x.ctx, ast.Store)}
         made |= {x.arg for x in nodes if isinstance(x, ast.arg)}
         brought = {
-            (x.asname or x.name).partition(".")[0]
-            for x in nodes
-            if isinstance(x, ast.alias)
+            (x.asname or x.name).partition(".")[0] for x in nodes if isinstance(x, ast.alias)
         }
         assert used <= given | made | brought, block
 

@@ -61,10 +61,7 @@ def shared(texts: dict[str, str]) -> list[str]:
 def texts() -> dict[str, str]:
     """The pages by their names."""
     by_hand = [page for page in pages() if page.name not in ELSEWHERE]
-    return {
-        str(page.relative_to(ROOT)): page.read_text(encoding="utf-8")
-        for page in by_hand
-    }
+    return {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in by_hand}
 
 
 def test_no_sentence_stands_on_two_pages() -> None:

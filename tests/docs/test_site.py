@@ -57,8 +57,7 @@ def test_what_scrolls_can_have_the_focus() -> None:
     made = runpy.run_path(str(DOCS / "conf.py"))["scrollable"]
     html = '<p>a</p><pre>b</pre><div class="table-wrapper x"><table>'
     assert made(html) == (
-        '<p>a</p><pre tabindex="0">b</pre>'
-        '<div tabindex="0" class="table-wrapper x"><table>'
+        '<p>a</p><pre tabindex="0">b</pre><div tabindex="0" class="table-wrapper x"><table>'
     )
 
 

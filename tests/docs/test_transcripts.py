@@ -8,14 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.docs.blocks import pages
-from tests.docs.transcripts import (
-    ROOT,
-    agrees,
-    brought_up_to_date,
-    prepare,
-    run,
-    steps,
-)
+from tests.docs.transcripts import ROOT, agrees, brought_up_to_date, prepare, run, steps
 
 EMPTY = (
     "README",
@@ -40,9 +33,7 @@ def has_a_session(page: Path) -> bool:
 PAGES = [page for page in pages() if has_a_session(page)]
 
 
-@pytest.mark.skipif(
-    os.name == "nt", reason="the pages are for a shell with sed"
-)
+@pytest.mark.skipif(os.name == "nt", reason="the pages are for a shell with sed")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
     """Each file as shown, each command in its turn, from an empty folder or from one with nothing
@@ -57,21 +48,15 @@ def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
         if step.file:
             (tmp_path / step.file).write_text(step.text, encoding="utf-8")
             continue
-        code, lines = run(
-            step.command, tmp_path, as_process=page.name == "README.md"
-        )
+        code, lines = run(step.command, tmp_path, as_process=page.name == "README.md")
         is_refused = code == 2 and bool(step.text)  # which a page may show
         assert code in {0, 1} or is_refused, "\n".join(lines)
         if os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1":
             shown = brought_up_to_date(step.text, lines)
             text = page.read_text(encoding="utf-8")
-            page.write_text(
-                text.replace(step.text, shown, 1), encoding="utf-8"
-            )
+            page.write_text(text.replace(step.text, shown, 1), encoding="utf-8")
             continue
-        assert agrees(step.text, lines), (
-            f"{step.command} shows\n\n" + "\n".join(lines)
-        )
+        assert agrees(step.text, lines), f"{step.command} shows\n\n" + "\n".join(lines)
         count += 1
     assert count > 0 or "GARK_UPDATE_SNAPSHOTS" in os.environ
 

@@ -11,9 +11,7 @@ from tests.cli.harness import ROOT, gark
 STUDENT = ROOT / "docs" / "tutorial-student.md"
 
 
-def test_the_tableau_of_the_student_is_the_one_typed_in(
-    tmp_path: Path,
-) -> None:
+def test_the_tableau_of_the_student_is_the_one_typed_in(tmp_path: Path) -> None:
     """The block that shows it gives the same file as the line of the command does."""
     text = STUDENT.read_text(encoding="utf-8")
     (block,) = re.findall(r"```text\n(.*?)```", text, re.DOTALL)

@@ -24,10 +24,7 @@ FILES = {"yaml", "c", "python", "toml", "julia"}
 PROGRAMS = ("gark", "python3", "sed", "cp", "cat", "grep", "head", "cc")
 """The programs that sessions run."""
 
-NOT_RUN = {
-    "make": "it installs, or runs what runs this",
-    "pip": "it installs from an index",
-}
+NOT_RUN = {"make": "it installs, or runs what runs this", "pip": "it installs from an index"}
 """Commands that stand in sessions and are left out, by their first word, with the reason."""
 
 NEEDS = {"python3 dp5_test.py": "scipy"}
@@ -86,15 +83,10 @@ def can_be_run(command: str) -> bool:
 def agrees(shown: str, lines: list[str]) -> bool:
     """Whether ``lines`` are those shown, where a line ``...`` stands for any number of them."""
     pattern = "".join(
-        r"(?:.*\n)*"
-        if line.strip() == "..."
-        else re.escape(line.rstrip()) + r"\n"
+        r"(?:.*\n)*" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n"
         for line in shown.splitlines()
     )
-    return (
-        re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines))
-        is not None
-    )
+    return re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines)) is not None
 
 
 def brought_up_to_date(shown: str, lines: list[str]) -> str:

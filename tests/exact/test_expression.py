@@ -11,36 +11,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
-from garkcli.exact.display import (
-    to_ball,
-    to_decimal,
-    to_float,
-    to_latex,
-    to_text,
-)
+from garkcli.exact.display import to_ball, to_decimal, to_float, to_latex, to_text
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse, read_decimal
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import format_expression, roots_in, substitute
 
-literals = st.fractions(0, 50, max_denominator=30).map(
-    lambda x: f"{x.numerator}/{x.denominator}"
-)
-decimals = st.from_regex(
-    r"[0-9]{1,6}(\.[0-9]{0,6})?([eE][+-]?[0-9])?", fullmatch=True
-)
+literals = st.fractions(0, 50, max_denominator=30).map(lambda x: f"{x.numerator}/{x.denominator}")
+decimals = st.from_regex(r"[0-9]{1,6}(\.[0-9]{0,6})?([eE][+-]?[0-9])?", fullmatch=True)
 RATIONAL_TEXTS = st.recursive(
     literals | decimals | st.integers(0, 99).map(str),
     lambda inner: st.one_of(
-        st.tuples(inner, st.sampled_from([" + ", "-", "*", " / "]), inner).map(
-            "".join
-        ),
+        st.tuples(inner, st.sampled_from([" + ", "-", "*", " / "]), inner).map("".join),
         inner.map("({})".format),
         inner.map("-{}".format),
-        st.tuples(inner, st.integers(-3, 3)).map(
-            lambda x: f"({x[0]})**{x[1]}"
-        ),
+        st.tuples(inner, st.integers(-3, 3)).map(lambda x: f"({x[0]})**{x[1]}"),
     ),
     max_leaves=8,
 )
@@ -52,19 +38,12 @@ EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
         st.sampled_from(["tau", "x_1"]).map(Name),
     ),
     lambda inner: st.one_of(
-        st.tuples(
-            st.sampled_from(["+-", "++", "+"]),
-            st.lists(inner, min_size=2, max_size=2),
-        ).map(
+        st.tuples(st.sampled_from(["+-", "++", "+"]), st.lists(inner, min_size=2, max_size=2)).map(
             lambda x: (
-                Chain(x[0], tuple(x[1][: len(x[0])]))
-                if len(x[0]) > 1
-                else Chain("-", (x[1][0],))
+                Chain(x[0], tuple(x[1][: len(x[0])])) if len(x[0]) > 1 else Chain("-", (x[1][0],))
             )
         ),
-        st.tuples(st.sampled_from(["**", "*/"]), st.tuples(inner, inner)).map(
-            lambda x: Chain(*x)
-        ),
+        st.tuples(st.sampled_from(["**", "*/"]), st.tuples(inner, inner)).map(lambda x: Chain(*x)),
         st.tuples(inner, st.integers(-5, 5)).map(lambda x: Power(*x)),
         st.tuples(inner, st.sampled_from([2, 3, 5])).map(lambda x: Root(*x)),
     ),
@@ -83,9 +62,7 @@ def by_python(text: str) -> Fraction:
     import ast
     import re
 
-    wrapped = re.sub(
-        r"(?<![\w.])(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)", r"F('\1')", text
-    )
+    wrapped = re.sub(r"(?<![\w.])(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)", r"F('\1')", text)
     wrapped = re.sub(r"\*\*F\('(\d+)'\)", r"**\1", wrapped)
     wrapped = re.sub(r"\*\*-F\('(\d+)'\)", r"**-\1", wrapped)
     tree = ast.parse(wrapped.strip(), mode="eval")
@@ -94,9 +71,7 @@ def by_python(text: str) -> Fraction:
 
 def _fraction(text: str) -> Fraction:
     return Fraction(
-        text.rstrip(".")
-        if text.endswith(".")
-        else text.replace(".e", "e").replace(".E", "e")
+        text.rstrip(".") if text.endswith(".") else text.replace(".e", "e").replace(".E", "e")
     )
 
 
@@ -121,12 +96,8 @@ def test_format_and_parse_are_inverse(expression: Expression) -> None:
     text = format_expression(again)
     assert parse(text) == again
     assert format_expression(parse(text)) == text
-    values = {
-        name: parse(value) for name, value in (("tau", "2/7"), ("x_1", "-3/5"))
-    }
-    assert _have_one_value(
-        substitute(expression, values), substitute(again, values)
-    )
+    values = {name: parse(value) for name, value in (("tau", "2/7"), ("x_1", "-3/5"))}
+    assert _have_one_value(substitute(expression, values), substitute(again, values))
 
 
 def _have_one_value(*expressions: Expression) -> bool:
@@ -213,16 +184,10 @@ def test_radicals_are_worth_what_sympy_says(text: str) -> None:
     again.
     """
     number = evaluate(text)
-    names = {
-        "sqrt": sympy.sqrt,
-        "cbrt": lambda x: sympy.real_root(x, 3),
-        "root": sympy.real_root,
-    }
+    names = {"sqrt": sympy.sqrt, "cbrt": lambda x: sympy.real_root(x, 3), "root": sympy.real_root}
     wanted = sympy.N(sympy.sympify(text, locals=names, rational=True), 50)
     for found in (number, evaluate(to_text(number))):
-        assert abs(
-            sympy.Float(to_decimal(found, 45), 50) - wanted
-        ) < sympy.Float("1e-40")
+        assert abs(sympy.Float(to_decimal(found, 45), 50) - wanted) < sympy.Float("1e-40")
         assert abs(to_float(found) - float(wanted)) < 1e-14
     assert to_ball(number, 60).rel_accuracy_bits() >= 199
 
@@ -251,13 +216,7 @@ def test_faults_have_their_place(text: str, start: int, end: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "text",
-    [
-        "sqrt(-1)",
-        "root(-2, 4)",
-        "sqrt(1 - sqrt(2))",
-        "sqrt(2 - sqrt(3)*sqrt(3))",
-    ],
+    "text", ["sqrt(-1)", "root(-2, 4)", "sqrt(1 - sqrt(2))", "sqrt(2 - sqrt(3)*sqrt(3))"]
 )
 def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
     """There are no complex coefficients, however the sign is hidden."""
@@ -279,26 +238,7 @@ def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
         "((((2**64)**64)**64)**64)",
         "root(1 + root(2, 12), 12)",
         "+".join(
-            f"sqrt({p})"
-            for p in (
-                2,
-                3,
-                5,
-                7,
-                11,
-                13,
-                17,
-                19,
-                23,
-                29,
-                31,
-                37,
-                41,
-                43,
-                47,
-                53,
-                59,
-            )
+            f"sqrt({p})" for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)
         ),
     ],
 )
@@ -322,10 +262,7 @@ def test_names_need_values() -> None:
 def test_latex() -> None:
     """Numbers in LaTeX, rational and with radicals."""
     assert to_latex(evaluate("-1/2")) == r"-\frac{1}{2}"
-    assert (
-        to_latex(evaluate("1/2 - sqrt(3)/6"))
-        == r"\frac{1}{2}-\frac{\sqrt{3}}{6}"
-    )
+    assert to_latex(evaluate("1/2 - sqrt(3)/6")) == r"\frac{1}{2}-\frac{\sqrt{3}}{6}"
     assert to_latex(evaluate("4*sqrt(3)/27")) == r"\frac{4\sqrt{3}}{27}"
     assert to_latex(evaluate("cbrt(2)**2")) == r"\sqrt[3]{2}^{2}"
 
@@ -334,6 +271,4 @@ def test_latex() -> None:
 def test_decimals_are_rounded_right(number: Fraction, digits: int) -> None:
     """A decimal of n digits differs from the number by at most a unit of its last digit."""
     text = to_decimal(fmpq(number.numerator, number.denominator), digits)
-    assert abs(Fraction(text) - number) <= abs(number) * Fraction(
-        1, 10 ** (digits - 1)
-    )
+    assert abs(Fraction(text) - number) <= abs(number) * Fraction(1, 10 ** (digits - 1))

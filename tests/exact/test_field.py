@@ -41,9 +41,7 @@ def elements(draw: st.DrawFn, count: int) -> tuple[Number, ...]:
     assert domain.field is not None
     width = st.sampled_from([1, degree])
     return tuple(
-        domain.field.from_coordinates(
-            draw(st.lists(rationals, min_size=n, max_size=n))
-        )
+        domain.field.from_coordinates(draw(st.lists(rationals, min_size=n, max_size=n)))
         for n in (draw(width) for _ in range(count))
     )
 
@@ -61,29 +59,12 @@ def test_square_roots_of_one_class_share_a_field() -> None:
     """√3, √12, √(1/3) and √(4/3) all live in ℚ(√3); with √2 the degree is 4."""
     assert (
         Domain(
-            [
-                parse(x)
-                for x in (
-                    "sqrt(3)",
-                    "sqrt(12)",
-                    "sqrt(1/3)",
-                    "sqrt(4/3)",
-                    "sqrt(9)",
-                )
-            ]
+            [parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(1/3)", "sqrt(4/3)", "sqrt(9)")]
         ).degree
         == 2
     )
-    assert (
-        Domain(
-            [parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(2)", "sqrt(6)")]
-        ).degree
-        == 4
-    )
-    assert (
-        Domain([parse(x) for x in ("sqrt(3 + 2*sqrt(2))", "sqrt(2)")]).degree
-        == 2
-    )
+    assert Domain([parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(2)", "sqrt(6)")]).degree == 4
+    assert Domain([parse(x) for x in ("sqrt(3 + 2*sqrt(2))", "sqrt(2)")]).degree == 2
     assert Domain([parse("sqrt(49/121)")]).degree == 1
 
 
@@ -161,9 +142,7 @@ def test_coordinates_and_radicals(numbers: tuple[Number, ...]) -> None:
     field = x.field
     assert field.from_coordinates(coordinates(x, field.degree)) == x
     total: Number = fmpq(0)
-    for coefficient, word in zip(
-        field.in_radicals(x), field.monomials, strict=True
-    ):
+    for coefficient, word in zip(field.in_radicals(x), field.monomials, strict=True):
         term: Number = coefficient
         for index in word:
             term = term * field.element(field.radicals[index][1])

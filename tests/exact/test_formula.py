@@ -13,13 +13,7 @@ from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.expression import parse
 from garkcli.exact.formula import FUNCTIONS, Call, RealPower, parse_formula
 from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
-from garkcli.exact.rewriting import (
-    format_expression,
-    names_in,
-    roots_in,
-    size_of,
-    substitute,
-)
+from garkcli.exact.rewriting import format_expression, names_in, roots_in, size_of, substitute
 from garkcli.exact.values import exponent_of, value_of
 
 FORMULAS: st.SearchStrategy[Expression] = st.recursive(
@@ -30,9 +24,9 @@ FORMULAS: st.SearchStrategy[Expression] = st.recursive(
         st.sampled_from(["x", "px", "pi"]).map(Name),
     ),
     lambda inner: st.one_of(
-        st.tuples(
-            st.sampled_from(["+-", "++", "**", "*/"]), st.tuples(inner, inner)
-        ).map(lambda x: Chain(*x)),
+        st.tuples(st.sampled_from(["+-", "++", "**", "*/"]), st.tuples(inner, inner)).map(
+            lambda x: Chain(*x)
+        ),
         inner.map(lambda x: Chain("-", (x,))),
         st.tuples(inner, st.integers(-3, 3)).map(lambda x: Power(*x)),
         st.tuples(inner, st.sampled_from(["3/2", "-1/2", "1/3"])).map(
@@ -67,11 +61,7 @@ def test_format_and_parse_are_inverse(expression: Expression) -> None:
             value_of(again, NAMES)
         return
     found = value_of(again, NAMES)
-    assert (
-        found == wanted
-        if isinstance(wanted, fmpq)
-        else arb(found).overlaps(wanted)
-    )
+    assert found == wanted if isinstance(wanted, fmpq) else arb(found).overlaps(wanted)
 
 
 @given(FORMULAS)
@@ -98,11 +88,7 @@ def in_floats(expression: Expression) -> float:
         case Literal(value=number):
             return int(number.p) / int(number.q)
         case Name(name=name):
-            return (
-                math.pi
-                if name == "pi"
-                else float(int(NAMES[name].p) / int(NAMES[name].q))
-            )
+            return math.pi if name == "pi" else float(int(NAMES[name].p) / int(NAMES[name].q))
         case Chain(signs=signs, operands=operands):
             total = 0.0 if signs[0] in "+-" else 1.0
             for sign, x in zip(signs, map(in_floats, operands), strict=True):
@@ -129,13 +115,7 @@ def condition(expression: Expression) -> float:
         spread = arb(1, arb(2) ** -40)
         try:
             ball = arb(
-                value_of(
-                    expression,
-                    {
-                        **NAMES,
-                        **{x: arb(y) * spread for x, y in NAMES.items()},
-                    },
-                )
+                value_of(expression, {**NAMES, **{x: arb(y) * spread for x, y in NAMES.items()}})
             )
         except ExpressionError:
             return math.inf
@@ -255,9 +235,7 @@ def test_texts_that_would_exhaust_the_machine_are_refused(text: str) -> None:
         ("lambda: 0", "", 6),
     ],
 )
-def test_what_is_no_formula_is_refused_with_its_place(
-    text: str, cure: str, start: int
-) -> None:
+def test_what_is_no_formula_is_refused_with_its_place(text: str, cure: str, start: int) -> None:
     """The offset of the fault, and the cure where there is one."""
     with pytest.raises(ExpressionError) as caught:
         parse_formula(text)
@@ -265,9 +243,7 @@ def test_what_is_no_formula_is_refused_with_its_place(
     assert cure in caught.value.help
 
 
-@pytest.mark.parametrize(
-    "text", ["sin(1)", "exp(0)", "2**(1/2)", "2**x", "log(2)", "2**1.5"]
-)
+@pytest.mark.parametrize("text", ["sin(1)", "exp(0)", "2**(1/2)", "2**x", "log(2)", "2**1.5"])
 def test_coefficients_have_no_functions(text: str) -> None:
     """The grammar of method files is as it was."""
     parse_formula(text)
@@ -280,10 +256,7 @@ def test_any_text_is_read_or_refused(text: str) -> None:
     """Whatever the text, it has a value or is refused as an expression."""
     try:
         expression = parse_formula(text)
-        value_of(
-            expression,
-            dict.fromkeys((x.name for x in names_in(expression)), fmpq(1, 2)),
-        )
+        value_of(expression, dict.fromkeys((x.name for x in names_in(expression)), fmpq(1, 2)))
     except ExpressionError as error:
         start = error.start
     else:
@@ -305,15 +278,8 @@ def test_expressions_are_walked() -> None:
     assert [x.name for x in names_in(expression)] == ["a", "b", "c", "a"]
     assert len(list(roots_in(expression))) == 1
     assert size_of(expression, {"a": 100}) == 209
-    values = {
-        x: parse_formula(y)
-        for x, y in (("a", "pi"), ("b", "4"), ("c", "1 + 1"))
-    }
+    values = {x: parse_formula(y) for x, y in (("a", "pi"), ("b", "4"), ("c", "1 + 1"))}
+    assert format_expression(substitute(expression, values)) == "sin(pi*sqrt(4))**((1+1)/2)+pi"
     assert (
-        format_expression(substitute(expression, values))
-        == "sin(pi*sqrt(4))**((1+1)/2)+pi"
-    )
-    assert (
-        format_expression(parse_formula("sin(x)**(1/2)"), latex=True)
-        == r"\sin\left(x\right)^{1/2}"
+        format_expression(parse_formula("sin(x)**(1/2)"), latex=True) == r"\sin\left(x\right)^{1/2}"
     )

@@ -35,17 +35,11 @@ def maps(draw: st.DrawFn) -> tuple[NumberField | None, Matrix, Matrix, Matrix]:
         if field is None or draw(st.booleans()):
             return draw(rationals)
         return field.from_coordinates(
-            draw(
-                st.lists(
-                    rationals, min_size=field.degree, max_size=field.degree
-                )
-            )
+            draw(st.lists(rationals, min_size=field.degree, max_size=field.degree))
         )
 
     def rows(count: int, length: int) -> Matrix:
-        return tuple(
-            tuple(number() for _ in range(length)) for _ in range(count)
-        )
+        return tuple(tuple(number() for _ in range(length)) for _ in range(count))
 
     return (
         field,
@@ -64,9 +58,7 @@ def naive(u: Vector, v: Vector) -> Number:
 
 
 @given(maps())
-def test_images_and_pullbacks(
-    case: tuple[NumberField | None, Matrix, Matrix, Matrix],
-) -> None:
+def test_images_and_pullbacks(case: tuple[NumberField | None, Matrix, Matrix, Matrix]) -> None:
     """Both are what multiplication entry by entry gives, and rational values are plain
     rationals.
     """
@@ -75,13 +67,9 @@ def test_images_and_pullbacks(
     columns = tuple(zip(*A, strict=True))
     images, pullbacks = ready.images(vectors), ready.pullbacks(functionals)
     assert images == [tuple(naive(row, v) for row in A) for v in vectors]
-    assert pullbacks == [
-        tuple(naive(w, column) for column in columns) for w in functionals
-    ]
+    assert pullbacks == [tuple(naive(w, column) for column in columns) for w in functionals]
     entries = [x for row in images + pullbacks for x in row]
-    assert all(
-        x.poly.degree() > 0 for x in entries if isinstance(x, Algebraic)
-    )
+    assert all(x.poly.degree() > 0 for x in entries if isinstance(x, Algebraic))
 
 
 @given(maps())
@@ -99,10 +87,7 @@ def test_numbers_of_two_fields_do_not_meet() -> None:
     """A sum of products over two different fields is refused, also where each product is in one of
     them.
     """
-    a, b = (
-        Domain([parse(text)]).evaluate(parse(text))
-        for text in ("sqrt(2)", "sqrt(3)")
-    )
+    a, b = (Domain([parse(text)]).evaluate(parse(text)) for text in ("sqrt(2)", "sqrt(3)"))
     with pytest.raises(TypeError, match="two different fields"):
         dot((a, fmpq(1)), (fmpq(1), b))
 
@@ -110,10 +95,7 @@ def test_numbers_of_two_fields_do_not_meet() -> None:
 @given(st.integers(8, 12), st.integers(0, 5))
 def test_rows_of_unrelated_denominators(width: int, seed: int) -> None:
     """Rows that are summed as fractions have the same images as by definition."""
-    row = tuple(
-        fmpq(k + seed, 2 ** (6000 + k) + 2 * k + 1)
-        for k in range(1, width + 1)
-    )
+    row = tuple(fmpq(k + seed, 2 ** (6000 + k) + 2 * k + 1) for k in range(1, width + 1))
     vector = tuple(fmpq(2 * k - 5, k + 3) for k in range(width))
     linear = LinearMap((row, vector), None)
     assert _has_denominators_apart(row)

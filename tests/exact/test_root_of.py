@@ -7,12 +7,7 @@ from flint import arb, fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.errors import (
-    ExpressionError,
-    GarkError,
-    LimitExceeded,
-    UndefinedValue,
-)
+from garkcli.errors import ExpressionError, GarkError, LimitExceeded, UndefinedValue
 from garkcli.exact.display import to_ball, to_latex, to_text
 from garkcli.exact.domain import Domain
 from garkcli.exact.enclosing import enclose
@@ -21,11 +16,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.formula import parse_formula
 from garkcli.exact.roots import sign
 from garkcli.methodfile.load import loads
-from garkcli.stability.linear import (
-    is_a_stable,
-    is_l_stable,
-    stability_function,
-)
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.summary import stability
 
 GAMMA = "root_of(6*x^3 - 18*x^2 + 9*x - 1, 0.4358665)"
@@ -55,9 +46,7 @@ def test_the_root_is_a_root() -> None:
     assert abs(enclose(parse(GAMMA)) - to_ball(g)) < 1e-14
 
 
-@pytest.mark.parametrize(
-    ("near", "k"), [("0.1", 0), ("0.44", 1), ("2", 2), ("9", 2)]
-)
+@pytest.mark.parametrize(("near", "k"), [("0.1", 0), ("0.44", 1), ("2", 2), ("9", 2)])
 def test_the_nearest_root_is_meant(near: str, k: int) -> None:
     """The three roots are 0.1589…, 0.4358… and 2.4052…"""
     roots = ["0.15898389998867", "0.43586652150846", "2.40514957850287"]
@@ -65,13 +54,8 @@ def test_the_nearest_root_is_meant(near: str, k: int) -> None:
     assert abs(found - arb(roots[k])) < 1e-13
 
 
-@given(
-    st.lists(st.fractions(-3, 3, max_denominator=5), min_size=1, max_size=4),
-    st.data(),
-)
-def test_rational_roots_are_rational_numbers(
-    roots: list, data: st.DataObject
-) -> None:
+@given(st.lists(st.fractions(-3, 3, max_denominator=5), min_size=1, max_size=4), st.data())
+def test_rational_roots_are_rational_numbers(roots: list, data: st.DataObject) -> None:
     """Of a product of linear factors the root asked for comes out as a fraction."""
     product = "*".join(f"(x - ({root}))" for root in roots)
     wanted = data.draw(st.sampled_from(roots))
@@ -91,11 +75,7 @@ def test_quadratic_roots_are_radicals() -> None:
 
 def test_other_roots_and_radicals_share_a_field() -> None:
     """∛2 is a root of x³ − 2, and with √3 generates a field of degree 6."""
-    expressions = [
-        parse("root_of(x^3 - 2, 1)"),
-        parse("cbrt(2)"),
-        parse("sqrt(3)"),
-    ]
+    expressions = [parse("root_of(x^3 - 2, 1)"), parse("cbrt(2)"), parse("sqrt(3)")]
     domain = Domain(expressions)
     first, second, third = (domain.evaluate(x) for x in expressions)
     assert first == second
@@ -132,11 +112,7 @@ def test_close_roots_have_digits_enough() -> None:
         ("root_of(x - x, 0)", ExpressionError, "a polynomial in x"),
         ("root_of(x**3 - 2, x)", ExpressionError, "a number near the root"),
         ("root_of(x**3 - y, 1)", ExpressionError, "names other than x"),
-        (
-            "root_of(x**3 - sqrt(2), 1)",
-            ExpressionError,
-            "rational coefficients",
-        ),
+        ("root_of(x**3 - sqrt(2), 1)", ExpressionError, "rational coefficients"),
         ("root_of(1/x - 2, 1)", ExpressionError, "not divided by x"),
         ("root_of(x**-2, 1)", ExpressionError, "not divided by x"),
         ("root_of(x/0 - 2, 1)", UndefinedValue, "division by zero"),
@@ -185,9 +161,7 @@ def test_a_digit_off_loses_it_exactly(digits: int) -> None:
     """A wrong digit of γ at one place, the rest exact: R(∞) is not 0, and L-stability is gone."""
     wrong = f"g + 1/10**{digits}"
     text = SDIRK.format(gamma=GAMMA).replace("A: [[g]", f"A: [[{wrong}]")
-    R = stability_function(
-        loads(text.replace("b1, b2, g]]", f"b1, b2, {wrong}]]")).tableau
-    )
+    R = stability_function(loads(text.replace("b1, b2, g]]", f"b1, b2, {wrong}]]")).tableau)
     assert not is_l_stable(R)
     limit = R.at_infinity()
     assert limit is not None

@@ -18,46 +18,31 @@ def rank(rows: list[list[Fraction]]) -> int:
     rows = [list(row) for row in rows]
     found = 0
     for column in range(len(rows[0]) if rows else 0):
-        pivot = next(
-            (i for i in range(found, len(rows)) if rows[i][column]), None
-        )
+        pivot = next((i for i in range(found, len(rows)) if rows[i][column]), None)
         if pivot is None:
             continue
         rows[found], rows[pivot] = rows[pivot], rows[found]
         for i in range(found + 1, len(rows)):
             factor = rows[i][column] / rows[found][column]
-            rows[i] = [
-                x - factor * y
-                for x, y in zip(rows[i], rows[found], strict=True)
-            ]
+            rows[i] = [x - factor * y for x, y in zip(rows[i], rows[found], strict=True)]
         found += 1
     return found
 
 
 def affine_rank(points: list[Point]) -> int:
     """One more than the dimension of the affine hull; 0 of no points."""
-    return rank(
-        [
-            [Fraction(1), *(Fraction(int(x.p), int(x.q)) for x in point)]
-            for point in points
-        ]
-    )
+    return rank([[Fraction(1), *(Fraction(int(x.p), int(x.q)) for x in point)] for point in points])
 
 
 @st.composite
 def batches(draw: st.DrawFn) -> tuple[int, list[list[Point]]]:
     """A dimension, and points of small coordinates in batches, many of them dependent."""
     dimension = draw(st.integers(1, 4))
-    coordinate = st.sampled_from(
-        [fmpq(0), fmpq(1), fmpq(-1), fmpq(1, 2), fmpq(3)]
-    )
+    coordinate = st.sampled_from([fmpq(0), fmpq(1), fmpq(-1), fmpq(1, 2), fmpq(3)])
     point = st.lists(coordinate, min_size=dimension, max_size=dimension)
     points = draw(st.lists(point, min_size=2, max_size=8))
     weight = draw(st.sampled_from([fmpq(2), fmpq(1, 3), fmpq(-1)]))
-    between = [
-        weight * x + (1 - weight) * y
-        for x, y in zip(points[0], points[1], strict=True)
-    ]
+    between = [weight * x + (1 - weight) * y for x, y in zip(points[0], points[1], strict=True)]
     place = draw(st.integers(0, len(points)))
     points = [*points[:place], between, *points[place:]]
     cut = draw(st.integers(0, len(points)))
@@ -65,9 +50,7 @@ def batches(draw: st.DrawFn) -> tuple[int, list[list[Point]]]:
 
 
 @given(batches())
-def test_members_are_those_that_raise_the_rank(
-    case: tuple[int, list[list[Point]]],
-) -> None:
+def test_members_are_those_that_raise_the_rank(case: tuple[int, list[list[Point]]]) -> None:
     """Exactly those points join that are no affine combination of the ones before."""
     dimension, groups = case
     span, before = AffineSpan(dimension), []

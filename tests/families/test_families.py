@@ -78,13 +78,7 @@ TEXTBOOK = {
         "1/6, 2/3, 1/6",
     ),
     ("lobatto-iiic*", 2): ("0, 1", "0, 0", "1, 0", "1/2, 1/2"),
-    ("lobatto-iiic*", 3): (
-        "0, 1/2, 1",
-        "0, 0, 0",
-        "1/4, 1/4, 0",
-        "0, 1, 0",
-        "1/6, 2/3, 1/6",
-    ),
+    ("lobatto-iiic*", 3): ("0, 1/2, 1", "0, 0, 0", "1/4, 1/4, 0", "0, 1, 0", "1/6, 2/3, 1/6"),
     ("lobatto-iiid", 2): ("0, 1", "1/4, -1/4", "3/4, 1/4", "1/2, 1/2"),
     ("lobatto-iiid", 3): (
         "0, 1/2, 1",
@@ -104,13 +98,7 @@ TEXTBOOK = {
     ("explicit-euler", 1): ("0", "0", "1"),
     ("explicit-midpoint", 2): ("0, 1/2", "0, 0", "1/2, 0", "0, 1"),
     ("heun", 2): ("0, 1", "0, 0", "1, 0", "1/2, 1/2"),
-    ("kutta", 3): (
-        "0, 1/2, 1",
-        "0, 0, 0",
-        "1/2, 0, 0",
-        "-1, 2, 0",
-        "1/6, 2/3, 1/6",
-    ),
+    ("kutta", 3): ("0, 1/2, 1", "0, 0, 0", "1/2, 0, 0", "-1, 2, 0", "1/6, 2/3, 1/6"),
     ("rk4", 4): (
         "0, 1/2, 1/2, 1",
         "0, 0, 0, 0",
@@ -119,13 +107,7 @@ TEXTBOOK = {
         "0, 0, 1, 0",
         "1/6, 1/3, 1/3, 1/6",
     ),
-    ("ssp2", 3): (
-        "0, 1/2, 1",
-        "0, 0, 0",
-        "1/2, 0, 0",
-        "1/2, 1/2, 0",
-        "1/3, 1/3, 1/3",
-    ),
+    ("ssp2", 3): ("0, 1/2, 1", "0, 0, 0", "1/2, 0, 0", "1/2, 1/2, 0", "1/3, 1/3, 1/3"),
     ("ssp3", 4): (
         "0, 1/2, 1, 1/2",
         "0, 0, 0, 0",
@@ -163,13 +145,7 @@ ORDERS = {
     "ssp3": lambda _: 3,
 }
 """The order of each family, from the same books."""
-LOBATTO = [
-    "lobatto-iiia",
-    "lobatto-iiib",
-    "lobatto-iiic",
-    "lobatto-iiic*",
-    "lobatto-iiid",
-]
+LOBATTO = ["lobatto-iiia", "lobatto-iiib", "lobatto-iiic", "lobatto-iiic*", "lobatto-iiid"]
 
 
 def alone(name: str, stages: int) -> Tableau:
@@ -235,15 +211,8 @@ def test_the_order_that_people_are_told(name: str) -> None:
     """The order in terms of s that the registry lists is the true one."""
     family = BY_STAGES[name]
     stages = family.smallest if family.smallest == family.largest else 4
-    told = {
-        "2s": 2 * stages,
-        "2s - 1": 2 * stages - 1,
-        "2s - 2": 2 * stages - 2,
-    }
-    assert told.get(family.order, family.order) in (
-        ORDERS[name](stages),
-        str(ORDERS[name](stages)),
-    )
+    told = {"2s": 2 * stages, "2s - 1": 2 * stages - 1, "2s - 2": 2 * stages - 2}
+    assert told.get(family.order, family.order) in (ORDERS[name](stages), str(ORDERS[name](stages)))
 
 
 @pytest.mark.parametrize("s", range(1, 8))
@@ -267,10 +236,7 @@ def test_radau_is_characterised(s: int) -> None:
     """
     assert conditions("radau-ia", s) == (2 * s - 1, s - 1, s)
     assert conditions("radau-iia", s) == (2 * s - 1, s, s - 1)
-    first, last = (
-        diagonal_method("radau-ia", s).space,
-        diagonal_method("radau-iia", s).space,
-    )
+    first, last = (diagonal_method("radau-ia", s).space, diagonal_method("radau-iia", s).space)
     assert isinstance(first, PolynomialSpace)
     assert isinstance(last, PolynomialSpace)
     assert first.modulus(0) == 0
@@ -305,8 +271,7 @@ def test_conjugate_families(s: int) -> None:
     assert conjugate(alone("lobatto-iiib", s)) == alone("lobatto-iiia", s)
     assert conjugate(alone("lobatto-iiic", s)) == alone("lobatto-iiic*", s)
     C, C_star, D = (
-        diagonal_method(name, s).A
-        for name in ("lobatto-iiic", "lobatto-iiic*", "lobatto-iiid")
+        diagonal_method(name, s).A for name in ("lobatto-iiic", "lobatto-iiic*", "lobatto-iiid")
     )
     for i in range(s):
         for j in range(s):
@@ -316,10 +281,7 @@ def test_conjugate_families(s: int) -> None:
 @pytest.mark.parametrize("s", range(2, 6))
 def test_lobatto_iiic_has_its_first_column(s: int) -> None:
     """IIIC: a_{i1} = b_1 and the last row is b; IIIC*: 0 in the last column and the first row."""
-    method, star = (
-        diagonal_method("lobatto-iiic", s),
-        diagonal_method("lobatto-iiic*", s),
-    )
+    method, star = (diagonal_method("lobatto-iiic", s), diagonal_method("lobatto-iiic*", s))
     space = method.space
     assert isinstance(space, PolynomialSpace)
     first = space.modulus // fmpq_poly([0, 1])
@@ -336,9 +298,7 @@ def test_lobatto_iiic_has_its_first_column(s: int) -> None:
 
 
 def _image(A: tuple[tuple[fmpq, ...], ...], f: fmpq_poly, s: int) -> fmpq_poly:
-    return fmpq_poly(
-        [sum((A[i][j] * f[j] for j in range(s)), fmpq(0)) for i in range(s)]
-    )
+    return fmpq_poly([sum((A[i][j] * f[j] for j in range(s)), fmpq(0)) for i in range(s)])
 
 
 @pytest.mark.parametrize("s", range(2, 9))
@@ -353,11 +313,7 @@ def test_ssp2(s: int) -> None:
         for i, row in enumerate(method.A)
         for j, x in enumerate(row)
     )
-    assert (
-        find_order(gark([method], {})).order
-        == brute_order(gark([method], {}), 3)
-        == 2
-    )
+    assert find_order(gark([method], {})).order == brute_order(gark([method], {}), 3) == 2
 
 
 def test_many_stages() -> None:

@@ -54,15 +54,9 @@ def alone(method: Method) -> Tableau:
     return gark([method], {})
 
 
-@pytest.mark.parametrize(
-    ("name", "size", "options", "stages", "order"), MEMBERS
-)
+@pytest.mark.parametrize(("name", "size", "options", "stages", "order"), MEMBERS)
 def test_orders_by_two_ways(
-    name: str,
-    size: int | None,
-    options: dict[str, object],
-    stages: int,
-    order: int,
+    name: str, size: int | None, options: dict[str, object], stages: int, order: int
 ) -> None:
     """The certificate finds the order of theory, not one more; so does the power series of a step,
     which knows no trees.
@@ -83,20 +77,14 @@ def test_every_family_with_options_is_tested() -> None:
 
 def test_order_twelve() -> None:
     """High orders are as sure as low ones: Gragg's rule to order 10, Euler to order 8."""
-    assert (
-        find_order(alone(diagonal_method("extrapolated-midpoint", 10))).order
-        == 10
-    )
-    assert (
-        find_order(alone(diagonal_method("extrapolated-euler", 8))).order == 8
-    )
+    assert find_order(alone(diagonal_method("extrapolated-midpoint", 10))).order == 10
+    assert find_order(alone(diagonal_method("extrapolated-euler", 8))).order == 8
 
 
 def test_lobatto_iiis() -> None:
     """IIIS is IIIE for σ = 1/2, IIID for σ = 1, and symplectic and symmetric for any other."""
     by_sigma = {
-        text: diagonal_method("lobatto-iiis", 4, sigma=text)
-        for text in ("1/2", "1", "-7/3")
+        text: diagonal_method("lobatto-iiis", 4, sigma=text) for text in ("1/2", "1", "-7/3")
     }
     assert by_sigma["1/2"].A == diagonal_method("lobatto-iiie", 4).A
     assert by_sigma["1"].A == diagonal_method("lobatto-iiid", 4).A
@@ -146,14 +134,9 @@ def _powers(method: Method, count: int) -> list[object]:
     powers = []
     vector = method.space.one
     for _ in range(count - 1):
-        powers.append(
-            sum(
-                (x * y for x, y in zip(method.b, vector, strict=True)), fmpq(0)
-            )
-        )
+        powers.append(sum((x * y for x, y in zip(method.b, vector, strict=True)), fmpq(0)))
         vector = tuple(
-            sum((x * y for x, y in zip(row, vector, strict=True)), fmpq(0))
-            for row in method.A
+            sum((x * y for x, y in zip(row, vector, strict=True)), fmpq(0)) for row in method.A
         )
     return powers
 
@@ -165,10 +148,7 @@ def test_sequences_and_weights() -> None:
     assert sequence("bulirsch", 6) == (1, 2, 3, 4, 6, 8)
     weights = extrapolation_weights((1, 2, 5), (1, 2))
     values = [1 + fmpq(1, n) + fmpq(1, n * n) for n in (1, 2, 5)]
-    assert (
-        sum((w * x for w, x in zip(weights, values, strict=True)), fmpq(0))
-        == 1
-    )
+    assert sum((w * x for w, x in zip(weights, values, strict=True)), fmpq(0)) == 1
 
 
 def test_method_files_name_members() -> None:
@@ -187,9 +167,7 @@ def test_method_files_name_members() -> None:
         "transfer: {blocks: {'1,2': [[0, 0, 0], [0, 0, 0]], '2,1': collocation}}"
     )
     assert beside.stages == (2, 3)
-    family = loads_family(
-        "parameters: {g: free}\nmethods: {family: sdirk2, gamma: g}"
-    )
+    family = loads_family("parameters: {g: free}\nmethods: {family: sdirk2, gamma: g}")
     assert family.parameters == ("g",)
     assert str(family.tableau.block(0, 0)) == "((g, 0), (-2*g + 1, g))"
 

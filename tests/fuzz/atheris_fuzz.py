@@ -58,10 +58,7 @@ def file_of(data: bytes, provider: Any, files: tuple[str, ...]) -> str:
         if kind == 0:
             piece = WORDS[provider.ConsumeIntInRange(0, len(WORDS) - 1)]
         elif kind == 1:
-            piece = "".join(
-                SIGNS[provider.ConsumeIntInRange(0, len(SIGNS) - 1)]
-                for _ in range(6)
-            )
+            piece = "".join(SIGNS[provider.ConsumeIntInRange(0, len(SIGNS) - 1)] for _ in range(6))
         else:
             piece = provider.ConsumeUnicodeNoSurrogates(8)
         text = text[:start] + piece + text[stop:]
@@ -70,9 +67,7 @@ def file_of(data: bytes, provider: Any, files: tuple[str, ...]) -> str:
 
 def targets(atheris: Any) -> Mapping[str, Callable[[bytes], None]]:
     """What can be fuzzed; the modules under test are imported here, instrumented."""
-    with atheris.instrument_imports(
-        include=["garkcli.methodfile", "garkcli.exact"]
-    ):
+    with atheris.instrument_imports(include=["garkcli.methodfile", "garkcli.exact"]):
         from garkcli.errors import ExpressionError, MethodFileError
         from garkcli.exact.domain import Domain
         from garkcli.exact.expression import parse
@@ -106,11 +101,7 @@ def targets(atheris: Any) -> Mapping[str, Callable[[bytes], None]]:
 
 def write_corpus(folder: Path, target: str) -> None:
     """The first inputs of a target, and the words it is made of."""
-    inputs = (
-        [f"\0{text}" for text in seeds()]
-        if target == "files"
-        else list(NUMBERS)
-    )
+    inputs = [f"\0{text}" for text in seeds()] if target == "files" else list(NUMBERS)
     for k, text in enumerate(inputs):
         (folder / f"{k}").write_text(text, encoding="utf-8")
 
@@ -118,12 +109,8 @@ def write_corpus(folder: Path, target: str) -> None:
 def write_words(file: Path, target: str) -> None:
     """The words that libFuzzer puts together."""
     words = WORDS if target == "files" else SIGNS
-    escaped = (
-        "".join(f"\\x{byte:02x}" for byte in word.encode()) for word in words
-    )
-    file.write_text(
-        "".join(f'"{word}"\n' for word in escaped), encoding="ascii"
-    )
+    escaped = ("".join(f"\\x{byte:02x}" for byte in word.encode()) for word in words)
+    file.write_text("".join(f'"{word}"\n' for word in escaped), encoding="ascii")
 
 
 def main() -> None:
@@ -131,33 +118,20 @@ def main() -> None:
     import atheris  # of the extra ``fuzz``: nothing else needs it
 
     parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument(
-        "--target", choices=("files", "numbers"), required=True
-    )
+    parser.add_argument("--target", choices=("files", "numbers"), required=True)
     options, rest = parser.parse_known_args()
     target = targets(atheris)[options.target]
-    megabytes = (
-        resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024 + MEGABYTES
-    )
+    megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024 + MEGABYTES
     place = KEPT / f"atheris-{options.target}"
     corpus, faults = place / "corpus", KEPT / "faults"
     for folder in (corpus, faults):
         folder.mkdir(parents=True, exist_ok=True)
     write_corpus(corpus, options.target)
     write_words(place / "words", options.target)
-    folders = (
-        []
-        if any(not argument.startswith("-") for argument in rest)
-        else [str(corpus)]
-    )
-    limits = [
-        f"-timeout={SECONDS}",
-        f"-rss_limit_mb={megabytes}",
-        "-max_len=4000",
-    ]
+    folders = [] if any(not argument.startswith("-") for argument in rest) else [str(corpus)]
+    limits = [f"-timeout={SECONDS}", f"-rss_limit_mb={megabytes}", "-max_len=4000"]
     files = [f"-dict={place / 'words'}", f"-artifact_prefix={faults}/"]
     atheris.Setup([sys.argv[0], *limits, *files, *rest, *folders], target)
     atheris.Fuzz()

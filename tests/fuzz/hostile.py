@@ -21,13 +21,7 @@ def _square(entry: str, size: int) -> str:
 
 def hostile_files() -> Mapping[str, str]:
     """Every hostile file by name."""
-    return {
-        **_numbers(),
-        **_repetitions(),
-        **_sizes(),
-        **_texts(),
-        **_nestings(),
-    }
+    return {**_numbers(), **_repetitions(), **_sizes(), **_texts(), **_nestings()}
 
 
 def hostile_problems() -> Mapping[str, str]:
@@ -42,44 +36,25 @@ def _numbers() -> Mapping[str, str]:
     primes, sevens, threes = (2, 3, 5, 7, 11), "7" * 900, "3" * 900
     roots = "+".join(f"sqrt({p})" for p in primes)
     return {
-        "roots of a hidden zero": _number(
-            "sqrt(" * 40 + "sqrt(2)*sqrt(2)-2" + ")" * 40
-        ),
+        "roots of a hidden zero": _number("sqrt(" * 40 + "sqrt(2)*sqrt(2)-2" + ")" * 40),
         "nested square roots": _number("sqrt(1+" * 5 + "2" + ")" * 5),
         "five square roots": _number(roots),
         "the inverse of five square roots": _number(f"1/({roots})"),
         "a power of five square roots": _number(f"(1+{roots})**-64"),
         "many products of radicals": _number("*".join([f"(1+{roots})"] * 200)),
-        "many quotients of radicals": _number(
-            "/".join([f"(1+{roots})"] * 200)
-        ),
+        "many quotients of radicals": _number("/".join([f"(1+{roots})"] * 200)),
         "long radicands": _number(f"root({sevens},12)+root({threes},4)"),
-        "long nested radicands": _number(
-            f"root({sevens}+root({threes},4),12)"
-        ),
-        "the inverse of a long nested radicand": _number(
-            f"root(1/({sevens}+root({threes},4)),12)"
-        ),
+        "long nested radicands": _number(f"root({sevens}+root({threes},4),12)"),
+        "the inverse of a long nested radicand": _number(f"root(1/({sevens}+root({threes},4)),12)"),
         "long radicands five deep": _number(
-            "".join(f"sqrt({str(k) * 900}+" for k in range(1, 6))
-            + "1"
-            + ")" * 5
+            "".join(f"sqrt({str(k) * 900}+" for k in range(1, 6)) + "1" + ")" * 5
         ),
-        "a radicand close to zero": _number(
-            "sqrt(((((sqrt(2)-1)**64)**8)**4)**4)"
-        ),
-        "a power of a power": _number(
-            f"((((sqrt(2)+root(3,12)+{'7' * 30})**64)**8)**4)"
-        ),
+        "a radicand close to zero": _number("sqrt(((((sqrt(2)-1)**64)**8)**4)**4)"),
+        "a power of a power": _number(f"((((sqrt(2)+root(3,12)+{'7' * 30})**64)**8)**4)"),
         "many inverses": _number(
-            "+".join(
-                f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})"
-                for k in range(300)
-            )
+            "+".join(f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})" for k in range(300))
         ),
-        "a sum of fractions": _number(
-            "+".join(f"1/{10**6 + i}" for i in range(1900))
-        ),
+        "a sum of fractions": _number("+".join(f"1/{10**6 + i}" for i in range(1900))),
         "many digits": _number("1" * 980_000),
         "an exponent": _number("1e999999999999999999999"),
     }
@@ -90,12 +65,10 @@ def _repetitions() -> Mapping[str, str]:
     sum_of_ones, roots = "+".join(["1"] * 1900), "+".join(["sqrt(3)"] * 900)
     radicals = "sqrt(2)+sqrt(3)+sqrt(5)+sqrt(7)+sqrt(11)"
     coefficients = [
-        f'"{"+".join(f"1/{10**20 + i + 77 * j}" for i in range(600))}"'
-        for j in range(200)
+        f'"{"+".join(f"1/{10**20 + i + 77 * j}" for i in range(600))}"' for j in range(200)
     ]
     culprits = [
-        f'"{"+".join(f"sqrt({p + k})" for k in (0, 1, 2, 4, 5))}"'
-        for p in range(10**5, 10**5 + 60)
+        f'"{"+".join(f"sqrt({p + k})" for k in (0, 1, 2, 4, 5))}"' for p in range(10**5, 10**5 + 60)
     ]
     chain = "".join(f", p{i}: p{i - 1}+1" for i in range(1, 1500))
     six = f'"{radicals}+sqrt(13)"'
@@ -117,12 +90,8 @@ def _repetitions() -> Mapping[str, str]:
 def _sizes() -> Mapping[str, str]:
     """Methods of many stages or colours."""
     blocks = f'{{"1,2": {_list(["[1]"] * 60)}}}'
-    fractions = _list(
-        [_list([f"{i}/{i + j + 1}" for j in range(100)]) for i in range(100)]
-    )
-    hundred = (
-        f"{{A: {fractions}, b: {_list([f'1/{i + 1}' for i in range(100)])}}}"
-    )
+    fractions = _list([_list([f"{i}/{i + j + 1}" for j in range(100)]) for i in range(100)])
+    hundred = f"{{A: {fractions}, b: {_list([f'1/{i + 1}' for i in range(100)])}}}"
     constant = f"{{A: {_square('1/3', 220)}, b: {_list(['1'] * 220)}}}"
     return {
         "many colours": f"methods: {_list(['{family: gauss, stages: 1}'] * 9_000)}\ntransfer: collocation",
@@ -163,10 +132,7 @@ def _texts() -> Mapping[str, str]:
         "a long block": "name: |\n" + " \n" * 480_000,
         "comments": "# x\n" * 240_000,
         "spaces": " " * 980_000 + "name: 1",
-        "many directives": "".join(
-            f"%TAG !a{i}! tag:x\n" for i in range(40_000)
-        )
-        + "---\nname: 1",
+        "many directives": "".join(f"%TAG !a{i}! tag:x\n" for i in range(40_000)) + "---\nname: 1",
         "many anchors": f"name: {_list([f'&a{i} 1' for i in range(24_000)])}",
         "a surrogate": "name: \ud800",
     }
@@ -175,9 +141,7 @@ def _texts() -> Mapping[str, str]:
 def _nestings() -> Mapping[str, str]:
     """Many values, or values in values."""
     names = "bcdefghijkl"
-    bomb = "".join(
-        f"{x}: &{x} {_list([f'*{chr(ord(x) - 1)}'] * 9)}\n" for x in names
-    )
+    bomb = "".join(f"{x}: &{x} {_list([f'*{chr(ord(x) - 1)}'] * 9)}\n" for x in names)
     return {
         "half a million values": f"name: [{'1,' * 490_000}1]",
         "many empty lists": f"name: [{'[],' * 320_000}1]",

@@ -20,57 +20,31 @@ WORDS = (
     ", ", "\n", "\n  ", "\n    - ", "#", "|", ">", "'", '"', "\\", "\t", "\0", "\x85", "\u2028", "١", "−", "🌲",
 )  # fmt: skip
 """Words of method files, and signs that mean something to YAML or to the grammar of numbers."""
-SIGNS = (
-    *"0123456789.+-*/^()eE, ",
-    "sqrt(",
-    "cbrt(",
-    "root(",
-    "**",
-    "tau",
-    "√",
-    "²",
-    "\n",
-)
+SIGNS = (*"0123456789.+-*/^()eE, ", "sqrt(", "cbrt(", "root(", "**", "tau", "√", "²", "\n")
 """Signs that numbers are made of, and some that look like them."""
 
 
 def seeds() -> tuple[str, ...]:
     """The files of the project: good ones to damage."""
     folders = (ROOT / "methods", ROOT / "tests" / "examples")
-    files = sorted(
-        file for folder in folders for file in folder.rglob("*.gark.yaml")
-    )
+    files = sorted(file for folder in folders for file in folder.rglob("*.gark.yaml"))
     return tuple(
-        file.read_bytes().decode("utf-8", "replace")
-        for file in files
-        if file.stat().st_size < 4000
+        file.read_bytes().decode("utf-8", "replace") for file in files if file.stat().st_size < 4000
     )
 
 
-def soup(
-    random: Random, signs: Sequence[str] = WORDS, longest: int = 60
-) -> str:
+def soup(random: Random, signs: Sequence[str] = WORDS, longest: int = 60) -> str:
     """Words one after the other."""
-    return "".join(
-        random.choice(signs) for _ in range(random.randrange(longest))
-    )
+    return "".join(random.choice(signs) for _ in range(random.randrange(longest)))
 
 
 def damaged(random: Random, text: str, words: Sequence[str] = WORDS) -> str:
     """``text`` with a few pieces cut, doubled, swapped or replaced."""
     for _ in range(random.randrange(1, 6)):
-        i, j = sorted(
-            (random.randrange(len(text) + 1), random.randrange(len(text) + 1))
-        )
+        i, j = sorted((random.randrange(len(text) + 1), random.randrange(len(text) + 1)))
         j = min(j, i + random.choice((1, 3, 10, 100)))
         piece = random.choice(
-            (
-                "",
-                text[i:j] * 2,
-                random.choice(words),
-                chr(random.randrange(0x3000)),
-                text[j:i],
-            )
+            ("", text[i:j] * 2, random.choice(words), chr(random.randrange(0x3000)), text[j:i])
         )
         text = text[:i] + piece + text[j:]
     return text
@@ -107,9 +81,7 @@ class _Writer:
 
     def __init__(self, random: Random) -> None:
         self.random = random
-        self.radicals: Sequence[str] = random.sample(
-            RADICALS, random.choice((0, 0, 1, 1, 2))
-        )
+        self.radicals: Sequence[str] = random.sample(RADICALS, random.choice((0, 0, 1, 1, 2)))
 
     def coefficient(self) -> str:
         """A good number, or nearly."""
@@ -144,13 +116,7 @@ class _Writer:
         """Diagonal methods and their transfer."""
         random = self.random
         sizes = [random.randrange(1, 5) for _ in range(random.randrange(1, 4))]
-        families = (
-            "gauss",
-            "radau-iia",
-            "lobatto-iiia",
-            "lobatto-iiib",
-            "ssp2",
-        )
+        families = ("gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib", "ssp2")
         methods = [
             self.butcher(s, s)
             if random.random() < 0.6
@@ -160,20 +126,11 @@ class _Writer:
         text = f"methods: [{', '.join(methods)}]"
         if len(sizes) == 1:
             return text
-        rules = (
-            "collocation",
-            "interpolation",
-            "conjugate-collocation",
-            "symplectic-collocation",
-        )
-        rule = random.choice(
-            (*rules, "{collocation: tau, interpolation: 1 - tau}")
-        )
+        rules = ("collocation", "interpolation", "conjugate-collocation", "symplectic-collocation")
+        rule = random.choice((*rules, "{collocation: tau, interpolation: 1 - tau}"))
         if random.random() < 0.4:
             rule = f'{{default: {rule}, blocks: {{"1,2": {self.matrix(sizes[0], sizes[1])}}}}}'
-        structure = random.choice(
-            ("general", "semi-separable", "separable", "nystrom")
-        )
+        structure = random.choice(("general", "semi-separable", "separable", "nystrom"))
         return f"{text}\ntransfer: {rule}" + (
             f"\nstructure: {structure}" if len(sizes) == 2 else ""
         )
@@ -183,11 +140,7 @@ class _Writer:
         random = self.random
         sizes = [random.randrange(1, 4) for _ in range(random.randrange(1, 4))]
         blocks = [
-            [
-                self.matrix(s, t) if random.random() < 0.9 else "null"
-                for t in sizes
-            ]
-            for s in sizes
+            [self.matrix(s, t) if random.random() < 0.9 else "null" for t in sizes] for s in sizes
         ]
         rows = ", ".join(f"[{', '.join(row)}]" for row in blocks)
         return f"tableau: {{A: [{rows}], b: [{', '.join(self.row(s) for s in sizes)}]}}"
@@ -208,15 +161,8 @@ class _Writer:
 def written_file(random: Random) -> str:
     """A file of any form with any sizes that fit."""
     writer = _Writer(random)
-    lines = [
-        random.choice(
-            (writer.methods, writer.tableau, writer.ark, writer.prk)
-        )()
-    ]
-    lines.insert(
-        0,
-        f"parameters: {{tau: {random.choice(('1/2', '1/3', '2', '1', '0'))}}}",
-    )
+    lines = [random.choice((writer.methods, writer.tableau, writer.ark, writer.prk))()]
+    lines.insert(0, f"parameters: {{tau: {random.choice(('1/2', '1/3', '2', '1', '0'))}}}")
     lines += ["conjugate: true"] if random.random() < 0.2 else []
     lines += ["tolerance: 1e-10"] if random.random() < 0.1 else []
     return "\n".join(lines)
@@ -236,12 +182,7 @@ def radical_file(random: Random) -> str:
 
 def method_file(random: Random, files: Sequence[str]) -> str:
     """One file of any kind."""
-    makers: tuple[Callable[[Random, str], str], ...] = (
-        damaged,
-        replaced,
-        replaced,
-        number_file,
-    )
+    makers: tuple[Callable[[Random, str], str], ...] = (damaged, replaced, replaced, number_file)
     chance = random.random()
     if chance < 0.15:
         return soup(random)

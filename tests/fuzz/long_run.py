@@ -103,11 +103,7 @@ class Cases:
             random = Random(f"{self.seed}/{number}")
             if self.are_problems:
                 return problem_file(random, files)
-            return (
-                method_file(random, files)
-                if number % RARE
-                else radical_file(random)
-            )
+            return method_file(random, files) if number % RARE else radical_file(random)
 
         return text_of
 
@@ -123,9 +119,7 @@ def work(cases: Cases, numbers: range, results: Connection) -> None:
     cases.load(
         SMALL[0] if cases.are_problems else GOOD
     )  # what is imported late is no part of the first case
-    pages = int(
-        Path("/proc/self/statm").read_text(encoding="utf-8").split()[0]
-    )
+    pages = int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[0])
     roof = pages * resource.getpagesize() + MEGABYTES * 2**20
     resource.setrlimit(resource.RLIMIT_AS, (roof, roof))
     for number in numbers:
@@ -141,37 +135,20 @@ def _run(cases: Cases, number: int, text: str) -> Case:
         tableau = cases.load(text)
     except MethodFileError as error:
         seconds = process_time() - start
-        if not error.faults or any(
-            fault.line < 1 or fault.column < 1 for fault in error.faults
-        ):
-            return Case(
-                number, "fault", seconds, error="a fault without a place"
-            )
+        if not error.faults or any(fault.line < 1 or fault.column < 1 for fault in error.faults):
+            return Case(number, "fault", seconds, error="a fault without a place")
         return Case(number, "refused", seconds)
     except Exception as error:
-        return Case(
-            number, "fault", process_time() - start, error=repr(error)[:200]
-        )
+        return Case(number, "fault", process_time() - start, error=repr(error)[:200])
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     seconds = process_time() - start
-    if (
-        tableau is None
-        or tableau.size > 3
-        or any(space.stages > 6 for space in tableau.spaces)
-    ):
+    if tableau is None or tableau.size > 3 or any(space.stages > 6 for space in tableau.spaces):
         return Case(number, "loaded", seconds)
     try:
-        return Case(
-            number,
-            "loaded",
-            seconds,
-            "done" if _is_analysed(tableau) else "left",
-        )
+        return Case(number, "loaded", seconds, "done" if _is_analysed(tableau) else "left")
     except Exception as error:
-        return Case(
-            number, "fault", seconds, error=f"analyse: {error!r}"[:200]
-        )
+        return Case(number, "fault", seconds, error=f"analyse: {error!r}"[:200])
 
 
 def _is_analysed(tableau: Tableau) -> bool:
@@ -185,9 +162,7 @@ def _is_analysed(tableau: Tableau) -> bool:
     except _LateError:
         return False
     except GarkError as error:
-        raise RuntimeError(
-            f"{type(error).__name__} from a method that loads"
-        ) from error
+        raise RuntimeError(f"{type(error).__name__} from a method that loads") from error
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     return True
@@ -213,12 +188,7 @@ def run(cases: Cases, numbers: range) -> list[Case]:
                 else f"the worker ended with {worker.exitcode}"
             )
             done.append(
-                Case(
-                    numbers[len(done)],
-                    "fault",
-                    cases.seconds if late else 0.0,
-                    error=error,
-                )
+                Case(numbers[len(done)], "fault", cases.seconds if late else 0.0, error=error)
             )
     return done
 
@@ -236,8 +206,7 @@ def summary(results: list[Case], elapsed: float) -> dict[str, float]:
     a clock.
     """
     count = {
-        kind: sum(case.kind == kind for case in results)
-        for kind in ("loaded", "refused", "fault")
+        kind: sum(case.kind == kind for case in results) for kind in ("loaded", "refused", "fault")
     }
     return {
         "cases": len(results),
@@ -246,9 +215,7 @@ def summary(results: list[Case], elapsed: float) -> dict[str, float]:
         "analyses left": sum(case.analysis == "left" for case in results),
         "refused": count["refused"],
         "faults": count["fault"],
-        "slowest": round(
-            max((case.seconds for case in results), default=0.0), 3
-        ),
+        "slowest": round(max((case.seconds for case in results), default=0.0), 3),
         "loading": round(sum(case.seconds for case in results), 1),
         "seconds": round(elapsed, 1),
     }
@@ -257,62 +224,32 @@ def summary(results: list[Case], elapsed: float) -> dict[str, float]:
 def main() -> int:
     """Run and report."""
     parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--cases", type=int, default=200_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument(
-        "--hostile",
-        action="store_true",
-        help="files made to be slow or large, not random ones",
+        "--hostile", action="store_true", help="files made to be slow or large, not random ones"
     )
-    parser.add_argument(
-        "--problems",
-        action="store_true",
-        help="problem files, not method files",
-    )
-    parser.add_argument(
-        "--faults",
-        type=Path,
-        default=FAULTS,
-        help="where to save faulty inputs",
-    )
+    parser.add_argument("--problems", action="store_true", help="problem files, not method files")
+    parser.add_argument("--faults", type=Path, default=FAULTS, help="where to save faulty inputs")
     options = parser.parse_args()
     cases = Cases(None if options.hostile else options.seed, options.problems)
     names = list(cases.hostile()) if options.hostile else []
-    total, batch = (
-        (len(names), 8) if options.hostile else (options.cases, BATCH)
-    )
+    total, batch = (len(names), 8) if options.hostile else (options.cases, BATCH)
     start = perf_counter()
     with ThreadPoolExecutor(options.jobs) as threads:
-        shares = [
-            range(k, min(k + batch, total)) for k in range(0, total, batch)
-        ]
+        shares = [range(k, min(k + batch, total)) for k in range(0, total, batch)]
         results = [
-            case
-            for share in threads.map(lambda share: run(cases, share), shares)
-            for case in share
+            case for share in threads.map(lambda share: run(cases, share), shares) for case in share
         ]
-    faults, text_of = (
-        [case for case in results if case.kind == "fault"],
-        cases.reader(),
-    )
+    faults, text_of = ([case for case in results if case.kind == "fault"], cases.reader())
     for case in faults:
         options.faults.mkdir(parents=True, exist_ok=True)
-        name = (
-            names[case.number].replace(" ", "-")
-            if names
-            else f"{options.seed}-{case.number}"
-        )
-        file = (
-            options.faults
-            / f"{name}{'.problem' if options.problems else '.gark'}.yaml"
-        )
-        file.write_text(
-            text_of(case.number), encoding="utf-8", errors="surrogatepass"
-        )
+        name = names[case.number].replace(" ", "-") if names else f"{options.seed}-{case.number}"
+        file = options.faults / f"{name}{'.problem' if options.problems else '.gark'}.yaml"
+        file.write_text(text_of(case.number), encoding="utf-8", errors="surrogatepass")
         print(f"{file}: {case.error}", file=sys.stderr)
     print(json.dumps(summary(results, perf_counter() - start)))
     return 1 if faults else 0

@@ -34,10 +34,7 @@ def problem_seeds() -> tuple[str, ...]:
     """Good files to damage."""
     return (
         *SMALL,
-        *(
-            file.read_text(encoding="utf-8")
-            for file in sorted((ROOT / "problems").glob("*.yaml"))
-        ),
+        *(file.read_text(encoding="utf-8") for file in sorted((ROOT / "problems").glob("*.yaml"))),
     )
 
 
@@ -72,22 +69,7 @@ class _Writer:
     def exponent(self) -> str:
         """An exponent, mostly a small one."""
         return self.random.choice(
-            (
-                "2",
-                "2",
-                "2",
-                "3",
-                "4",
-                "-1",
-                "-2",
-                "(1/2)",
-                "(3/2)",
-                "0.5",
-                "m",
-                "7",
-                "64",
-                "0",
-            )
+            ("2", "2", "2", "3", "4", "-1", "-2", "(1/2)", "(3/2)", "0.5", "m", "7", "64", "0")
         )
 
     def formula(self, names: Sequence[str], depth: int) -> str:
@@ -111,27 +93,17 @@ class _Writer:
         """A function of velocities or momenta that has a transform, or nearly."""
         random = self.random
         squares = [
-            f"{self.number()}*{x}**{random.choice(('2', '2', '2', '4'))}"
-            for x in self.motion
+            f"{self.number()}*{x}**{random.choice(('2', '2', '2', '4'))}" for x in self.motion
         ]
         if random.random() < 0.3:
             squares.append(
                 f"{random.choice(self.motion)}*{random.choice(self.motion)}*{self.formula(self.names, 1)}"
             )
         if random.random() < 0.3:
-            squares.append(
-                f"{random.choice(self.motion)}*{self.formula(self.names, 1)}"
-            )
+            squares.append(f"{random.choice(self.motion)}*{self.formula(self.names, 1)}")
         text = " + ".join(squares)
         return random.choice(
-            (
-                text,
-                text,
-                text,
-                f"-m*sqrt(1 - ({text}))",
-                f"exp({text})",
-                f"log({text})",
-            )
+            (text, text, text, f"-m*sqrt(1 - ({text}))", f"exp({text})", f"log({text})")
         )
 
     def term(self) -> str:
@@ -142,18 +114,14 @@ class _Writer:
             return f"{self.kinetic()} - {self.formula(self.names, 2)}"
         if chance < 0.7:
             return random.choice((self.kinetic(), self.formula(self.names, 3)))
-        return self.formula(
-            (*self.names, *self.motion), random.randrange(1, 5)
-        )
+        return self.formula((*self.names, *self.motion), random.randrange(1, 5))
 
     def file(self) -> str:
         """The whole file."""
         random = self.random
         terms = [self.term() for _ in range(random.choice((1, 1, 2, 3)))]
         form = "lagrangian" if self.is_lagrangian else "hamiltonian"
-        initial = ", ".join(
-            f"{x}: {self.number()}" for x in (*self.names, *self.motion)
-        )
+        initial = ", ".join(f"{x}: {self.number()}" for x in (*self.names, *self.motion))
         lines = [
             f"variables: [{', '.join(self.names)}]",
             f"parameters: {{m: {random.choice(('1', '2', '1/3', 'sqrt(5)', '0', '-1'))}}}",
@@ -164,9 +132,7 @@ class _Writer:
         ]
         if random.random() < 0.2:
             names = [*self.names, *(f"p{x}" for x in self.names)]
-            lines.append(
-                f"invariants: {{j: {self.formula(names, 2).replace(': ', '')}}}"
-            )
+            lines.append(f"invariants: {{j: {self.formula(names, 2).replace(': ', '')}}}")
         return "\n".join(lines)
 
 
@@ -184,8 +150,5 @@ def problem_file(random: Random, files: Sequence[str]) -> str:
         return written_problem(random)
     if chance < 0.55:
         return replaced(random, written_problem(random), WORDS)
-    makers: tuple[Callable[[Random, str, Sequence[str]], str], ...] = (
-        damaged,
-        replaced,
-    )
+    makers: tuple[Callable[[Random, str, Sequence[str]], str], ...] = (damaged, replaced)
     return random.choice(makers)(random, random.choice(files), WORDS)

@@ -32,11 +32,7 @@ from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
 from tests.fuzz.long_run import Cases, run
-from tests.fuzz.problem_inputs import (
-    problem_file,
-    problem_seeds,
-    written_problem,
-)
+from tests.fuzz.problem_inputs import problem_file, problem_seeds, written_problem
 from tests.oracles.draws import fractions
 
 SLOWEST = 5.0
@@ -58,19 +54,11 @@ NUMBERS = st.one_of(
     st.sampled_from(["tau", "1 - tau", "free", ">= 2"]),
 )
 SCALARS = st.one_of(
-    NUMBERS,
-    st.none(),
-    st.booleans(),
-    st.dates(),
-    st.text(max_size=20),
-    st.sampled_from(WORDS),
+    NUMBERS, st.none(), st.booleans(), st.dates(), st.text(max_size=20), st.sampled_from(WORDS)
 )
 TREES = st.recursive(
     SCALARS,
-    lambda below: (
-        st.lists(below, max_size=4)
-        | st.dictionaries(SCALARS, below, max_size=4)
-    ),
+    lambda below: st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4),
     max_leaves=12,
 )
 """Any value that YAML can write."""
@@ -78,14 +66,10 @@ TREES = st.recursive(
 
 def _or_anything(good: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     """Mostly what belongs there."""
-    return st.integers(0, 11).flatmap(
-        lambda chance: TREES if chance == 0 else good
-    )
+    return st.integers(0, 11).flatmap(lambda chance: TREES if chance == 0 else good)
 
 
-def _rows(
-    strategy: st.SearchStrategy[Any], longest: int = 3
-) -> st.SearchStrategy[list[Any]]:
+def _rows(strategy: st.SearchStrategy[Any], longest: int = 3) -> st.SearchStrategy[list[Any]]:
     return st.integers(1, longest).flatmap(
         lambda size: st.lists(strategy, min_size=size, max_size=size)
     )
@@ -93,26 +77,20 @@ def _rows(
 
 ROW = _or_anything(_rows(_or_anything(NUMBERS)))
 MATRIX = _or_anything(_rows(ROW))
-BUTCHER = st.fixed_dictionaries(
-    {"A": MATRIX, "b": ROW}, optional={"c": ROW, "name": SCALARS}
-)
+BUTCHER = st.fixed_dictionaries({"A": MATRIX, "b": ROW}, optional={"c": ROW, "name": SCALARS})
 FAMILY = st.fixed_dictionaries(
     {"family": _or_anything(st.sampled_from(sorted(FAMILIES)))},
     optional={"stages": _or_anything(st.integers(0, 5))},
 )
 RULE = st.one_of(
     st.sampled_from(ALL_RULES),
-    st.dictionaries(
-        st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3
-    ),
+    st.dictionaries(st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3),
 )
 TRANSFER = RULE | st.fixed_dictionaries(
     {},
     optional={
         "default": RULE,
-        "blocks": st.dictionaries(
-            st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX
-        ),
+        "blocks": st.dictionaries(st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX),
     },
 )
 VALUES: dict[str, st.SearchStrategy[Any]] = {
@@ -120,19 +98,14 @@ VALUES: dict[str, st.SearchStrategy[Any]] = {
     "methods": _rows(FAMILY | BUTCHER),
     "transfer": TRANSFER,
     "tableau": st.fixed_dictionaries(
-        {"A": _rows(_rows(MATRIX | st.none())), "b": _rows(ROW)},
-        optional={"c": MATRIX},
+        {"A": _rows(_rows(MATRIX | st.none())), "b": _rows(ROW)}, optional={"c": MATRIX}
     ),
-    "ark": st.fixed_dictionaries(
-        {"A": _rows(MATRIX), "b": ROW | MATRIX}, optional={"c": ROW}
-    ),
+    "ark": st.fixed_dictionaries({"A": _rows(MATRIX), "b": ROW | MATRIX}, optional={"c": ROW}),
     "prk": st.fixed_dictionaries({"q": BUTCHER, "p": BUTCHER}),
     "structure": st.sampled_from(STRUCTURES),
     "conjugate": st.booleans(),
     "linear": st.lists(st.integers(0, 4), max_size=3),
-    "parameters": st.dictionaries(
-        st.sampled_from(["tau", "x", "sqrt"]), NUMBERS
-    ),
+    "parameters": st.dictionaries(st.sampled_from(["tau", "x", "sqrt"]), NUMBERS),
     "tolerance": st.floats(1e-20, 1),
     "expect": st.dictionaries(st.sampled_from(CLAIMS), TREES, max_size=3),
 }
@@ -185,14 +158,10 @@ VALUES |= {
             "slow": PARTS,
             "mis": PARTS,
             "mri": _or_anything(
-                st.fixed_dictionaries(
-                    {"c": ROW}, optional={"gamma": _rows(MATRIX)}
-                )
+                st.fixed_dictionaries({"c": ROW}, optional={"gamma": _rows(MATRIX)})
             ),
             "coupling": SCALARS
-            | st.fixed_dictionaries(
-                {}, optional={"fast-slow": MATRIX, "slow-fast": MATRIX}
-            ),
+            | st.fixed_dictionaries({}, optional={"fast-slow": MATRIX, "slow-fast": MATRIX}),
         },
     ),
 }
@@ -201,22 +170,14 @@ VALUES |= {
 def _files() -> st.SearchStrategy[dict[Any, Any]]:
     """One form, and a few of the other keys, each with a value that may belong there."""
     assert set(VALUES) < set(KEYS)
-    others = {
-        key: _or_anything(value)
-        for key, value in VALUES.items()
-        if key not in FORMS
-    }
+    others = {key: _or_anything(value) for key, value in VALUES.items() if key not in FORMS}
     others |= {key: SCALARS for key in KEYS if key not in VALUES}
     return st.sampled_from(FORMS).flatmap(
-        lambda form: st.fixed_dictionaries(
-            {form: _or_anything(VALUES[form])}, optional=others
-        )
+        lambda form: st.fixed_dictionaries({form: _or_anything(VALUES[form])}, optional=others)
     )
 
 
-def faults_of(
-    text: str, load: Callable[[str], object] = loads
-) -> tuple[Fault, ...]:
+def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, ...]:
     """The faults of a file; none where it is good. Any other exception is what fuzzing looks for,
     or much time.
     """
@@ -232,10 +193,7 @@ def faults_of(
 
 def check_places(text: str) -> None:
     """Every fault of a file says something, and where."""
-    assert all(
-        fault.line >= 1 and fault.column >= 1 and fault.message
-        for fault in faults_of(text)
-    )
+    assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults_of(text))
 
 
 def offset_of_fault(text: str) -> int:
@@ -259,10 +217,9 @@ def test_method_files(seed: int) -> None:
         text = method_file(random, files)
         faults = faults_of(text)
         refused += bool(faults)
-        assert all(
-            fault.line >= 1 and fault.column >= 1 and fault.message
-            for fault in faults
-        ), text
+        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), (
+            text
+        )
     assert 0 < refused < 300
 
 
@@ -277,10 +234,9 @@ def test_problem_files(seed: int) -> None:
         text = problem_file(random, files)
         faults = faults_of(text, loads_problem)
         refused += bool(faults)
-        assert all(
-            fault.line >= 1 and fault.column >= 1 and fault.message
-            for fault in faults
-        ), text
+        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), (
+            text
+        )
     assert 0 < refused < 100
 
 
@@ -289,10 +245,7 @@ def test_what_is_damaged_was_good() -> None:
     none.
     """
     assert not any(faults_of(text, loads_problem) for text in problem_seeds())
-    good = sum(
-        not faults_of(written_problem(Random(seed)), loads_problem)
-        for seed in range(40)
-    )
+    good = sum(not faults_of(written_problem(Random(seed)), loads_problem) for seed in range(40))
     assert 8 < good < 32
 
 
@@ -338,14 +291,8 @@ def test_faults_of_the_loader_are_found() -> None:
     """
     found = run(Faulty(1, seconds=0.2), range(12))
     assert [case.number for case in found] == [*range(12)]
-    assert {case.number for case in found if case.kind != "loaded"} == {
-        *map(int, MISDEEDS)
-    }
-    errors = {
-        MISDEEDS[str(case.number)]: case.error
-        for case in found
-        if case.kind == "fault"
-    }
+    assert {case.number for case in found if case.kind != "loaded"} == {*map(int, MISDEEDS)}
+    errors = {MISDEEDS[str(case.number)]: case.error for case in found if case.kind == "fault"}
     assert "ValueError" in errors["raises"]
     assert "DeprecationWarning" in errors["warns"]
     assert "MemoryError" in errors["fills the memory"]
@@ -391,9 +338,7 @@ def test_any_yaml(content: object) -> None:
 @FUZZ
 @given(
     st.text(max_size=200)
-    | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map(
-        "".join
-    )
+    | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map("".join)
 )
 def test_any_text(text: str) -> None:
     """Text that need not be YAML."""
@@ -401,10 +346,7 @@ def test_any_text(text: str) -> None:
 
 
 @FUZZ
-@given(
-    st.text(max_size=60)
-    | st.text(alphabet="0123456789.+-*/^()eE, sqrtcboau", max_size=60)
-)
+@given(st.text(max_size=60) | st.text(alphabet="0123456789.+-*/^()eE, sqrtcboau", max_size=60))
 def test_any_number(text: str) -> None:
     """Text that need not be a number: a value, or an error with offsets inside the text."""
     assert 0 <= offset_of_fault(text) <= len(text)

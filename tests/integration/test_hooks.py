@@ -21,12 +21,7 @@ BAD = "tests/examples/failing/collocation-misprinted.gark.yaml"
 def run(command: str, **variables: str) -> subprocess.CompletedProcess[str]:
     """Run a shell command as the two integrations do, with the installed ``gark`` on the path."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    environment = {
-        **os.environ,
-        "PATH": path,
-        "PYTHONPATH": str(ROOT),
-        **variables,
-    }
+    environment = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT), **variables}
     return subprocess.run(
         ["bash", "-euo", "pipefail", "-c", command],
         cwd=ROOT,
@@ -52,16 +47,10 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
     """The hook and the action check a file whose name begins with a dash."""
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     odd = tmp_path / "--version.gark.yaml"
-    odd.write_text(
-        "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}\n"
-    )
-    done = run(
-        f"cd {tmp_path} && {' '.join([hook['entry'], *hook['args']])} {odd.name}"
-    )
+    odd.write_text("methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}\n")
+    done = run(f"cd {tmp_path} && {' '.join([hook['entry'], *hook['args']])} {odd.name}")
     assert (done.returncode, "order: 4" in done.stdout) == (0, True)
-    step = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"][
-        -1
-    ]
+    step = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"][-1]
     variables = {
         "FILES": odd.name,
         "ARGUMENTS": "",
@@ -75,9 +64,7 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
 def test_the_python_of_the_other_steps_is_left_alone() -> None:
     """Python is set up without changing the environment, and gark lives in a folder of its own."""
     steps = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"]
-    (python,) = [
-        step for step in steps if "setup-python" in step.get("uses", "")
-    ]
+    (python,) = [step for step in steps if "setup-python" in step.get("uses", "")]
     assert python["with"]["update-environment"] is False
     scripts = "".join(step.get("run", "") for step in steps)
     assert "GITHUB_PATH" not in scripts
@@ -95,8 +82,7 @@ def installed(temporary: Path, command: str) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("file", "code", "command"),
-    [(GOOD, 0, "Scripts/gark.exe"), (BAD, 1, "bin/gark")],
+    ("file", "code", "command"), [(GOOD, 0, "Scripts/gark.exe"), (BAD, 1, "bin/gark")]
 )
 def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
     """The action's last step passes a right file, and annotates the line of a wrong claim; either
@@ -104,15 +90,9 @@ def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
     """
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     step = action["runs"]["steps"][-1]
-    inputs = {name: x["default"] for name, x in action["inputs"].items()} | {
-        "files": file
-    }
+    inputs = {name: x["default"] for name, x in action["inputs"].items()} | {"files": file}
     variables = {
-        name: re.sub(
-            r"\$\{\{ inputs\.([a-z-]+) \}\}",
-            lambda match: inputs[match[1]],
-            text,
-        )
+        name: re.sub(r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: inputs[match[1]], text)
         for name, text in step["env"].items()
     } | {
         "RUNNER_TEMP": str(installed(tmp_path, command)),
@@ -120,9 +100,7 @@ def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
     }
     result = run(step["run"], **variables)
     assert result.returncode == code, result.stderr
-    line = (ROOT / BAD).read_text().splitlines().index(
-        "expect: {order: 4}"
-    ) + 1
+    line = (ROOT / BAD).read_text().splitlines().index("expect: {order: 4}") + 1
     assert (f"::error file={BAD},line={line}," in result.stdout) == bool(code)
     summary = (tmp_path / "summary.md").read_text(encoding="utf-8")
     assert summary == gark("check", file, "--format", "markdown").out
@@ -130,14 +108,9 @@ def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("version", "what", "place"),
-    [
-        ("", "/the/checkout", "bin"),
-        ("0.1.0", "garkcli==0.1.0", "Scripts"),
-    ],
+    [("", "/the/checkout", "bin"), ("0.1.0", "garkcli==0.1.0", "Scripts")],
 )
-def test_action_installs_this_project(
-    version: str, what: str, place: str, tmp_path: Path
-) -> None:
+def test_action_installs_this_project(version: str, what: str, place: str, tmp_path: Path) -> None:
     """What the action installs is the directory it lies in, and that directory is the project; a
     release where one is asked for.
     """
@@ -147,11 +120,7 @@ def test_action_installs_this_project(
     python.write_text('#!/bin/sh\necho "$*"\n')
     python.chmod(0o755)
     action = yaml.safe_load((ROOT / "action.yml").read_text())
-    install = next(
-        step
-        for step in action["runs"]["steps"]
-        if step.get("name") == "install"
-    )
+    install = next(step for step in action["runs"]["steps"] if step.get("name") == "install")
     assert install["env"]["VERSION"] == "${{ inputs.version }}"
     assert action["inputs"]["version"]["default"] == ""
     done = run(

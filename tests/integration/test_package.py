@@ -15,9 +15,7 @@ from tests.portable.venvs import EXTRAS, MSOLVE
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "garkcli"
-RESERVED = re.compile(
-    r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?|.*[<>:\"|?*\\]|.*[. ]", re.I
-)
+RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?|.*[<>:\"|?*\\]|.*[. ]", re.I)
 """Names of devices on Windows, at whose end nothing counts, signs it does not take, and ends that
 it drops.
 """
@@ -74,9 +72,7 @@ def test_the_page_names_every_extra() -> None:
     text = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     section = text.split("## Installing\n")[1].split("\n## ")[0]
     table = section.split("| extra |")[1]
-    assert sorted(re.findall(r"^\| `(\w+)`", table, re.M)) == sorted(
-        [*EXTRAS, MSOLVE]
-    )
+    assert sorted(re.findall(r"^\| `(\w+)`", table, re.M)) == sorted([*EXTRAS, MSOLVE])
 
 
 @pytest.mark.parametrize("command", ["stability", "converge", "energy"])

@@ -19,13 +19,8 @@ pytest_plugins = ["pytester"]
 MODULE = garkcli.pytest_plugin.__name__
 GOOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nexpect: {order: 2, explicit: true}\n"
 BAD = GOOD.replace("order: 2", "order: 3")
-BROKEN = (
-    "A: [[0, 0], [1/2, 0]]\nb: [0, 1, 2]\nexpect: {order: 2, fsal: true}\n"
-)
-UNMADE = (
-    "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nconjugate: true\n"
-    "expect: {order: 2, fsal: true}\n"
-)
+BROKEN = "A: [[0, 0], [1/2, 0]]\nb: [0, 1, 2]\nexpect: {order: 2, fsal: true}\n"
+UNMADE = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nconjugate: true\nexpect: {order: 2, fsal: true}\n"
 SILENT = "A: [[0]]\nb: [1]\n"
 FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\nexpect: {order: 2}\n"
 FILES = {
@@ -55,9 +50,7 @@ def imported(tmp_path_factory: pytest.TempPathFactory) -> None:
 
 
 @pytest.fixture
-def project(
-    pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
-) -> pytest.Pytester:
+def project(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.Pytester:
     """A project with method files and one test, whose warnings are errors; no other plugin."""
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     for name, text in FILES.items():
@@ -80,9 +73,7 @@ def outcomes(result: pytest.RunResult) -> dict[str, int]:
     return result.parseoutcomes()
 
 
-def test_nothing_is_collected_unless_it_is_asked_for(
-    project: pytest.Pytester,
-) -> None:
+def test_nothing_is_collected_unless_it_is_asked_for(project: pytest.Pytester) -> None:
     """A project that has the package installed, and method files, sees no new test."""
     assert outcomes(run(project)) == {"passed": 1}
     assert outcomes(run(project, "methods")) == {}
@@ -110,9 +101,7 @@ def test_items_have_the_names_of_claims(project: pytest.Pytester) -> None:
     path = "methods/good.gark.yaml"
     result = run(project, path, "-v")
     assert outcomes(result) == {"passed": 2}
-    result.stdout.fnmatch_lines(
-        [f"*{path}::order PASSED*", f"*{path}::explicit PASSED*"]
-    )
+    result.stdout.fnmatch_lines([f"*{path}::order PASSED*", f"*{path}::explicit PASSED*"])
     assert outcomes(run(project, f"{path}::order")) == {"passed": 1}
     chosen = run(project, "--gark", "-k", "explicit")
     assert outcomes(chosen) == {"passed": 2, "deselected": 8}
@@ -167,9 +156,7 @@ def test_a_fault_of_the_program_has_its_traceback(
     monkeypatch.setattr("garkcli.check.check_file.check_file", fails)
     result = run(project, "methods/good.gark.yaml")
     assert outcomes(result) == {"failed": 2}
-    assert (
-        "RuntimeError: no judgement of good.gark.yaml" in result.stdout.str()
-    )
+    assert "RuntimeError: no judgement of good.gark.yaml" in result.stdout.str()
 
 
 def test_it_is_registered_and_light() -> None:
@@ -185,11 +172,7 @@ def test_it_is_registered_and_light() -> None:
         "print(sorted(heavy & set(sys.modules)))"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        timeout=100,
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=100
     )
     assert done.stdout == "[]\n", done.stderr
 

@@ -55,12 +55,8 @@ def judged(data: dict[str, Any], folder: Path) -> int:
     return code
 
 
-COLLOCATION = (ROOT / "methods" / "collocation.gark.yaml").read_text(
-    encoding="utf-8"
-)
-RADICALS = (ROOT / "methods" / "collocation-conjugate.gark.yaml").read_text(
-    "utf-8"
-)
+COLLOCATION = (ROOT / "methods" / "collocation.gark.yaml").read_text(encoding="utf-8")
+RADICALS = (ROOT / "methods" / "collocation-conjugate.gark.yaml").read_text("utf-8")
 
 
 def test_the_referee_shares_no_code() -> None:
@@ -77,9 +73,7 @@ def test_the_referee_shares_no_code() -> None:
     assert sum(bool(line.strip()) for line in text.splitlines()) < 300
 
 
-@pytest.mark.parametrize(
-    "path", METHODS, ids=lambda path: path.name.split(".")[0]
-)
+@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name.split(".")[0])
 def test_every_method_is_proved(
     path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -109,11 +103,7 @@ def test_as_a_program(tmp_path: Path) -> None:
     def run(*paths: Path) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-I", str(SCRIPT), *map(str, paths)]
         return subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            check=False,
+            command, capture_output=True, text=True, encoding="utf-8", check=False
         )
 
     assert run(good).returncode == 0
@@ -137,9 +127,7 @@ def _repeat_a_tree(data: dict[str, Any]) -> None:
 
 def _claim_more(data: dict[str, Any]) -> None:
     data["method"]["order"] = 5
-    data["method"]["spanning"].append(
-        [["[[[[[]_1]_1]_1]_1]_1"], ["[[[[[]_1]_1]_1]_1]_2"]]
-    )
+    data["method"]["spanning"].append([["[[[[[]_1]_1]_1]_1]_1"], ["[[[[[]_1]_1]_1]_1]_2"]])
 
 
 def _claim_less(data: dict[str, Any]) -> None:
@@ -209,18 +197,13 @@ def _coinciding_nodes(data: dict[str, Any]) -> None:
         _coinciding_nodes,
     ],
 )
-@pytest.mark.parametrize(
-    "text", [COLLOCATION, RADICALS], ids=["rational", "radicals"]
-)
+@pytest.mark.parametrize("text", [COLLOCATION, RADICALS], ids=["rational", "radicals"])
 def test_a_false_proof_is_found_out(
     text: str, change: Callable[[dict[str, Any]], None], tmp_path: Path
 ) -> None:
     """Trees that do not span, orders too high or too low, other blocks, other nodes."""
     data = certificate(text)
-    if (
-        change is _coinciding_nodes
-        and "modulus" not in data["method"]["spaces"][0]
-    ):
+    if change is _coinciding_nodes and "modulus" not in data["method"]["spaces"][0]:
         pytest.skip("no node polynomial")
     change(data)
     assert judged(data, tmp_path) == 1
@@ -313,9 +296,7 @@ def test_what_is_no_number_is_no_proof(entry: object, tmp_path: Path) -> None:
     assert judged(data, tmp_path) in {1, 2}
 
 
-def test_what_is_assumed_is_said(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_assumed_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Colours whose vector field is linear are named, and a name cannot write lines of its own."""
     text = "tableau: {A: [[0, 0], [1/2, 0]], b: [1/3, 2/3]}\nlinear: [1]\n"
     data = certificate(text) | {"name": "x\n  method: order 9"}
@@ -325,9 +306,7 @@ def test_what_is_assumed_is_said(
     assert second.endswith("where the vector field is linear: 1")
 
 
-def test_what_is_not_seen_is_said(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_not_seen_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Conditions that a missing block takes away are an assumption, and it is named."""
     data = certificate("A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n")
     spanning = [[["[]_1"]]] + [[[]]] * 8
@@ -375,9 +354,7 @@ def test_rounded_coefficients_have_no_proof() -> None:
     assert "without a tolerance" in str(caught.value)
 
 
-_ENTRIES = st.sampled_from(
-    ["0", "1/2", "1/3", "1", "-1/4", "sqrt(2)/2", "1/6"]
-)
+_ENTRIES = st.sampled_from(["0", "1/2", "1/3", "1", "-1/4", "sqrt(2)/2", "1/6"])
 
 
 @st.composite
@@ -395,9 +372,7 @@ def _additive(draw: st.DrawFn) -> str:
 
 @settings(max_examples=20)
 @given(_additive())
-def test_random_methods_are_proved(
-    tmp_path_factory: pytest.TempPathFactory, text: str
-) -> None:
+def test_random_methods_are_proved(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     """Whatever the method is, the referee agrees with its order, conjugate and pair."""
     method = loads(text)
     data = json.loads(render(prove_method(method)))

@@ -40,22 +40,15 @@ def two_planets(seed: int) -> str:
     Masses are 10⁻⁴ to 3·10⁻³, semi-axes 1 and 1.5 to 3, eccentricities up to 1/4.
     """
     draw = Draw(seed)
-    masses = [
-        between(draw, Fraction(1, 10_000), Fraction(3, 1000)) for _ in range(2)
-    ]
+    masses = [between(draw, Fraction(1, 10_000), Fraction(3, 1000)) for _ in range(2)]
     axes = [Fraction(1), between(draw, Fraction(3, 2), Fraction(3))]
-    eccentricities = [
-        between(draw, Fraction(0), Fraction(1, 4)) for _ in range(2)
-    ]
+    eccentricities = [between(draw, Fraction(0), Fraction(1, 4)) for _ in range(2)]
     half_angles = [between(draw, Fraction(-3), Fraction(3)) for _ in range(2)]
     orbits = list(zip(masses, axes, eccentricities, half_angles, strict=True))
     return system(orbits, sun_moves=seed % 2 == 1)
 
 
-def system(
-    orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]],
-    sun_moves: bool,
-) -> str:
+def system(orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]], sun_moves: bool) -> str:
     """The problem file of planets that start at their perihelia.
 
     Args:
@@ -67,10 +60,7 @@ def system(
     kinetic, potential, initial = [], [], []
     momenta: dict[str, list[str]] = {"x": [], "y": []}
     for name, (mass, axis, e, tangent) in zip(names, orbits, strict=True):
-        cosine, sine = (
-            (1 - tangent**2) / (1 + tangent**2),
-            2 * tangent / (1 + tangent**2),
-        )
+        cosine, sine = ((1 - tangent**2) / (1 + tangent**2), 2 * tangent / (1 + tangent**2))
         radius, speed = axis * (1 - e), f"sqrt({(1 + e) / (axis * (1 - e))})"
         px, py = f"{-mass * sine}*{speed}", f"{mass * cosine}*{speed}"
         initial += [f"x{name}: {radius * cosine}", f"y{name}: {radius * sine}"]
@@ -79,20 +69,14 @@ def system(
         momenta["y"].append(f"({py})")
         kinetic.append(f"(px{name}**2 + py{name}**2)/(2*{mass})")
         sun = ("- xs", "- ys") if sun_moves else ("", "")
-        potential.append(
-            f"- {mass}/sqrt((x{name} {sun[0]})**2 + (y{name} {sun[1]})**2)"
-        )
-    potential.append(
-        f"- {orbits[0][0] * orbits[1][0]}/sqrt((x1 - x2)**2 + (y1 - y2)**2)"
-    )
+        potential.append(f"- {mass}/sqrt((x{name} {sun[0]})**2 + (y{name} {sun[1]})**2)")
+    potential.append(f"- {orbits[0][0] * orbits[1][0]}/sqrt((x1 - x2)**2 + (y1 - y2)**2)")
     variables = [f"{axis}{name}" for name in names for axis in "xy"]
     if sun_moves:
         variables += ["xs", "ys"]
         kinetic.append("(pxs**2 + pys**2)/2")
         initial += ["xs: 0", "ys: 0"]
-        initial += [
-            f"p{axis}s: -({' + '.join(momenta[axis])})" for axis in "xy"
-        ]
+        initial += [f"p{axis}s: -({' + '.join(momenta[axis])})" for axis in "xy"]
     return "\n".join(
         [
             f"variables: [{', '.join(variables)}]",

@@ -23,14 +23,8 @@ def separable(s: int, t: int) -> Tableau:
     """Gauss s for velocities, Lobatto IIIA t for forces, by collocation: eq. (rectangular) for 2,
     3.
     """
-    one, other = (
-        diagonal_method("gauss", s),
-        diagonal_method("lobatto-iiia", t),
-    )
-    Q = gark(
-        [one, other],
-        {(0, 1): collocation(one, other), (1, 0): collocation(other, one)},
-    )
+    one, other = (diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t))
+    Q = gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
     return symplectic_pair(Q, [0], [1])
 
 
@@ -44,17 +38,13 @@ def default(tableau: Tableau, omega: fmpq | None = None) -> Oscillator:
     return Oscillator.default(terms_of(tableau), omega or fmpq(1))
 
 
-def exact_energy_errors(
-    tableau: Tableau, problem: Oscillator, h: fmpq, steps: int
-) -> list[float]:
+def exact_energy_errors(tableau: Tableau, problem: Oscillator, h: fmpq, steps: int) -> list[float]:
     """H(t_n) − H(0), stepped in exact rational arithmetic and rounded at the very end."""
     (a, b), (c, d) = linear_step(tableau, problem).at(h)
     omega = problem.omega
     q, p, errors = fmpq(1), omega / 2, []
     for _ in range(steps + 1):
-        errors.append(
-            float(arb((p * p + omega**2 * q * q) / 2 - 5 * omega**2 / 8))
-        )
+        errors.append(float(arb((p * p + omega**2 * q * q) / 2 - 5 * omega**2 / 8)))
         q, p = a * q + b * p, c * q + d * p
     return errors
 
@@ -70,26 +60,18 @@ def exact_energy_errors(
         alone("lobatto-iiic", 2),
     ],
 )
-def test_energy_errors_are_exact_to_the_last_digits(
-    tableau: Tableau, omega: fmpq
-) -> None:
+def test_energy_errors_are_exact_to_the_last_digits(tableau: Tableau, omega: fmpq) -> None:
     """Against rational arithmetic: also errors of 1e-17 of the energy come out to nearly all their
     digits.
     """
     steps = 120
-    expected = np.array(
-        exact_energy_errors(tableau, default(tableau, omega), HALF, steps)
-    )
-    result = oscillator_run(
-        tableau, default(tableau, omega), HALF * steps, HALF
-    )
+    expected = np.array(exact_energy_errors(tableau, default(tableau, omega), HALF, steps))
+    result = oscillator_run(tableau, default(tableau, omega), HALF * steps, HALF)
     assert result.steps == steps
     assert np.array(result.energy.errors) == pytest.approx(
         expected, rel=1e-9, abs=1e-13 * np.abs(expected).max()
     )
-    assert result.energy.max_error == pytest.approx(
-        np.abs(expected).max(), rel=1e-12
-    )
+    assert result.energy.max_error == pytest.approx(np.abs(expected).max(), rel=1e-12)
 
 
 def test_rectangular_method_does_not_drift() -> None:
@@ -107,13 +89,10 @@ def test_small_energy_errors_are_not_rounding() -> None:
     all along.
     """
     tableau = separable(6, 7)
-    result = oscillator_run(
-        tableau, default(tableau), fmpq(10_000), fmpq(1, 100)
-    )
+    result = oscillator_run(tableau, default(tableau), fmpq(10_000), fmpq(1, 100))
     assert result.steps == 1_000_000
     early, late = (
-        max(map(abs, half))
-        for half in (result.energy.errors[:1000], result.energy.errors[1000:])
+        max(map(abs, half)) for half in (result.energy.errors[:1000], result.energy.errors[1000:])
     )
     assert 1e-38 < result.energy.max_error < 1e-36
     assert early == pytest.approx(late, rel=1e-3)
@@ -124,47 +103,29 @@ def test_dissipation_is_drift() -> None:
     h = fmpq(1, 10)
     result = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), h)
     rate = np.log1p(-1e-6 / 72 + 1e-8 / 576) / 0.1
-    assert result.energy.drift == pytest.approx(
-        5 / 8 * rate * (1 + rate * 50), rel=1e-3
-    )
-    assert result.energy.max_error == pytest.approx(
-        -5 / 8 * np.expm1(100 * rate), rel=1e-9
-    )
+    assert result.energy.drift == pytest.approx(5 / 8 * rate * (1 + rate * 50), rel=1e-3)
+    assert result.energy.max_error == pytest.approx(-5 / 8 * np.expm1(100 * rate), rel=1e-9)
 
 
 def test_explicit_euler_drifts_and_blows_up() -> None:
     """Energy grows by 1 + h² a step; a run that leaves all bounds ends there and says so."""
     short = oscillator_run(
-        alone("explicit-euler"),
-        default(alone("explicit-euler")),
-        fmpq(1),
-        fmpq(1, 100),
+        alone("explicit-euler"), default(alone("explicit-euler")), fmpq(1), fmpq(1, 100)
     )
-    assert short.energy.max_error == pytest.approx(
-        5 / 8 * (1.0001**100 - 1), rel=1e-10
-    )
-    assert short.energy.drift == pytest.approx(
-        short.energy.max_error, rel=1e-2
-    )
+    assert short.energy.max_error == pytest.approx(5 / 8 * (1.0001**100 - 1), rel=1e-10)
+    assert short.energy.drift == pytest.approx(short.energy.max_error, rel=1e-2)
     long = oscillator_run(
-        alone("explicit-euler"),
-        default(alone("explicit-euler")),
-        fmpq(10_000),
-        HALF,
+        alone("explicit-euler"), default(alone("explicit-euler")), fmpq(10_000), HALF
     )
     assert long.is_unstable
-    assert long.steps == int(
-        30 * np.log(10) / np.log(1.25)
-    )  # 1.25^n − 1 ≤ 1e30
+    assert long.steps == int(30 * np.log(10) / np.log(1.25))  # 1.25^n − 1 ≤ 1e30
     assert long.energy.drift is None
     assert np.isfinite([long.energy.max_error, *long.energy.errors]).all()
 
 
 def test_violent_instability_is_finite_too() -> None:
     """Rk4 with ωh = 1000 multiplies by 4e10 a step: it ends after a few."""
-    result = oscillator_run(
-        alone("rk4"), default(alone("rk4"), fmpq(1000)), fmpq(100), fmpq(1)
-    )
+    result = oscillator_run(alone("rk4"), default(alone("rk4"), fmpq(1000)), fmpq(100), fmpq(1))
     assert result.is_unstable
     assert result.steps < 5
 
@@ -172,18 +133,14 @@ def test_violent_instability_is_finite_too() -> None:
 def test_strong_damping() -> None:
     """Radau IIA at ωh = 50 has lost all energy after a while: the error is −H(0)."""
     tableau = alone("radau-iia", 1)
-    result = oscillator_run(
-        tableau, default(tableau, fmpq(100)), fmpq(500), HALF
-    )
+    result = oscillator_run(tableau, default(tableau, fmpq(100)), fmpq(500), HALF)
     assert result.energy.max_error == pytest.approx(result.energy.initial)
     assert result.energy.errors[-1] == pytest.approx(-result.energy.initial)
 
 
 def test_exact_conservation_is_zero() -> None:
     """Gauss: no energy error, no drift, exactly."""
-    result = oscillator_run(
-        alone("gauss", 3), default(alone("gauss", 3)), fmpq(1000), HALF
-    )
+    result = oscillator_run(alone("gauss", 3), default(alone("gauss", 3)), fmpq(1000), HALF)
     assert (result.energy.max_error, result.energy.drift) == (0, 0)
 
 
@@ -199,9 +156,7 @@ def test_series_is_small_and_keeps_the_extremes() -> None:
 def test_too_many_steps_are_refused() -> None:
     """Before memory is."""
     with pytest.raises(UsageProblem, match="steps"):
-        oscillator_run(
-            alone("rk4"), default(alone("rk4")), fmpq(MAX_STEPS + 1), fmpq(1)
-        )
+        oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(MAX_STEPS + 1), fmpq(1))
 
 
 @pytest.mark.parametrize("t_end", [100, 10_000, 100_000])
@@ -216,9 +171,7 @@ def test_uncertainty_of_no_drift(t_end: int) -> None:
 
 def test_uncertainty_of_a_drift() -> None:
     """A slow exponential is nearly a line: its slope is known as well as it is one."""
-    result = oscillator_run(
-        alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10)
-    )
+    result = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
     assert 0 < result.energy.uncertainty < 0.01 * abs(result.energy.drift)
     assert result.stability.fate == "contractive"
 
@@ -228,12 +181,8 @@ def test_amplitude_is_what_the_line_leaves() -> None:
     tableau = separable(2, 3)
     result = oscillator_run(tableau, default(tableau), fmpq(10_000), HALF)
     errors = result.energy.errors
-    assert result.energy.amplitude == pytest.approx(
-        (max(errors) - min(errors)) / 2, rel=1e-9
-    )
-    lost = oscillator_run(
-        alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10)
-    )
+    assert result.energy.amplitude == pytest.approx((max(errors) - min(errors)) / 2, rel=1e-9)
+    lost = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
     assert lost.energy.amplitude < 0.01 * lost.energy.max_error
 
 
@@ -241,9 +190,7 @@ def test_series_has_both_ends() -> None:
     """From the start to the end, whatever the number of points."""
     tableau = separable(2, 3)
     for points in (10, 100, 2000):
-        result = oscillator_run(
-            tableau, default(tableau), fmpq(10_000), HALF, points
-        )
+        result = oscillator_run(tableau, default(tableau), fmpq(10_000), HALF, points)
         assert (result.times[0], result.times[-1]) == (0, 10_000)
         assert len(result.times) <= points
 
@@ -251,14 +198,10 @@ def test_series_has_both_ends() -> None:
 def test_exact_conservation_is_known() -> None:
     """It is decided, not seen from errors of zero."""
     assert (
-        oscillator_run(
-            alone("gauss", 3), default(alone("gauss", 3)), fmpq(10), HALF
-        ).energy.verdict
+        oscillator_run(alone("gauss", 3), default(alone("gauss", 3)), fmpq(10), HALF).energy.verdict
         == "exact"
     )
     assert (
-        oscillator_run(
-            alone("rk4"), default(alone("rk4")), fmpq(10), HALF
-        ).energy.verdict
+        oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(10), HALF).energy.verdict
         == "drifts"
     )

@@ -16,12 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.errors import UsageProblem
-from garkcli.longtime.history import (
-    MAX_STEPS,
-    InvariantHistory,
-    LongRun,
-    whole_run,
-)
+from garkcli.longtime.history import MAX_STEPS, InvariantHistory, LongRun, whole_run
 from garkcli.longtime.longtime import long_run, usual
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
@@ -61,19 +56,13 @@ GAUSS3 = "methods: [{family: gauss, stages: 3}]"
 
 def tableau_of(source: str) -> Tableau:
     """Of a file, or of its text."""
-    return with_joined_terms(
-        (loads(source) if ":" in source else load(source)).tableau
-    )
+    return with_joined_terms((loads(source) if ":" in source else load(source)).tableau)
 
 
-def run(
-    source: str, name: str, t_end: fmpq | int, h: fmpq, **rest: Any
-) -> LongRun:
+def run(source: str, name: str, t_end: fmpq | int, h: fmpq, **rest: Any) -> LongRun:
     """A built-in problem, followed."""
     tableau = tableau_of(source)
-    return long_run(
-        tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), h, **rest
-    )
+    return long_run(tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), h, **rest)
 
 
 def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
@@ -81,12 +70,7 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
     tableau = tableau_of(source)
     problem = hamiltonian(name, terms_of(tableau))
     measure = quantities_function(problem, 15)
-    values = np.array(
-        [
-            measure(*y)
-            for y in trajectory(bind(tableau, problem).at(), h, count)
-        ]
-    )
+    values = np.array([measure(*y) for y in trajectory(bind(tableau, problem).at(), h, count)])
     return values - values[0]
 
 
@@ -100,9 +84,7 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
         ("split-oscillator", fmpq(1, 10)),
     ],
 )
-def test_the_rectangular_method_stays_and_runge_kutta_drifts(
-    name: str, h: fmpq
-) -> None:
+def test_the_rectangular_method_stays_and_runge_kutta_drifts(name: str, h: fmpq) -> None:
     """On the same problem with the same steps, each far beyond what rounding can do."""
     symplectic, other = run(RECTANGULAR, name, 200, h), run(RK4, name, 200, h)
     assert [x.verdict for x in symplectic.invariants] == [
@@ -121,11 +103,7 @@ def test_the_drift_of_runge_kutta_has_its_order() -> None:
     """Half the step, 2⁵ times less drift; the same per unit of time in a run twice as long."""
     runs = [
         run(RK4, "pendulum", t, h)
-        for t, h in (
-            (400, fmpq(1, 10)),
-            (400, fmpq(1, 20)),
-            (800, fmpq(1, 20)),
-        )
+        for t, h in ((400, fmpq(1, 10)), (400, fmpq(1, 20)), (800, fmpq(1, 20)))
     ]
     drifts = [x.invariants[0].drift or 0 for x in runs]
     assert np.log2(drifts[0] / drifts[1]) == pytest.approx(5, abs=0.1)
@@ -147,9 +125,7 @@ def test_errors_are_those_of_plain_steps() -> None:
         assert list(history.errors) == list(plain[numbers, k])
         assert max(history.errors) == plain[:, k].max()
         assert min(history.errors) == plain[:, k].min()
-    assert [t for t, _ in result.states] == [
-        count * h * fmpq(k, 4) for k in range(5)
-    ]
+    assert [t for t, _ in result.states] == [count * h * fmpq(k, 4) for k in range(5)]
 
 
 def test_short_runs_keep_all() -> None:
@@ -163,9 +139,7 @@ def test_short_runs_keep_all() -> None:
 
 def test_turns_are_counted_across_chunks() -> None:
     """The pendulum turns twice a period, whatever the number of steps; the momentum as often."""
-    coarse, fine = (
-        run(LEAPFROG, "pendulum", 200, fmpq(1, n)) for n in (10, 100)
-    )
+    coarse, fine = (run(LEAPFROG, "pendulum", 200, fmpq(1, n)) for n in (10, 100))
     assert (
         coarse.turns == fine.turns == 59
     )  # with k = sin(θ_max/2) = 0.541 the period is 4K(k) = 6.82
@@ -176,9 +150,7 @@ def test_more_digits_show_what_floats_hide() -> None:
     to stay.
     """
     text = "methods: [{family: gauss, stages: 6}]"
-    floats, digits = (
-        run(text, "pendulum", 60, fmpq(1, 10), digits=n) for n in (15, 40)
-    )
+    floats, digits = (run(text, "pendulum", 60, fmpq(1, 10), digits=n) for n in (15, 40))
     assert floats.invariants[0].verdict == "round-off"
     assert floats.invariants[0].max_error < 1e-14
     assert digits.invariants[0].verdict == "bounded"
@@ -190,9 +162,7 @@ def test_more_digits_are_those_of_the_initial_values_too() -> None:
     """2/5 is no float: with 30 digits the angular momentum is conserved to 30 of them, from the
     first state on.
     """
-    _, momentum = run(
-        RECTANGULAR, "kepler", 20, fmpq(1, 50), digits=30
-    ).invariants
+    _, momentum = run(RECTANGULAR, "kepler", 20, fmpq(1, 50), digits=30).invariants
     assert momentum.max_error < 1e-29
     assert momentum.verdict == "round-off"
 
@@ -212,9 +182,7 @@ def test_explicit_euler_blows_up() -> None:
     assert result.steps < 1000
     assert energy.verdict == "unstable"
     assert energy.drift is None
-    assert np.isfinite(
-        [energy.max_error, energy.amplitude, *energy.errors]
-    ).all()
+    assert np.isfinite([energy.max_error, energy.amplitude, *energy.errors]).all()
 
 
 def test_failed_steps_are_faults_of_the_step() -> None:
@@ -242,15 +210,11 @@ def test_growth_that_bends() -> None:
 
 
 @pytest.mark.parametrize(
-    ("t_end", "verdict"),
-    [(1, "undecided"), (20, "undecided"), (60, "bounded")],
+    ("t_end", "verdict"), [(1, "undecided"), (20, "undecided"), (60, "bounded")]
 )
 def test_short_runs_are_not_judged(t_end: int, verdict: str) -> None:
     """Neither with few steps nor with few revolutions."""
-    assert (
-        run(RECTANGULAR, "kepler", t_end, fmpq(1, 50)).invariants[0].verdict
-        == verdict
-    )
+    assert run(RECTANGULAR, "kepler", t_end, fmpq(1, 50)).invariants[0].verdict == verdict
 
 
 ROUNDED_GAUSS_2 = """
@@ -272,9 +236,7 @@ def test_rounded_coefficients_excuse_their_drift() -> None:
     """
     h = fmpq(1, 10)
     strict = run(ROUNDED_GAUSS_2, "pendulum", 400, h).energy
-    loose = run(
-        ROUNDED_GAUSS_2, "pendulum", 400, h, tolerance=fmpq(1, 10**6)
-    ).energy
+    loose = run(ROUNDED_GAUSS_2, "pendulum", 400, h, tolerance=fmpq(1, 10**6)).energy
     assert strict.verdict == "drifts"
     assert loose.verdict == "bounded"
     assert loose.max_error == strict.max_error
@@ -297,14 +259,9 @@ def test_what_rounding_does_is_within_its_bound(units: list[int]) -> None:
     on that.
     """
     digits = [0.25, 0.25 - 3**0.5 / 6, 0.25 + 3**0.5 / 6, 0.25, 0.5, 0.5]
-    a, b, c, d, e, f = (
-        f"{x + unit * 1e-6:.15f}"
-        for x, unit in zip(digits, units, strict=True)
-    )
+    a, b, c, d, e, f = (f"{x + unit * 1e-6:.15f}" for x, unit in zip(digits, units, strict=True))
     text = f"ark: {{A: [[[{a}, {b}], [{c}, {d}]]], b: [[{e}, {f}]]}}"
-    energy = run(
-        text, "kepler", 100, fmpq(1, 20), tolerance=fmpq(9, 10**6)
-    ).energy
+    energy = run(text, "kepler", 100, fmpq(1, 20), tolerance=fmpq(9, 10**6)).energy
     assert energy.verdict == "bounded"
     assert energy.drift is not None
     assert energy.uncertainty is not None
@@ -347,9 +304,7 @@ def test_sun_jupiter_saturn(source: str, sun_moves: bool) -> None:
 @cache
 def planets(source: str, text: str, t_end: int) -> LongRun:
     """A system of planets, in steps of 3/20: 42 an orbit of the inner planet."""
-    return long_run(
-        tableau_of(source), loads_problem(text), fmpq(t_end), fmpq(3, 20)
-    )
+    return long_run(tableau_of(source), loads_problem(text), fmpq(t_end), fmpq(3, 20))
 
 
 MAGNETIC = """
@@ -371,9 +326,7 @@ def test_chaos_and_magnetic_fields(text: str) -> None:
     """A symplectic method is bounded, and the method of Runge and Kutta drifts."""
     problem = loads_problem(text)
     verdicts = [
-        long_run(
-            tableau_of(source), problem, fmpq(500), fmpq(1, 10)
-        ).energy.verdict
+        long_run(tableau_of(source), problem, fmpq(500), fmpq(1, 10)).energy.verdict
         for source in (GAUSS_2, RK4_FILE)
     ]
     assert verdicts == ["bounded", "drifts"]
@@ -461,29 +414,18 @@ def test_progress_is_told_every_step() -> None:
 def test_no_value_at_the_start() -> None:
     """An energy that is not defined there is said to be so."""
     q, p = symbols(("x",), "q")[0], symbols(("x",), "p")[0]
-    problem = Hamiltonian(
-        "bad", ("x",), (p**2 / 2 - sympy.log(q),), (fmpq(0), fmpq(1)), fmpq(1)
-    )
+    problem = Hamiltonian("bad", ("x",), (p**2 / 2 - sympy.log(q),), (fmpq(0), fmpq(1)), fmpq(1))
     with pytest.raises(UsageProblem, match="no value at the start"):
         long_run(tableau_of(RK4), problem, fmpq(1), fmpq(1, 10))
 
 
 def test_usual_runs_are_whole() -> None:
     """Every problem has a step and a time that fit; unknown ones have ten thousand steps."""
-    for name in (
-        "split-oscillator",
-        "pendulum",
-        "kepler",
-        "henon-heiles",
-        "fput",
-        "generic",
-    ):
+    for name in ("split-oscillator", "pendulum", "kepler", "henon-heiles", "fput", "generic"):
         h, t_end = usual(hamiltonian(name, 1))
         assert (t_end / h).q == 1
     problem = hamiltonian("pendulum", 1)
-    other = Hamiltonian(
-        "mine", problem.variables, problem.terms, problem.initial, fmpq(3)
-    )
+    other = Hamiltonian("mine", problem.variables, problem.terms, problem.initial, fmpq(3))
     h, t_end = usual(other)
     assert t_end / h == 10_000
 
@@ -509,9 +451,7 @@ def oscillator_run(
     """The energy of the oscillator."""
     tableau = tableau_of(source)
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
-    return long_run(
-        tableau, problem, fmpq(t_end), fmpq(1, 2), tolerance=tolerance
-    ).energy
+    return long_run(tableau, problem, fmpq(t_end), fmpq(1, 2), tolerance=tolerance).energy
 
 
 @pytest.mark.parametrize(
@@ -544,20 +484,11 @@ ark:
 def test_the_oscillator_agrees_with_the_nonlinear_path() -> None:
     """The same problem stepped in floats: the same errors and no drift either."""
     tableau = tableau_of(RECTANGULAR)
-    exact = long_run(
-        tableau, Oscillator.default(2, fmpq(1)), fmpq(500), fmpq(1, 2)
-    )
+    exact = long_run(tableau, Oscillator.default(2, fmpq(1)), fmpq(500), fmpq(1, 2))
     floats = run(RECTANGULAR, "oscillator", 500, fmpq(1, 2))
-    assert floats.invariants[0].max_error == pytest.approx(
-        exact.invariants[0].max_error, rel=1e-9
-    )
+    assert floats.invariants[0].max_error == pytest.approx(exact.invariants[0].max_error, rel=1e-9)
     assert list(floats.invariants[0].errors) == pytest.approx(
         list(exact.invariants[0].errors), abs=1e-14
     )
-    assert floats.invariants[0].amplitude == pytest.approx(
-        exact.invariants[0].amplitude, rel=1e-3
-    )
-    assert [x.invariants[0].verdict for x in (exact, floats)] == [
-        "bounded",
-        "bounded",
-    ]
+    assert floats.invariants[0].amplitude == pytest.approx(exact.invariants[0].amplitude, rel=1e-3)
+    assert [x.invariants[0].verdict for x in (exact, floats)] == ["bounded", "bounded"]

@@ -20,9 +20,7 @@ entries = st.builds(fmpq, st.integers(-6, 6), st.integers(1, 4))
 
 
 @given(entries, entries, entries, entries)
-def test_fate_is_that_of_the_eigenvalues(
-    a: fmpq, b: fmpq, c: fmpq, d: fmpq
-) -> None:
+def test_fate_is_that_of_the_eigenvalues(a: fmpq, b: fmpq, c: fmpq, d: fmpq) -> None:
     """Wherever floats can tell, the eigenvalues say the same."""
     found = stability(((a, b), (c, d)))
     sizes = sorted(
@@ -72,13 +70,9 @@ def test_area_preserved(a: fmpq, b: fmpq, c: fmpq) -> None:
         (((0, 0), (0, 0)), "contractive"),
     ],
 )
-def test_borders(
-    R: tuple[tuple[int, int], tuple[int, int]], fate: str
-) -> None:
+def test_borders(R: tuple[tuple[int, int], tuple[int, int]], fate: str) -> None:
     """Where floats could not tell."""
-    assert (
-        stability(tuple(tuple(fmpq(x) for x in row) for row in R)).fate == fate
-    )
+    assert stability(tuple(tuple(fmpq(x) for x in row) for row in R)).fate == fate
 
 
 def test_irrational_steps() -> None:
@@ -88,9 +82,7 @@ ark:
   A: [[[1 - sqrt(2)/2, 0], [sqrt(2) - 1, 1 - sqrt(2)/2]]]
   b: [[1/2, 1/2]]
 """).tableau
-    R = linear_step(
-        tableau, Oscillator.default(terms_of(tableau), fmpq(1))
-    ).at(fmpq(1, 2))
+    R = linear_step(tableau, Oscillator.default(terms_of(tableau), fmpq(1))).at(fmpq(1, 2))
     assert stability(R).fate == "contractive"
 
 
@@ -106,16 +98,10 @@ ark:
 def test_methods(name: str, stages: int | None, fate: str) -> None:
     """What is known of them, at h = 1/2; and so does the energy go."""
     tableau = gark([diagonal_method(name, stages)], {})
-    result = long_run(
-        tableau, Oscillator.default(1, fmpq(1)), fmpq(20), fmpq(1, 2)
-    )
+    result = long_run(tableau, Oscillator.default(1, fmpq(1)), fmpq(20), fmpq(1, 2))
     assert result.stability.fate == fate
     last = result.energy.errors[-1]
-    assert {
-        "elliptic": last == 0,
-        "contractive": last < 0,
-        "unstable": last > 0,
-    }[fate]
+    assert {"elliptic": last == 0, "contractive": last < 0, "unstable": last > 0}[fate]
 
 
 def test_leapfrog_is_stable_up_to_its_bound() -> None:
@@ -127,8 +113,5 @@ prk:
 structure: separable
 """).tableau
     step = linear_step(tableau, Oscillator.default(terms_of(tableau), fmpq(1)))
-    fates = [
-        stability(step.at(h)).fate
-        for h in (fmpq(1), fmpq(199, 100), fmpq(2), fmpq(201, 100))
-    ]
+    fates = [stability(step.at(h)).fate for h in (fmpq(1), fmpq(199, 100), fmpq(2), fmpq(201, 100))]
     assert fates == ["elliptic", "elliptic", "unstable", "unstable"]

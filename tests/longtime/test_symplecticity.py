@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from garkcli.longtime.symplecticity import (
-    Defect,
-    is_proved,
-    symplecticity_defects,
-)
+from garkcli.longtime.symplecticity import Defect, is_proved, symplecticity_defects
 from garkcli.methodfile.load import loads
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -38,16 +34,12 @@ structure: separable
 H = fmpq(1, 10)
 
 
-def measured(
-    text: str, name: str, as_pair: bool = False
-) -> tuple[Tableau, Hamiltonian, Defect]:
+def measured(text: str, name: str, as_pair: bool = False) -> tuple[Tableau, Hamiltonian, Defect]:
     """The defect of the first step."""
     tableau = loads(text).tableau
     tableau = with_joined_terms(pair(tableau) if as_pair else tableau)
     problem = hamiltonian(name, terms_of(tableau))
-    (found,) = symplecticity_defects(
-        tableau, problem, H, [(fmpq(0), problem.initial)]
-    )
+    (found,) = symplecticity_defects(tableau, problem, H, [(fmpq(0), problem.initial)])
     return tableau, problem, found
 
 
@@ -69,8 +61,7 @@ def test_symplectic_steps(text: str, name: str, as_pair: bool) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "name"),
-    [(RK4, "kepler"), (EULER, "pendulum"), (COUPLED, "generic")],
+    ("text", "name"), [(RK4, "kepler"), (EULER, "pendulum"), (COUPLED, "generic")]
 )
 def test_other_steps(text: str, name: str) -> None:
     """What is not symplectic is seen, far above what the measurement is good to."""
@@ -90,10 +81,7 @@ def test_defect_of_explicit_euler() -> None:
 def test_defect_is_that_of_floats() -> None:
     """Plain differences in floats give the same, to the few digits they have."""
     tableau, problem, found = measured(RK4, "kepler")
-    method, y = (
-        bind(tableau, problem).at(),
-        [float(x.p) / float(x.q) for x in problem.initial],
-    )
+    method, y = (bind(tableau, problem).at(), [float(x.p) / float(x.q) for x in problem.initial])
     columns = []
     for i in range(4):
         ends = []
@@ -103,9 +91,7 @@ def test_defect_is_that_of_floats() -> None:
             ends.append(np.array(integrate(method, H, 1, moved)))
         columns.append((ends[0] - ends[1]) / 2e-5)
     M = np.stack(columns, axis=1)
-    J = np.block(
-        [[np.zeros((2, 2)), np.eye(2)], [-np.eye(2), np.zeros((2, 2))]]
-    )
+    J = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.eye(2), np.zeros((2, 2))]])
     assert found.size == pytest.approx(np.abs(M.T @ J @ M - J).max(), rel=1e-4)
 
 
@@ -114,9 +100,7 @@ def test_defect_has_the_order_of_the_method() -> None:
     tableau = loads(RK4).tableau
     problem = hamiltonian("henon-heiles", 1)
     sizes = [
-        symplecticity_defects(
-            tableau, problem, h, [(fmpq(0), problem.initial)]
-        )[0].size
+        symplecticity_defects(tableau, problem, h, [(fmpq(0), problem.initial)])[0].size
         for h in (fmpq(1, 20), fmpq(1, 40))
     ]
     assert np.log2(sizes[0] / sizes[1]) > 4.8
@@ -156,9 +140,7 @@ tableau:
 """
     tableau, problem = loads(text).tableau, hamiltonian("pendulum", 1)
     assert is_proved(tableau, problem, fmpq(1, 10**12))
-    assert is_proved(
-        tableau, problem
-    )  # these rounded ones are symplectic exactly
+    assert is_proved(tableau, problem)  # these rounded ones are symplectic exactly
     tableau = loads(text.replace("94813], [", "94812], [")).tableau
     assert is_proved(tableau, problem, fmpq(1, 10**12))
     assert not is_proved(tableau, problem)

@@ -35,10 +35,7 @@ waves = st.lists(
 
 def oscillation(parts: list[tuple[float, float, float]]) -> Floats:
     """The sum of the waves, from zero on as errors are."""
-    total = sum(
-        (a * np.cos(2 * np.pi * f * S + phase) for a, f, phase in parts),
-        np.zeros(N + 1),
-    )
+    total = sum((a * np.cos(2 * np.pi * f * S + phase) for a, f, phase in parts), np.zeros(N + 1))
     return np.asarray(total - total[0])
 
 
@@ -60,9 +57,7 @@ def test_slope_of_a_line_through_oscillations(
 
 @given(waves)
 @settings(max_examples=100, deadline=None)
-def test_oscillations_do_not_drift(
-    parts: list[tuple[float, float, float]],
-) -> None:
+def test_oscillations_do_not_drift(parts: list[tuple[float, float, float]]) -> None:
     """No slope beyond its uncertainty, and none of the other trends but by a beat slower than the
     run.
     """
@@ -92,9 +87,7 @@ def test_slow_modulation_is_no_drift(
     assert trend_of(signal - signal[0]).finding != "drift"
 
 
-@pytest.mark.parametrize(
-    ("slope", "finding"), [(0.02, "none"), (0.2, "undecided"), (2, "drift")]
-)
+@pytest.mark.parametrize(("slope", "finding"), [(0.02, "none"), (0.2, "undecided"), (2, "drift")])
 def test_three_findings(slope: float, finding: str) -> None:
     """Of one modulated oscillation, with drifts of different size."""
     slow = 1 + 0.1 * S
@@ -104,26 +97,18 @@ def test_three_findings(slope: float, finding: str) -> None:
 
 @given(
     st.lists(
-        st.tuples(st.floats(0.01, 1), st.floats(150, 900), st.floats(0, 6)),
-        min_size=1,
-        max_size=5,
+        st.tuples(st.floats(0.01, 1), st.floats(150, 900), st.floats(0, 6)), min_size=1, max_size=5
     )
 )
 @settings(max_examples=100, deadline=None)
-def test_uncertainty_of_fast_oscillations_is_tiny(
-    parts: list[tuple[float, float, float]],
-) -> None:
+def test_uncertainty_of_fast_oscillations_is_tiny(parts: list[tuple[float, float, float]]) -> None:
     """Hundreds of oscillations in the run: a drift of a millionth of their height is found, where
     they do not beat.
     """
     height = sum(a for a, _, _ in parts)
     found = trend_of(oscillation(parts) + 1e-6 * height * S)
     assert abs(found.slope * N - 1e-6 * height) < 1e-8 * height
-    beats = [
-        abs(f - g)
-        for k, (_, f, _) in enumerate(parts)
-        for _, g, _ in parts[:k]
-    ]
+    beats = [abs(f - g) for k, (_, f, _) in enumerate(parts) for _, g, _ in parts[:k]]
     if min(beats, default=np.inf) > 150:
         assert found.uncertainty * N < 1e-7 * height
         assert (found.finding, found.shape) == ("drift", "line")
@@ -137,9 +122,7 @@ def test_noise_has_an_uncertainty(seed: int, size: float) -> None:
     """
     draw = np.random.default_rng(seed)
     found = trend_of(size * (draw.normal(size=N + 1) + np.cos(400 * S)))
-    deviation = (
-        size * 8.0 / np.sqrt(N)
-    )  # of this weight's least squares, measured on many draws
+    deviation = size * 8.0 / np.sqrt(N)  # of this weight's least squares, measured on many draws
     assert deviation < found.uncertainty * N < 20 * deviation
 
 
@@ -167,9 +150,7 @@ def test_pieces_make_no_difference(
     for k in (0, 1):
         whole, found = trend_of(errors[:, k]), trends.of(k)
         scale = float(np.abs(errors[:, k]).max()) + 1e-300
-        assert found.slope * N == pytest.approx(
-            whole.slope * N, rel=1e-9, abs=1e-12 * scale
-        )
+        assert found.slope * N == pytest.approx(whole.slope * N, rel=1e-9, abs=1e-12 * scale)
         assert found.uncertainty == pytest.approx(whole.uncertainty, rel=1e-6)
         assert found.shape == whole.shape
 
@@ -177,15 +158,11 @@ def test_pieces_make_no_difference(
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("rate", [0.1, 1, 3, 5, 10, 30, 100, 1000])
 @pytest.mark.parametrize("oscillates", [0.0, 0.1])
-def test_what_is_no_line_is_a_trend(
-    sign: int, rate: float, oscillates: float
-) -> None:
+def test_what_is_no_line_is_a_trend(sign: int, rate: float, oscillates: float) -> None:
     """Growth that sets in late, and decay that is over soon, are trends too."""
     bend = np.expm1(-rate * S) / np.expm1(-rate)
     for errors in (bend, bend[::-1] - bend[-1]):
-        found = trend_of(
-            sign * (errors + oscillates * np.sin(2 * np.pi * 51.3 * S))
-        )
+        found = trend_of(sign * (errors + oscillates * np.sin(2 * np.pi * 51.3 * S)))
         assert found.shape != "none"
         if rate <= 3:
             assert found.finding == "drift"

@@ -43,12 +43,8 @@ def test_fields_are_read_and_put_in_one_line() -> None:
     assert reference.title == "A family of embedded Runge-Kutta formulae"
     assert reference.year == "1980"
     assert method.reference == str(reference)
-    assert method.reference.startswith(
-        "J. R. Dormand, P. J. Prince, A family of embedded"
-    )
-    assert method.reference.endswith(
-        "J. Comput. Appl. Math. 6(1) (1980), 19-26, table 2"
-    )
+    assert method.reference.startswith("J. R. Dormand, P. J. Prince, A family of embedded")
+    assert method.reference.endswith("J. Comput. Appl. Math. 6(1) (1980), 19-26, table 2")
 
 
 @pytest.mark.parametrize(
@@ -110,9 +106,7 @@ def test_the_line_of_other_works(reference: Reference, text: str) -> None:
         ("alias: [a]", "unknown key 'alias'", "'aliases'"),
     ],
 )
-def test_what_is_wrong_is_one_fault_with_its_cure(
-    text: str, message: str, cure: str
-) -> None:
+def test_what_is_wrong_is_one_fault_with_its_cure(text: str, message: str, cure: str) -> None:
     """Each mistake is told once, where it stands."""
     (fault,) = faults(text)
     assert message in fault.message

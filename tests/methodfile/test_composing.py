@@ -12,22 +12,7 @@ from garkcli.methodfile import reading
 from garkcli.methodfile.composing import TooLargeError, compose
 from garkcli.methodfile.source import METHOD_FILE
 
-PIECES = [
-    "a",
-    "1/2",
-    ": ",
-    "- ",
-    ", ",
-    "[",
-    "]",
-    "{",
-    "}",
-    "\n",
-    "  ",
-    "'",
-    "? ",
-    "# x",
-]
+PIECES = ["a", "1/2", ": ", "- ", ", ", "[", "]", "{", "}", "\n", "  ", "'", "? ", "# x"]
 FORMS = sorted(Path("methods").glob("*.yaml")) + sorted(
     Path("tests/examples/invalid").glob("*.yaml")
 )
@@ -37,9 +22,7 @@ def places(node: yaml.Node | None) -> object:
     """A node with all in it: kind, tag, text, style, where it begins and ends."""
     if node is None:
         return None
-    marks = [
-        (m.index, m.line, m.column) for m in (node.start_mark, node.end_mark)
-    ]
+    marks = [(m.index, m.line, m.column) for m in (node.start_mark, node.end_mark)]
     value = node.value
     if isinstance(node, yaml.SequenceNode):
         value = [places(x) for x in node.value]

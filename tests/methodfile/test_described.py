@@ -12,20 +12,12 @@ from jsonschema import Draft7Validator
 from garkcli.check.meanings import meanings
 from garkcli.cli.project import _READERS
 from garkcli.glossary.key import KINDS, keys_of
-from garkcli.methodfile.described import (
-    claimed_keys,
-    column_keys,
-    wanted_keys,
-)
+from garkcli.methodfile.described import claimed_keys, column_keys, wanted_keys
 from garkcli.methodfile.problem_schema import problem_file_schema
 from garkcli.methodfile.schema import method_file_schema
 from garkcli.sweep.load import sweep_schema
 
-SCHEMAS = {
-    "method": method_file_schema,
-    "problem": problem_file_schema,
-    "sweep": sweep_schema,
-}
+SCHEMAS = {"method": method_file_schema, "problem": problem_file_schema, "sweep": sweep_schema}
 
 
 def every_key(part: Any) -> Iterator[tuple[str, Any]]:
@@ -58,10 +50,7 @@ def test_every_key_is_described(kind: str) -> None:
     for name, key in found:
         assert key["description"].endswith("."), name
         validator = Draft7Validator({**key, "definitions": definitions})
-        examples = [
-            *key["examples"],
-            *([key["default"]] if "default" in key else []),
-        ]
+        examples = [*key["examples"], *([key["default"]] if "default" in key else [])]
         for example in examples:
             assert validator.is_valid(example), (name, example)
 

@@ -60,16 +60,9 @@ def test_an_invalid_file_is_refused_with_its_faults(
     assert places
     assert min(places) >= (1, 1)
     assert places == sorted(places)
-    assert max(line for line, _ in places) <= max(
-        1, error.text.count("\n") + 1
-    )
-    outcome = Outcome(
-        error.source, error.source, faults=error.faults, text=error.text
-    )
-    assert_recorded(
-        path.with_name(f"{stem(path)}.txt"),
-        faults_text(outcome, Paint()) + "\n",
-    )
+    assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
+    outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
+    assert_recorded(path.with_name(f"{stem(path)}.txt"), faults_text(outcome, Paint()) + "\n")
 
 
 def test_every_record_belongs_to_an_example() -> None:
@@ -95,9 +88,7 @@ def words(paths: list[Path]) -> str:
         ("sqrt(", "cbrt(", "root(", "^", "**"),
     ],
 )
-def test_the_valid_files_say_every_word_of_the_format(
-    vocabulary: tuple[str, ...],
-) -> None:
+def test_the_valid_files_say_every_word_of_the_format(vocabulary: tuple[str, ...]) -> None:
     """No key, form, structure, rule, claim, family or function is without an example that loads."""
     text = words(VALID + FAMILY_FILES)
     assert [word for word in vocabulary if word not in text] == []
@@ -107,10 +98,6 @@ def test_the_misprinted_table_fails_its_claim() -> None:
     """The collocation example as the paper prints it is a method, of order 2 where order 4 is
     claimed.
     """
-    outcome = check_file(
-        str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}")
-    )
-    assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [
-        ("order", "4", "2")
-    ]
+    outcome = check_file(str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}"))
+    assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [("order", "4", "2")]
     assert outcome.exit_code == 1

@@ -62,9 +62,7 @@ def claim(text: str, found: Analysis) -> Claim:
         ("symplectic: true", False),
     ],
 )
-def test_a_claim_holds_where_it_is_true(
-    text: str, holds: bool, analysis: Analysis
-) -> None:
+def test_a_claim_holds_where_it_is_true(text: str, holds: bool, analysis: Analysis) -> None:
     """A claim is neither held to less nor to more than it says."""
     assert claim(text, analysis).holds is holds
 
@@ -106,9 +104,7 @@ def test_no_conjugate_is_no_order() -> None:
 
 def test_rounded_coefficients_have_their_order_within_the_tolerance() -> None:
     """Gauss 2 to fifteen digits has order 4 within 1e-13, though order 1 exactly."""
-    rounded = (
-        Path(__file__).parents[1] / "examples" / "valid" / "rounded.gark.yaml"
-    )
+    rounded = Path(__file__).parents[1] / "examples" / "valid" / "rounded.gark.yaml"
     outcome = check_file(str(rounded))
     assert outcome.analysis is not None
     assert outcome.analysis.order.order == 4

@@ -95,30 +95,10 @@ ONE_FAULT = {
         "is a list",
         "[[0, 0], [1/2, 0]]",
     ),
-    "another long b": (
-        f"{TWO}b: [0, 1, 0]",
-        "[0, 1, 0]",
-        "b has 3 entries, A is 2 by 2",
-        "stage",
-    ),
-    "another long c": (
-        f"{TWO}b: [0, 1]\nc: [0, 1/2, 1]",
-        "[0, 1/2, 1]",
-        "c has 3",
-        "leave c out",
-    ),
-    "A is one row": (
-        "A: [[1/2, 1/2]]\nb: [1/2, 1/2]",
-        "[[1/2, 1/2]]",
-        "1 by 2",
-        "b has 2 entries",
-    ),
-    "uneven rows": (
-        "A: [[0, 0], [1/2, 0, 0]]\nb: [0, 1]",
-        "[1/2, 0, 0]",
-        "row 2 has 3",
-        "same",
-    ),
+    "another long b": (f"{TWO}b: [0, 1, 0]", "[0, 1, 0]", "b has 3 entries, A is 2 by 2", "stage"),
+    "another long c": (f"{TWO}b: [0, 1]\nc: [0, 1/2, 1]", "[0, 1/2, 1]", "c has 3", "leave c out"),
+    "A is one row": ("A: [[1/2, 1/2]]\nb: [1/2, 1/2]", "[[1/2, 1/2]]", "1 by 2", "b has 2 entries"),
+    "uneven rows": ("A: [[0, 0], [1/2, 0, 0]]\nb: [0, 1]", "[1/2, 0, 0]", "row 2 has 3", "same"),
     "no empty first row": (
         "A: [[1/2], [0, 1]]\nb: [1/6, 2/3, 1/6]",
         "[[1/2], [0, 1]]",
@@ -131,30 +111,15 @@ ONE_FAULT = {
         "one matrix",
         "embedded: […]",
     ),
-    "b is a row of a matrix": (
-        f"{TWO}b: [[0, 1]]",
-        "[[0, 1]]",
-        "one matrix",
-        "b: [0, 1]",
-    ),
+    "b is a row of a matrix": (f"{TWO}b: [[0, 1]]", "[[0, 1]]", "one matrix", "b: [0, 1]"),
     "embedded weights by name": (
         f"{TWO}b: [0, 1]\nbhat: [1, 0]",
         "bhat",
         "unknown key",
         "embedded: […]",
     ),
-    "one bracket more": (
-        "A: [[[0, 0], [1/2, 0]]]\nb: [[0, 1]]",
-        "[[[0",
-        "list of matrices",
-        "ark",
-    ),
-    "blocks and a row": (
-        "A: [[[[0, 0], [1/2, 0]]]]\nb: [0, 1]",
-        "[0, 1]",
-        "one row",
-        "one colour",
-    ),
+    "one bracket more": ("A: [[[0, 0], [1/2, 0]]]\nb: [[0, 1]]", "[[[0", "list of matrices", "ark"),
+    "blocks and a row": ("A: [[[[0, 0], [1/2, 0]]]]\nb: [0, 1]", "[0, 1]", "one row", "one colour"),
     "one matrix in an ark": (
         "ark: {A: [[0, 0], [1, 0]], b: [0, 1]}",
         "[[0",
@@ -162,25 +127,10 @@ ONE_FAULT = {
         "tableau:",
     ),
     "no b": (TWO, "[[0", "b missing", "give A, b"),
-    "no b in a tableau": (
-        "tableau: {A: [[0]]}",
-        "{A",
-        "b missing",
-        "give A, b",
-    ),
-    "a bordered array": (
-        "tableau: [[0, 0], [1, 1]]",
-        "[[0",
-        "a mapping",
-        "{A: [[0, 0]",
-    ),
+    "no b in a tableau": ("tableau: {A: [[0]]}", "{A", "b missing", "give A, b"),
+    "a bordered array": ("tableau: [[0, 0], [1, 1]]", "[[0", "a mapping", "{A: [[0, 0]"),
     "capitals": ("a: [[0]]\nb: [1]", "a", "unknown key 'a'", "'A'"),
-    "a slip": (
-        "methds: [{family: gauss, stages: 2}]",
-        "methds",
-        "unknown key",
-        "'methods'",
-    ),
+    "a slip": ("methds: [{family: gauss, stages: 2}]", "methds", "unknown key", "'methods'"),
     "weights": ("A: [[0]]\nweights: [1]", "weights", "unknown key", "'b'"),
     "the claim at the top": (
         "A: [[0]]\nb: [1]\norder: 1",
@@ -194,18 +144,8 @@ ONE_FAULT = {
         "unknown keys",
         "methods: [{family",
     ),
-    "a word for a method": (
-        "methods: [gauss]",
-        "gauss",
-        "a mapping",
-        "{family: gauss, stages: 2}",
-    ),
-    "a word for methods": (
-        "methods: gauss",
-        "gauss",
-        "a list",
-        "[{family: gauss",
-    ),
+    "a word for a method": ("methods: [gauss]", "gauss", "a mapping", "{family: gauss, stages: 2}"),
+    "a word for methods": ("methods: gauss", "gauss", "a list", "[{family: gauss"),
     "numbered methods": (
         "methods: {1: {family: gauss, stages: 2}}",
         "{1",
@@ -268,48 +208,23 @@ ONE_FAULT = {
         "'a11' is not a parameter (also at 1:11, 1:19, 1:24 and in 2 more places)",
         "define it",
     ),
-    "Fortran's exponents": (
-        f"{TWO}b: [0.0d0, 1.0d0]",
-        "0.0d0",
-        "'0.0d0'",
-        "with e: 0.0e0",
-    ),
+    "Fortran's exponents": (f"{TWO}b: [0.0d0, 1.0d0]", "0.0d0", "'0.0d0'", "with e: 0.0e0"),
     "Fortran's kinds": (
         f"{TWO}b: [0.5_dp, 0.25_dp]",
         "0.5_dp",
         "also at 2:13",
         "leave the kind out",
     ),
-    "C's suffixes": (
-        f"{TWO}b: [0.0f, 1.0f]",
-        "0.0f",
-        "also at 2:11",
-        "leave the suffix out: 0.0",
-    ),
-    "Python's math": (
-        f"{TWO}b: [0, math.sqrt(2)]",
-        "math.sqrt",
-        "math.sqrt",
-        "write sqrt(x)",
-    ),
+    "C's suffixes": (f"{TWO}b: [0.0f, 1.0f]", "0.0f", "also at 2:11", "leave the suffix out: 0.0"),
+    "Python's math": (f"{TWO}b: [0, math.sqrt(2)]", "math.sqrt", "math.sqrt", "write sqrt(x)"),
     "Python's Fraction": (
         f"{TWO}b: [0, 'Fraction(1, 2)']",
         "Fraction",
         "Fraction",
         "write fractions as",
     ),
-    "Julia's fractions": (
-        f"{TWO}b: [1//2, 1//2]",
-        "1//2",
-        "also at 2:11",
-        "write 1/2",
-    ),
-    "LaTeX": (
-        f"{TWO}b: [0, '\\frac{{1}}{{2}}']",
-        "\\frac",
-        "frac",
-        "write fractions as 1/2",
-    ),
+    "Julia's fractions": (f"{TWO}b: [1//2, 1//2]", "1//2", "also at 2:11", "write 1/2"),
+    "LaTeX": (f"{TWO}b: [0, '\\frac{{1}}{{2}}']", "\\frac", "frac", "write fractions as 1/2"),
     "a root cut by YAML": (
         "A: [[1, root(3, 2)], [1, 1]]\nb: [0, 1]",
         "root(3",
@@ -328,18 +243,8 @@ ONE_FAULT = {
         "not a number",
         "finite",
     ),
-    "an order for expect": (
-        "A: [[0]]\nb: [1]\nexpect: 1",
-        "1",
-        "a mapping",
-        "expect: {order: 4}",
-    ),
-    "an equation": (
-        "A = [[0]]\nb = [1]",
-        "A =",
-        "a mapping of keys",
-        "A: in place of A =",
-    ),
+    "an order for expect": ("A: [[0]]\nb: [1]\nexpect: 1", "1", "a mapping", "expect: {order: 4}"),
+    "an equation": ("A = [[0]]\nb = [1]", "A =", "a mapping of keys", "A: in place of A ="),
     "a matrix of LaTeX": (
         "\\begin{array}{c|c}\n0 & 0 \\\\\n & 1\n\\end{array}",
         "\\begin",
@@ -412,12 +317,7 @@ ONE_FAULT = {
         "a matrix is a list",
         "with commas: [[0, 0], [1/2, 0]]",
     ),
-    "an open bracket": (
-        "A: [[0]\nb: [1]",
-        "b: [1]",
-        "not YAML",
-        "the bracket at 1:4 is open",
-    ),
+    "an open bracket": ("A: [[0]\nb: [1]", "b: [1]", "not YAML", "the bracket at 1:4 is open"),
     "a tab": ("tableau:\n\tA: [[0]]", "\tA", "not YAML", "indent with spaces"),
 }
 
@@ -461,8 +361,7 @@ def test_signs_from_a_file_are_written_out() -> None:
     assert len(caught.value.faults) > 4
     assert all(sign.isprintable() or sign == "\n" for sign in shown)
     assert all(
-        fault.message.isprintable() and fault.help.isprintable()
-        for fault in caught.value.faults
+        fault.message.isprintable() and fault.help.isprintable() for fault in caught.value.faults
     )
 
 
@@ -472,10 +371,7 @@ def test_an_error_is_its_own_report() -> None:
         loads("A: [[0, 0], [O.5, 0]]\nb: [0, 1]\n", "first.gark.yaml")
     lines = str(caught.value).splitlines()
     assert lines[0].startswith("first.gark.yaml:1:15: A, row 2, entry 1: ")
-    assert lines[1:3] == [
-        "    1 | A: [[0, 0], [O.5, 0]]",
-        "      |               ^",
-    ]
+    assert lines[1:3] == ["    1 | A: [[0, 0], [O.5, 0]]", "      |               ^"]
     assert lines[3].startswith("      help: ")
 
 

@@ -25,19 +25,13 @@ from garkcli.tableau.method import butcher
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES, combination, symplectic_blocks
 
-GAUSS, LOBATTO = (
-    diagonal_method("gauss", 2),
-    diagonal_method("lobatto-iiia", 3),
-)
+GAUSS, LOBATTO = (diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3))
 TWO = "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\n"
 
 
 def rows(*lines: str) -> tuple[tuple[Number, ...], ...]:
     """A matrix from lines of fractions."""
-    return tuple(
-        tuple(fmpq(*map(int, word.split("/"))) for word in line.split())
-        for line in lines
-    )
+    return tuple(tuple(fmpq(*map(int, word.split("/"))) for word in line.split()) for line in lines)
 
 
 def tableau(text: str) -> Tableau:
@@ -55,10 +49,7 @@ def graph_of(found: Tableau) -> tuple[set[tuple[int, int]], set[int]]:
 def coupled(rule: str) -> Tableau:
     """Gauss 2 and Lobatto IIIA 3 with both blocks made by a rule."""
     make = RULES[rule]
-    return gark(
-        [GAUSS, LOBATTO],
-        {(0, 1): make(GAUSS, LOBATTO), (1, 0): make(LOBATTO, GAUSS)},
-    )
+    return gark([GAUSS, LOBATTO], {(0, 1): make(GAUSS, LOBATTO), (1, 0): make(LOBATTO, GAUSS)})
 
 
 @pytest.mark.parametrize("family", BY_STAGES)
@@ -87,9 +78,7 @@ def test_a_rule_for_pairs_builds_on_the_smaller_order(rule: str) -> None:
     assert tableau(f"{TWO}transfer: {rule}") == gark([GAUSS, LOBATTO], blocks)
     swapped = "methods: [{family: lobatto-iiia, stages: 3}, {family: gauss, stages: 2}]\n"
     other = {(1 - l, 1 - m): block for (l, m), block in blocks.items()}
-    assert tableau(f"{swapped}transfer: {rule}") == gark(
-        [LOBATTO, GAUSS], other
-    )
+    assert tableau(f"{swapped}transfer: {rule}") == gark([LOBATTO, GAUSS], other)
     assert tableau(f'{TWO}transfer: {{blocks: {{"2,1": {rule}}}}}') == gark(
         [GAUSS, LOBATTO], blocks
     )
@@ -98,10 +87,7 @@ def test_a_rule_for_pairs_builds_on_the_smaller_order(rule: str) -> None:
 def test_a_combination_is_linear_in_its_weights() -> None:
     """The weights of eq. (lincomb) may be parameters, and the block is Σ τ A."""
     text = f"{TWO}parameters: {{tau: 1/3}}\ntransfer: {{interpolation: tau, collocation: 1 - tau}}"
-    terms = [
-        (fmpq(1, 3), RULES["interpolation"]),
-        (fmpq(2, 3), RULES["collocation"]),
-    ]
+    terms = [(fmpq(1, 3), RULES["interpolation"]), (fmpq(2, 3), RULES["collocation"])]
     blocks = {
         (0, 1): combination(terms, GAUSS, LOBATTO),
         (1, 0): combination(terms, LOBATTO, GAUSS),
@@ -129,10 +115,7 @@ def test_a_spelled_out_block_stands_as_it_is_written() -> None:
         butcher(rows("1/2"), rows("1")[0]),
         butcher(rows("0 0", "1/2 1/2"), rows("1/2 1/2")[0]),
     ]
-    blocks = {
-        (0, 1): rows("1/3 1/6"),
-        (1, 0): RULES["collocation"](methods[1], methods[0]),
-    }
+    blocks = {(0, 1): rows("1/3 1/6"), (1, 0): RULES["collocation"](methods[1], methods[0])}
     assert tableau(text) == gark(methods, blocks)
 
 
@@ -146,9 +129,7 @@ def test_a_block_beside_a_family_is_exact_in_its_nodes() -> None:
 """
     from garkcli.tableau.pointwise import entries
 
-    assert str(entries(tableau(text)).A) == str(
-        entries(coupled("collocation")).A
-    )
+    assert str(entries(tableau(text)).A) == str(entries(coupled("collocation")).A)
 
 
 def test_a_spelled_out_tableau_is_its_blocks() -> None:
@@ -161,9 +142,7 @@ def test_a_spelled_out_tableau_is_its_blocks() -> None:
     """
     A = [[None, rows("1/2 0")], [rows("0", "1"), None]]
     b = [rows("1")[0], rows("1/2 1/2")[0]]
-    assert tableau(text) == spelled_out(
-        A, b, [rows("1/2")[0], rows("0 1")[0]], [0]
-    )
+    assert tableau(text) == spelled_out(A, b, [rows("1/2")[0], rows("0 1")[0]], [0])
     assert graph_of(tableau(text)) == ({(0, 1), (1, 0)}, {0})
 
 
@@ -172,14 +151,8 @@ def test_nodes_default_to_row_sums() -> None:
     says.
     """
     blocks = "A: [[[[1/4, 1/4], [1/3, 1/3]]]], b: [[1/2, 1/2]]"
-    assert tableau(f"tableau: {{{blocks}}}").colours[0].c == (
-        fmpq(1, 2),
-        fmpq(2, 3),
-    )
-    assert tableau(f"tableau: {{{blocks}, c: [[0, 1]]}}").colours[0].c == (
-        0,
-        1,
-    )
+    assert tableau(f"tableau: {{{blocks}}}").colours[0].c == (fmpq(1, 2), fmpq(2, 3))
+    assert tableau(f"tableau: {{{blocks}, c: [[0, 1]]}}").colours[0].c == (0, 1)
 
 
 def test_an_additive_method_shares_its_stages() -> None:
@@ -202,9 +175,7 @@ def test_a_partitioned_method_takes_its_parts() -> None:
     """
     b = rows("1/2 1/2")[0]
     Q, P = rows("0 0", "1/2 1/2"), rows("1/2 0", "1/2 0")
-    assert tableau(PRK) == partitioned(
-        butcher(Q, b), butcher(P, b, rows("0 1")[0])
-    )
+    assert tableau(PRK) == partitioned(butcher(Q, b), butcher(P, b, rows("0 1")[0]))
     separable = separable_prk((Q, b, None), (P, b, rows("0 1")[0]))
     assert tableau(f"{PRK}structure: separable") == separable
     assert tableau(f"{PRK}structure: nystrom") == with_linear(separable, ["q"])
@@ -236,9 +207,7 @@ def test_a_structure_keeps_the_vector_fields_of_its_problem(
     others.
     """
     found = tableau(f"{TWO}transfer: collocation\nstructure: {structure}")
-    assert found == with_linear(
-        symplectic_pair(coupled("collocation"), velocities, forces), linear
-    )
+    assert found == with_linear(symplectic_pair(coupled("collocation"), velocities, forces), linear)
     assert graph_of(found) == (graph, {0} if linear else set())
 
 
@@ -246,12 +215,10 @@ def test_conjugate_true_is_the_conjugate() -> None:
     """``conjugate: true`` is the symplectic conjugate of what the file says, ``false`` is the
     file.
     """
-    assert tableau(
-        f"{TWO}transfer: collocation\nconjugate: true"
-    ) == conjugate(coupled("collocation"))
-    assert tableau(f"{TWO}transfer: collocation\nconjugate: false") == coupled(
-        "collocation"
+    assert tableau(f"{TWO}transfer: collocation\nconjugate: true") == conjugate(
+        coupled("collocation")
     )
+    assert tableau(f"{TWO}transfer: collocation\nconjugate: false") == coupled("collocation")
     assert loads(f"{TWO}transfer: collocation\nconjugate: true").is_conjugate
 
 
@@ -264,36 +231,20 @@ def test_a_general_file_is_not_paired() -> None:
 def test_the_parts_of_a_file_are_kept() -> None:
     """Name, description, reference, tolerance, form and structure arrive as written."""
     method = loads(
-        f"{TWO}transfer: collocation\nname: N\ndescription: D\nreference: R\ntolerance: 1e-3",
-        "s",
+        f"{TWO}transfer: collocation\nname: N\ndescription: D\nreference: R\ntolerance: 1e-3", "s"
     )
-    assert (method.name, method.description, method.reference) == (
-        "N",
-        "D",
-        "R",
-    )
-    assert (method.source, method.form, method.structure) == (
-        "s",
-        "methods",
-        "general",
-    )
+    assert (method.name, method.description, method.reference) == ("N", "D", "R")
+    assert (method.source, method.form, method.structure) == ("s", "methods", "general")
     assert method.tolerance == fmpq(1, 1000)
     assert loads(TWO + "transfer: collocation", "s").name == "s"
 
 
-def test_patterns_and_directories_stand_for_their_files(
-    tmp_path: Path,
-) -> None:
+def test_patterns_and_directories_stand_for_their_files(tmp_path: Path) -> None:
     """A pattern means what it matches, a directory its method files, and what means nothing is
     kept.
     """
     (tmp_path / "deep").mkdir()
-    for name in (
-        "b.gark.yaml",
-        "a.gark.yaml",
-        "deep/c.gark.yaml",
-        "other.yaml",
-    ):
+    for name in ("b.gark.yaml", "a.gark.yaml", "deep/c.gark.yaml", "other.yaml"):
         (tmp_path / name).write_text("methods: [{family: rk4}]\n")
 
     def found(*paths: str) -> list[str]:

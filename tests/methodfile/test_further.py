@@ -40,8 +40,7 @@ FORMS = {
         [["1", "0"], ["3"]],
     ),
     "blocks": (
-        "tableau: {A: [[[[0]], null], [[[1]], [[1/2]]]], b: [[1], [1]],"
-        " embedded: [[2], [3]]}",
+        "tableau: {A: [[[[0]], null], [[[1]], [[1/2]]]], b: [[1], [1]], embedded: [[2], [3]]}",
         [["2"], ["3"]],
     ),
     "ark, a row a colour": (
@@ -49,8 +48,7 @@ FORMS = {
         [["2"], ["3"]],
     ),
     "ark, one row": (
-        "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [0, 1],"
-        " embedded: [2, 3]}",
+        "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [0, 1], embedded: [2, 3]}",
         [["2", "3"], ["2", "3"]],
     ),
     "prk": (
@@ -62,10 +60,7 @@ FORMS = {
         "transfer: interpolation\nstructure: semi-separable",
         [["1", "0"], ["1", "0"], ["0", "1"]],
     ),
-    "a parameter": (
-        f"parameters: {{w: 1/3}}\n{HEUN}embedded: [w, 1 - w]",
-        [["1/3", "2/3"]],
-    ),
+    "a parameter": (f"parameters: {{w: 1/3}}\n{HEUN}embedded: [w, 1 - w]", [["1/3", "2/3"]]),
 }
 
 
@@ -95,12 +90,8 @@ def test_dense_output_has_a_polynomial_a_stage() -> None:
     assert dense is not None
     assert dense.degree == 3
     assert dense.weights[0][0] == (fmpq(1), fmpq(-4, 3), fmpq(5, 9))
-    assert dense.coefficients(2) == (
-        (fmpq(-4, 3), fmpq(1), fmpq(4, 3), fmpq(-1)),
-    )
-    assert dense.at(fmpq(1)) == (
-        (fmpq(2, 9), fmpq(1, 3), fmpq(4, 9), fmpq(0)),
-    )
+    assert dense.coefficients(2) == ((fmpq(-4, 3), fmpq(1), fmpq(4, 3), fmpq(-1)),)
+    assert dense.at(fmpq(1)) == ((fmpq(2, 9), fmpq(1, 3), fmpq(4, 9), fmpq(0)),)
     assert dense.at(fmpq(0)) == ((fmpq(0),) * 4,)
 
 
@@ -108,14 +99,9 @@ def test_methods_may_have_dense_output_of_different_degree() -> None:
     """The shorter polynomials get zeros, so that all have the coefficients of one degree."""
     one = "dense: {degree: 1, weights: [[1], [0]]}"
     two = "dense: {degree: 2, weights: [[1, 2], [3, 4]]}"
-    method = loads(
-        f"methods: [{TWO}, {one}}}, {TWO}, {two}}}]\ntransfer: interpolation"
-    )
+    method = loads(f"methods: [{TWO}, {one}}}, {TWO}, {two}}}]\ntransfer: interpolation")
     assert method.dense is not None
-    assert method.dense.weights[0] == (
-        (fmpq(1), fmpq(0)),
-        (fmpq(0), fmpq(0)),
-    )
+    assert method.dense.weights[0] == ((fmpq(1), fmpq(0)), (fmpq(0), fmpq(0)))
 
 
 FAULTS = {
@@ -123,8 +109,7 @@ FAULTS = {
     "a matrix": (f"{HEUN}embedded: [[1, 0]]", 3, "in a list, for one colour"),
     "an unknown": (f'{HEUN}embedded: ["?", 0]', 3, "stands for an entry"),
     "one row for two": (
-        "tableau:\n  A: [[[[0]], null], [null, [[0]]]]\n  b: [[1], [1]]\n"
-        "  embedded: [1, 1]",
+        "tableau:\n  A: [[[[0]], null], [null, [[0]]]]\n  b: [[1], [1]]\n  embedded: [1, 1]",
         4,
         "embedded has one row for 2 colours",
     ),
@@ -134,29 +119,19 @@ FAULTS = {
         "q has it and p does not",
     ),
     "inside of a row": (
-        "tableau:\n  A: [[[[0]], null], [null, [[0]]]]\n  b: [[1], [1]]\n"
-        "  embedded: [[1], [1, 2]]",
+        "tableau:\n  A: [[[[0]], null], [null, [[0]]]]\n  b: [[1], [1]]\n  embedded: [[1], [1, 2]]",
         4,
         "embedded^{2} has 2 entries for 1 stage",
     ),
-    "dense without a degree": (
-        f"{HEUN}dense: {{weights: [[1], [0]]}}",
-        3,
-        "dense: degree missing",
-    ),
+    "dense without a degree": (f"{HEUN}dense: {{weights: [[1], [0]]}}", 3, "dense: degree missing"),
     "dense rows": (
         f"{HEUN}dense: {{degree: 1, weights: [[1]]}}",
         3,
         "dense, weights has 1 row for 2 stages",
     ),
-    "dense degree": (
-        f"{HEUN}dense: {{degree: 61, weights: [[1], [0]]}}",
-        3,
-        "at most 60",
-    ),
+    "dense degree": (f"{HEUN}dense: {{degree: 61, weights: [[1], [0]]}}", 3, "at most 60"),
     "dense blocks": (
-        "ark:\n  A: [[[0]], [[1]]]\n  b: [1]\n"
-        "  dense: {degree: 1, weights: [[[1]], [[1]], [[1]]]}",
+        "ark:\n  A: [[[0]], [[1]]]\n  b: [1]\n  dense: {degree: 1, weights: [[[1]], [[1]], [[1]]]}",
         4,
         "dense, weights has 3 blocks for 2 colours",
     ),
@@ -208,9 +183,7 @@ def further_of(draw: st.DrawFn, stages: list[int], degree: int) -> Further:
 
 @given(st.data())
 @settings(max_examples=40)
-def test_a_written_file_has_the_same_further_weights(
-    data: st.DataObject,
-) -> None:
+def test_a_written_file_has_the_same_further_weights(data: st.DataObject) -> None:
     """Whatever the tableau, embedded weights and dense output survive writing and reading."""
     tableau = data.draw(tableaus())
     stages = [len(colour.b) for colour in tableau.colours]
@@ -233,14 +206,10 @@ def test_examples_come_back_from_their_spelled_out_file(path: Path) -> None:
     text = write_tableau_file(method.tableau, "again", further=method.further)
     assert texts(loads(text).further) == texts(method.further)
     decimals = entries(method.tableau).in_decimals(20)
-    rounded = loads(
-        write_rounded(method.tableau, decimals, "rounded", method.further)
-    )
+    rounded = loads(write_rounded(method.tableau, decimals, "rounded", method.further))
     assert shape(rounded.further) == shape(method.further)
     assert rounded.embedded is None or method.embedded is not None
-    for row, exact in zip(
-        rounded.embedded or (), method.embedded or (), strict=True
-    ):
+    for row, exact in zip(rounded.embedded or (), method.embedded or (), strict=True):
         for x, y in zip(row, exact, strict=True):
             assert within(x - y, fmpq(1, 10**18))
 
@@ -295,8 +264,5 @@ def test_a_tableau_with_its_own_weights_is_itself(tableau: Tableau) -> None:
     assert with_weights(tableau, own) == tableau
     zeros = tuple(tuple(fmpq(0) for _ in row) for row in own)
     changed = with_weights(tableau, zeros)
-    back = [
-        replace(colour, b=row)
-        for colour, row in zip(changed.colours, own, strict=True)
-    ]
+    back = [replace(colour, b=row) for colour, row in zip(changed.colours, own, strict=True)]
     assert replace(changed, colours=tuple(back)) == tableau

@@ -23,9 +23,7 @@ from garkcli.errors import MethodFileError
 from tests.cli.harness import ROOT, Run
 from tests.cli.harness import gark as call
 
-resource = pytest.importorskip(
-    "resource", reason="no limits on processes here"
-)
+resource = pytest.importorskip("resource", reason="no limits on processes here")
 
 SECONDS = 5.0
 """Processor time that no answer may take, so that a busy machine does not matter."""
@@ -37,25 +35,16 @@ FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 def _limited() -> None:
     with suppress(ValueError, OSError):  # macOS has the limit and refuses it
-        resource.setrlimit(
-            resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20)
-        )
+        resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 def environment() -> dict[str, str]:
     """That of a plain terminal of 80 columns."""
-    return {
-        **os.environ,
-        "PYTHONPATH": str(ROOT),
-        "COLUMNS": "80",
-        "OPENBLAS_NUM_THREADS": "1",
-    }
+    return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80", "OPENBLAS_NUM_THREADS": "1"}
 
 
-def gark(
-    *arguments: str, cwd: Path = ROOT, stdin: bytes = b""
-) -> subprocess.CompletedProcess[str]:
+def gark(*arguments: str, cwd: Path = ROOT, stdin: bytes = b"") -> subprocess.CompletedProcess[str]:
     """A run within the limits."""
     done = subprocess.run(
         [sys.executable, "-m", "garkcli", *arguments],
@@ -80,9 +69,7 @@ def refused(run: subprocess.CompletedProcess[str] | Run) -> str:
     The run is a process, or a call in this one where limits change nothing.
     """
     if isinstance(run, Run):
-        run = subprocess.CompletedProcess(
-            "gark", int(str(run.code)), run.out, run.err
-        )
+        run = subprocess.CompletedProcess("gark", int(str(run.code)), run.out, run.err)
     text = run.stdout + run.stderr
     assert "Traceback" not in text
     assert "internal fault" not in text
@@ -99,10 +86,7 @@ def number(text: str) -> str:
 def bomb(levels: int, width: int) -> str:
     """Anchors of anchors: ``width`` to the power of ``levels`` values."""
     lines = ["name: bomb", "a0: &a0 [1/2, 1/2]"]
-    lines += [
-        f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * width)}]"
-        for k in range(1, levels)
-    ]
+    lines += [f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * width)}]" for k in range(1, levels)]
     return "\n".join([*lines, f"methods: *a{levels - 1}\n"])
 
 
@@ -243,45 +227,23 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Answer]:
         )
     (folder / "good.yaml").write_text(number("1/2 - sqrt(3)/6"))
     (folder / "bad.yaml").write_text(number("1/"))
-    command = [
-        sys.executable,
-        "-c",
-        ONE_BY_ONE,
-        str(MEGABYTES),
-        *names.values(),
-    ]
+    command = [sys.executable, "-c", ONE_BY_ONE, str(MEGABYTES), *names.values()]
     done = subprocess.run(
-        command,
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=120,
+        command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120
     )
     assert done.returncode == 0, done.stderr
     found = [json.loads(line) for line in done.stdout.splitlines()]
-    texts = [
-        (folder / f"{name}.report").read_text(errors="replace")
-        for name in names.values()
-    ]
-    return {
-        what: Answer(*x, text)
-        for what, x, text in zip(HOSTILE, found, texts, strict=True)
-    }
+    texts = [(folder / f"{name}.report").read_text(errors="replace") for name in names.values()]
+    return {what: Answer(*x, text) for what, x, text in zip(HOSTILE, found, texts, strict=True)}
 
 
 @pytest.mark.parametrize("what", HOSTILE)
-def test_a_hostile_file_is_refused(
-    what: str, answers: dict[str, Answer]
-) -> None:
+def test_a_hostile_file_is_refused(what: str, answers: dict[str, Answer]) -> None:
     """Exit code 2 and a message, soon, in little memory; nothing in the file was executed."""
     answer = answers[what]
     assert "Traceback" not in answer.text
     assert answer.code == 2, answer.text[-500:]
-    assert re.match(
-        r"m[0-9]+\.gark\.yaml(:[0-9]+:[0-9]+)?: error\[[a-z0-9-]+\]: .",
-        answer.text,
-    )
+    assert re.match(r"m[0-9]+\.gark\.yaml(:[0-9]+:[0-9]+)?: error\[[a-z0-9-]+\]: .", answer.text)
     assert answer.seconds < SECONDS
     assert answer.megabytes < 1000
     lines = answer.text.splitlines()
@@ -294,29 +256,20 @@ def test_a_tag_runs_nothing(tmp_path: Path) -> None:
     (tmp_path / "m.gark.yaml").write_text(
         "methods: [{A: [[!!python/object/apply:os.system 'echo pwned']], b: [1]}]\n"
     )
-    assert (
-        "pwned"
-        not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
-    )
+    assert "pwned" not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
 
 
 def big_explicit(stages: int, entry: str) -> str:
     """An explicit method that is well formed: ``entry`` below the diagonal, equal weights."""
-    rows = [
-        f"[{', '.join([entry] * i + ['0'] * (stages - i))}]"
-        for i in range(stages)
-    ]
+    rows = [f"[{', '.join([entry] * i + ['0'] * (stages - i))}]" for i in range(stages)]
     weights = ", ".join([f"1/{stages}"] * stages)
     return f"methods:\n- A: [{', '.join(rows)}]\n  b: [{weights}]\n"
 
 
 @pytest.mark.parametrize(
-    ("stages", "entry"),
-    [(300, "1/300"), (100, "'sqrt(2)/100'"), (100, "'cbrt(2)/100'")],
+    ("stages", "entry"), [(300, "1/300"), (100, "'sqrt(2)/100'"), (100, "'cbrt(2)/100'")]
 )
-def test_a_big_method_is_answered_or_refused(
-    stages: int, entry: str, tmp_path: Path
-) -> None:
+def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: Path) -> None:
     """Hundreds of explicit stages, rational or not: an order or a refusal, in 5 seconds of work and
     500 MB.
     """
@@ -341,9 +294,7 @@ def test_a_big_method_is_answered_or_refused(
         preexec_fn=_limited,
     )
     assert done.returncode in {0, 2}, done.stderr[-500:]
-    assert (
-        '"order": 1,' if done.returncode == 0 else '"errors"'
-    ) in done.stdout
+    assert ('"order": 1,' if done.returncode == 0 else '"errors"') in done.stdout
     seconds, megabytes = map(float, done.stderr.split()[-2:])
     assert seconds < SECONDS
     assert megabytes < 500
@@ -371,14 +322,10 @@ def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
     for name in names:
         assert name in refused(call("check", name, cwd=tmp_path))
     assert "/dev/zero" in refused(gark("check", "/dev/zero", cwd=tmp_path))
-    assert "fifo.gark.yaml" in refused(
-        gark("check", ".", "-j", "2", cwd=tmp_path)
-    )
+    assert "fifo.gark.yaml" in refused(gark("check", ".", "-j", "2", cwd=tmp_path))
 
 
-@pytest.mark.parametrize(
-    "command", ["tableau", "conjugate", "converge", "conditions"]
-)
+@pytest.mark.parametrize("command", ["tableau", "conjugate", "converge", "conditions"])
 def test_other_commands_refuse_them_too(command: str, tmp_path: Path) -> None:
     """Every command that reads a method refuses a FIFO, a bomb and junk on standard input."""
     os.mkfifo(tmp_path / "fifo.gark.yaml")
@@ -412,21 +359,14 @@ def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
     process = gark("check", ".", cwd=tmp_path)
     assert (process.returncode, process.stderr) == (1, "")
     for format in ("text", "json", "sarif", "junit", "github", "markdown"):
-        run = call(
-            "check", ".", "--format", format, cwd=tmp_path, encoding="utf-8"
-        )
+        run = call("check", ".", "--format", format, cwd=tmp_path, encoding="utf-8")
         assert (run.code, run.err) == (1, "")
 
 
 # -- where a report goes
 # ------------------------------------------------------------------------------------------
 
-RUNS = [
-    ("check", FAILING),
-    ("trees", "-N", "3", "-n", "7"),
-    ("list",),
-    ("schema",),
-]
+RUNS = [("check", FAILING), ("trees", "-N", "3", "-n", "7"), ("list",), ("schema",)]
 
 
 @pytest.mark.parametrize("arguments", RUNS, ids=lambda arguments: arguments[0])
@@ -435,12 +375,7 @@ def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     command = [sys.executable, "-m", "garkcli", *arguments]
     with Path("/dev/full").open("w", encoding="utf-8") as full:
         done = subprocess.run(
-            command,
-            cwd=ROOT,
-            env=environment(),
-            stdout=full,
-            stderr=subprocess.PIPE,
-            text=True,
+            command, cwd=ROOT, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True
         )
     assert (done.returncode, done.stderr) == (
         2,
@@ -448,9 +383,7 @@ def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     )
     run = call(*arguments, "-o", "/dev/full")
     assert (run.code, run.out) == (2, "")
-    assert run.err.startswith(
-        "gark: cannot write /dev/full: No space left on device\n"
-    )
+    assert run.err.startswith("gark: cannot write /dev/full: No space left on device\n")
 
 
 def test_a_place_that_cannot_be_written_is_said(tmp_path: Path) -> None:
@@ -502,9 +435,7 @@ def test_a_file_limit_leaves_nothing_half_written(tmp_path: Path) -> None:
     assert (tmp_path / "trees.csv").read_text() == "old\n"
 
 
-def interrupted(
-    arguments: Sequence[str], cwd: Path, ready: str
-) -> tuple[int, str]:
+def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, str]:
     """Exit code and stderr of a run that gets ^C once ``ready`` is true, with its workers, as from
     a terminal.
     """
@@ -517,9 +448,7 @@ def interrupted(
         text=True,
         start_new_session=True,
         # what is started in the background of a script ignores ^C, and so do its children
-        preexec_fn=lambda: signal.signal(
-            signal.SIGINT, signal.default_int_handler
-        ),
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     with running:
         try:
@@ -530,9 +459,7 @@ def interrupted(
                 and not _ready(running.pid, cwd, ready)
             ):
                 time.sleep(0.01)
-            assert running.poll() is None, (
-                "the work was done before it could be interrupted"
-            )
+            assert running.poll() is None, "the work was done before it could be interrupted"
             os.killpg(running.pid, signal.SIGINT)
             _, err = running.communicate(timeout=PATIENCE)
         finally:
@@ -543,49 +470,29 @@ def interrupted(
 def _ready(pid: int, cwd: Path, ready: str) -> bool:
     """Whether a temporary file has been begun, or workers have been started."""
     if ready == "file":
-        return any(
-            x.name.startswith(".") and x.stat().st_size > 0
-            for x in cwd.iterdir()
-        )
+        return any(x.name.startswith(".") and x.stat().st_size > 0 for x in cwd.iterdir())
     children = Path(f"/proc/{pid}/task/{pid}/children")
     return len(children.read_text(encoding="utf-8").split()) >= 2
 
 
-@pytest.mark.skipif(
-    not Path("/proc/self/task").exists(), reason="needs /proc to see workers"
-)
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="needs /proc to see workers")
 def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
     """^C during a check of many files by two workers: exit code 130, no traceback, no worker and no
     file left.
     """
     # minutes of work in all, so that none of it is done before a busy machine gets to the ^C
-    methods = (
-        "[{family: gauss, stages: 90}, {family: lobatto-iiia, stages: 91}]"
-    )
+    methods = "[{family: gauss, stages: 90}, {family: lobatto-iiia, stages: 91}]"
     slow = f"methods: {methods}\ntransfer: collocation\n"
     for k in range(40):
         (tmp_path / f"m{k}.gark.yaml").write_text(slow)
-    code, err = interrupted(
-        ("check", "-j", "2", ".", "-o", "report"), tmp_path, "workers"
-    )
+    code, err = interrupted(("check", "-j", "2", ".", "-o", "report"), tmp_path, "workers")
     assert (code, err.strip()) == (130, "")
     assert {x.suffix for x in tmp_path.iterdir()} == {".yaml"}
 
 
 def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     """^C during a long listing into a file: exit code 130, no traceback, no file under any name."""
-    arguments = (
-        "trees",
-        "-N",
-        "4",
-        "-n",
-        "9",
-        "--yes",
-        "--format",
-        "csv",
-        "-o",
-        "trees.csv",
-    )
+    arguments = ("trees", "-N", "4", "-n", "9", "--yes", "--format", "csv", "-o", "trees.csv")
     code, err = interrupted(arguments, tmp_path, "file")
     assert (code, err.strip()) == (130, "")
     assert list(tmp_path.iterdir()) == []
@@ -607,13 +514,7 @@ def test_a_reader_that_goes_away(arguments: str) -> None:
     """
     command = f'"{sys.executable}" -m garkcli {arguments} | head -1'
     done = subprocess.run(
-        command,
-        shell=True,
-        cwd=ROOT,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=30,
+        command, shell=True, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
     )
     assert done.stdout.count("\n") == 1
     assert done.stderr == ""
@@ -635,12 +536,7 @@ def broken(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
     command = [sys.executable, "-c", script, *arguments]
     return subprocess.run(
-        command,
-        cwd=ROOT,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=30,
+        command, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
     )
 
 
@@ -655,9 +551,7 @@ def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
     told = [
         line
         for line in lines
-        if line.endswith(
-            "error[internal-fault]: internal fault: RuntimeError: broken"
-        )
+        if line.endswith("error[internal-fault]: internal fault: RuntimeError: broken")
     ]
     helps = [line for line in lines if "please report it" in line]
     count = len(list((ROOT / "methods").rglob("*.gark.yaml")))

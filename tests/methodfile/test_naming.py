@@ -12,12 +12,7 @@ from garkcli.catalogue import method_names, open_method
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import load
-from garkcli.methodfile.naming import (
-    expanded,
-    find_named,
-    hidden_by,
-    look_up,
-)
+from garkcli.methodfile.naming import expanded, find_named, hidden_by, look_up
 from garkcli.methodfile.shelves import PATH_VARIABLE, package
 
 ONE = "A: [[0]]\nb: [1]\n"
@@ -168,9 +163,7 @@ def test_all_of_a_folder_of_the_catalogue(own: Path) -> None:
     assert list(find_files(["catalogue:rk4"])) == ["catalogue:rk4"]
 
 
-def test_packages_of_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_packages_of_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An entry point names a package whose resources are method files, in folders too."""
     site = tmp_path / "site"
     put(site / "theirs" / "sub", "their-method", f"aliases: [th1]\n{HALF}")
@@ -191,9 +184,7 @@ def entry_point(site: Path, name: str, value: str) -> None:
     info = site / f"{name}-1.0.dist-info"
     info.mkdir(parents=True)
     (info / "METADATA").write_text(f"Name: {name}\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(
-        f"[gark.catalogue]\n{name} = {value}\n"
-    )
+    (info / "entry_points.txt").write_text(f"[gark.catalogue]\n{name} = {value}\n")
 
 
 def test_a_package_of_others_that_is_broken(

@@ -16,14 +16,10 @@ from garkcli.methodfile.load import loads
 
 def value(scalar: str, parameters: Mapping[str, str] | None = None) -> Number:
     """What the program reads for a coefficient."""
-    header = (
-        "parameters: {"
-        + ", ".join(f"{k}: {x}" for k, x in (parameters or {}).items())
-        + "}\n"
+    header = "parameters: {" + ", ".join(f"{k}: {x}" for k, x in (parameters or {}).items()) + "}\n"
+    block = loads(f"{header}tableau: {{c: [[0]], A: [[[[{scalar}]]]], b: [[1]]}}").tableau.block(
+        0, 0
     )
-    block = loads(
-        f"{header}tableau: {{c: [[0]], A: [[[[{scalar}]]]], b: [[1]]}}"
-    ).tableau.block(0, 0)
     assert block is not None
     return block[0][0]
 
@@ -56,9 +52,7 @@ def value(scalar: str, parameters: Mapping[str, str] | None = None) -> Number:
         ("9" * 400, fmpq(10**400 - 1)),
     ],
 )
-def test_a_coefficient_is_the_number_it_is_written_as(
-    scalar: str, expected: fmpq
-) -> None:
+def test_a_coefficient_is_the_number_it_is_written_as(scalar: str, expected: fmpq) -> None:
     """Every notation gives its exact rational value; decimals are never binary floats."""
     assert value(scalar) == expected
 
@@ -70,13 +64,7 @@ def test_every_fraction_is_read_exactly(p: int, q: int) -> None:
 
 
 @given(
-    st.decimals(
-        allow_nan=False,
-        allow_infinity=False,
-        min_value=-1000,
-        max_value=1000,
-        places=25,
-    )
+    st.decimals(allow_nan=False, allow_infinity=False, min_value=-1000, max_value=1000, places=25)
 )
 def test_every_decimal_is_read_exactly(number: object) -> None:
     """A decimal of 28 digits is that decimal, which no float could hold."""
@@ -100,23 +88,9 @@ def test_a_parameter_is_a_value_and_not_a_text() -> None:
 
 
 @pytest.mark.parametrize(
-    "scalar",
-    [
-        "010",
-        "0x10",
-        "1_000",
-        "1:30",
-        "yes",
-        "on",
-        "~",
-        "2001-12-14",
-        ".inf",
-        ".NaN",
-    ],
+    "scalar", ["010", "0x10", "1_000", "1:30", "yes", "on", "~", "2001-12-14", ".inf", ".NaN"]
 )
-def test_a_plain_scalar_that_yaml_reads_as_something_else_is_refused(
-    scalar: str,
-) -> None:
+def test_a_plain_scalar_that_yaml_reads_as_something_else_is_refused(scalar: str) -> None:
     """What YAML 1.1 takes for an octal, a base-60 number, a word or a date is never silently a
     coefficient.
     """
@@ -143,9 +117,9 @@ def test_a_text_means_what_its_parameters_mean() -> None:
         loads("parameters: {a: x, x: 1/2}\nmethods: [{A: [[x]], b: [2*x]}]\n")
     (fault,) = caught.value.faults
     assert (fault.line, fault.column) == (1, 17)
-    assert loads(
-        "parameters: {x: 1/2}\nmethods: [{A: [[x]], b: [2*x]}]\n"
-    ).tableau.blocks[0, 0] == ((fmpq(1, 2),),)
+    assert loads("parameters: {x: 1/2}\nmethods: [{A: [[x]], b: [2*x]}]\n").tableau.blocks[
+        0, 0
+    ] == ((fmpq(1, 2),),)
 
 
 def test_underscores_are_soon_read() -> None:
@@ -155,9 +129,7 @@ def test_underscores_are_soon_read() -> None:
     before = process_time()
     with pytest.raises(MethodFileError, match="100001 characters"):
         loads(f"methods: [{{A: [[{'_' * 100_000}x]], b: [1]}}]")
-    with pytest.raises(
-        MethodFileError, match="different numbers to different readers"
-    ):
+    with pytest.raises(MethodFileError, match="different numbers to different readers"):
         loads("methods: [{A: [[1_0_0]], b: [1]}]")
     assert process_time() - before < 2
 
@@ -166,13 +138,10 @@ def test_long_chains_of_parameters_are_refused() -> None:
     """Parameters that each use the one before: read to a depth of two hundred, then told."""
 
     def chain(length: int) -> dict[str, str]:
-        return {"p0": "sqrt(2)"} | {
-            f"p{i}": f"p{i - 1} + 1" for i in range(1, length)
-        }
+        return {"p0": "sqrt(2)"} | {f"p{i}": f"p{i - 1} + 1" for i in range(1, length)}
 
     assert value("p190 - p189", chain(191)) == 1
     with pytest.raises(
-        MethodFileError,
-        match="p199: nested more than 200 deep, with the parameters written out",
+        MethodFileError, match="p199: nested more than 200 deep, with the parameters written out"
     ):
         value("p1499", chain(1500))

@@ -26,9 +26,7 @@ def under_caret(text: str) -> list[str]:
     report.
     """
     found = faults(text)
-    lines = faults_text(
-        Outcome("m", "m", faults=found, text=text), Paint()
-    ).splitlines()
+    lines = faults_text(Outcome("m", "m", faults=found, text=text), Paint()).splitlines()
     carets = [i for i, line in enumerate(lines) if line.lstrip(" |") == "^"]
     return [lines[i - 1][lines[i].index("^") :] for i in carets]
 
@@ -70,9 +68,7 @@ def test_signs_that_yaml_refuses(text: str, place: tuple[int, int]) -> None:
     assert (fault.line, fault.column) == place
 
 
-@pytest.mark.parametrize(
-    "text", ["|", ">", "name: a\ntransfer: |", "a: >-", "methods: |-\n"]
-)
+@pytest.mark.parametrize("text", ["|", ">", "name: a\ntransfer: |", "a: >-", "methods: |-\n"])
 def test_blocks_of_text_without_text(text: str) -> None:
     """An empty block at the end of the file is a place too."""
     assert all(fault.line >= 1 and fault.column >= 1 for fault in faults(text))
@@ -155,19 +151,11 @@ def test_limits_are_part_of_the_fault() -> None:
     """A file that would exhaust the machine is refused with the limit it passes."""
     assert (
         "50000 values"
-        in faults(
-            "a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n"
-        )[0].message
+        in faults("a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n")[0].message
     )
     assert "12 deep" in faults("methods: " + "[" * 40 + "]" * 40)[0].message
-    assert (
-        "1000 digits"
-        in faults("methods: [{A: [[1e2000]], b: [1]}]")[0].message
-    )
-    assert (
-        "20000"
-        in faults(f"methods: [{{A: [[{'1+' * 10001}1]], b: [1]}}]")[0].message
-    )
+    assert "1000 digits" in faults("methods: [{A: [[1e2000]], b: [1]}]")[0].message
+    assert "20000" in faults(f"methods: [{{A: [[{'1+' * 10001}1]], b: [1]}}]")[0].message
 
 
 def test_the_rest_of_a_file_is_read_where_coefficients_are_missing() -> None:
@@ -204,9 +192,7 @@ def test_yaml_nested_without_end_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "deep.gark.yaml"
     path.write_text("methods: " + "[" * 100_000 + "]" * 100_000)
     run = subprocess.run(
-        [sys.executable, "-m", "garkcli", "check", str(path)],
-        capture_output=True,
-        text=True,
+        [sys.executable, "-m", "garkcli", "check", str(path)], capture_output=True, text=True
     )
     assert run.returncode == 2
     assert "12 deep" in run.stdout

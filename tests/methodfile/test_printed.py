@@ -43,9 +43,7 @@ def test_units_of_the_last_place(text: str, size: fmpq) -> None:
 
 
 @given(st.integers(8, 40), st.integers(0, 9), st.integers(1, 9))
-def test_a_rounded_decimal_is_within_its_unit(
-    digits: int, whole: int, last: int
-) -> None:
+def test_a_rounded_decimal_is_within_its_unit(digits: int, whole: int, last: int) -> None:
     """Cut off or rounded after any number of digits, the number is within one unit of the text."""
     text = f"{whole}.{'3' * (digits - 1)}{last}"
     assert fmpq(1, 10**digits) <= unit(text, text) <= fmpq(2, 10**digits)
@@ -54,7 +52,9 @@ def test_a_rounded_decimal_is_within_its_unit(
 def test_an_unused_parameter_is_not_in_the_field() -> None:
     """The field stays ℚ, or that of the coefficients, whatever else has a name."""
     assert loads("parameters: {s: sqrt(2)}\n" + MIDPOINT).tableau.degree == 1
-    text = "parameters: {s: sqrt(2), t: cbrt(5), u: s*t, v: sqrt(3)/2}\nmethods: [{A: [[v]], b: [1]}]"
+    text = (
+        "parameters: {s: sqrt(2), t: cbrt(5), u: s*t, v: sqrt(3)/2}\nmethods: [{A: [[v]], b: [1]}]"
+    )
     assert loads(text).tableau.degree == 2
     used = "parameters: {s: sqrt(2), u: 2*s}\nmethods: [{A: [[u]], b: [1]}]"
     assert loads(used).tableau.degree == 2
@@ -71,7 +71,5 @@ def test_a_faulty_unused_parameter_is_reported(wrong: str) -> None:
 def test_one_cause_is_one_fault() -> None:
     """A faulty parameter that is used twice."""
     with pytest.raises(MethodFileError) as caught:
-        loads(
-            "parameters: {s: sqrt(-2)}\nmethods: [{A: [[s, s], [s, s]], b: [1/2, 1/2]}]"
-        )
+        loads("parameters: {s: sqrt(-2)}\nmethods: [{A: [[s, s], [s, s]], b: [1/2, 1/2]}]")
     assert caught.value.faults[0].line == 1

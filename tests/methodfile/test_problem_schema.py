@@ -20,13 +20,7 @@ from tests.docs.test_problem_file_docs import FILES
 SCHEMA = problem_file_schema()
 VALIDATOR = Draft7Validator(SCHEMA)
 PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
-RIGHT = [
-    *FILES,
-    *(
-        path.read_text(encoding="utf-8")
-        for path in sorted(PROBLEMS.glob("*.yaml"))
-    ),
-]
+RIGHT = [*FILES, *(path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml")))]
 GOOD: dict[str, Any] = {
     "variables": ["x"],
     "hamiltonian": "px**2",
@@ -47,9 +41,7 @@ def test_the_schema_is_one() -> None:
 @pytest.mark.parametrize("text", RIGHT)
 def test_what_loads_is_allowed(text: str) -> None:
     """Every example of the page and of the folder."""
-    assert [
-        error.message for error in VALIDATOR.iter_errors(yaml.safe_load(text))
-    ] == []
+    assert [error.message for error in VALIDATOR.iter_errors(yaml.safe_load(text))] == []
 
 
 @pytest.mark.parametrize(
@@ -58,11 +50,7 @@ def test_what_loads_is_allowed(text: str) -> None:
         {"variables": []},
         {"variables": ["pi"]},
         {"variables": ["2x"]},
-        {
-            "variables": ["i"],
-            "hamiltonian": "pi**2 + i**2",
-            "initial": {"i": 1, "pi": 0},
-        },
+        {"variables": ["i"], "hamiltonian": "pi**2 + i**2", "initial": {"i": 1, "pi": 0}},
         {"variables": ["x", "x"]},
         {"variables": ["x" * 31]},
         {"variables": None},
@@ -84,11 +72,7 @@ def test_what_loads_is_allowed(text: str) -> None:
 )
 def test_slips_are_refused_by_both(change: dict[str, Any]) -> None:
     """By the schema, and by the loader."""
-    changed = {
-        key: value
-        for key, value in {**GOOD, **change}.items()
-        if value is not None
-    }
+    changed = {key: value for key, value in {**GOOD, **change}.items() if value is not None}
     assert not VALIDATOR.is_valid(changed)
     with pytest.raises(MethodFileError):
         loads_problem(yaml.safe_dump(changed))

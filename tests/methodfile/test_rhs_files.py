@@ -23,15 +23,11 @@ def read(text: str, stiffness: fmpq | None = None) -> RightHandSide:
     return made
 
 
-def faults(
-    text: str, stiffness: fmpq | None = None
-) -> list[tuple[int, int, str]]:
+def faults(text: str, stiffness: fmpq | None = None) -> list[tuple[int, int, str]]:
     """Line, column and message of every fault."""
     with pytest.raises(MethodFileError) as caught:
         loads_problem(dedent(text), stiffness=stiffness)
-    assert all(
-        x.help for x in caught.value.faults if "no real" not in x.message
-    )
+    assert all(x.help for x in caught.value.faults if "no real" not in x.message)
     return [(x.line, x.column, x.message) for x in caught.value.faults]
 
 
@@ -59,9 +55,7 @@ def test_the_solution_gives_the_start() -> None:
     assert made.initial == (3,)
     rounded = read("variables: y\nrhs: -y\nexact: {y: sqrt(2)*exp(-t)}\n")
     assert abs(rounded.initial[0] ** 2 - 2) < fmpq(1, 10**58)
-    both = read(
-        "variables: y\nrhs: -y\nexact: {y: 3*exp(-t)}\ninitial: {y: 3}\n"
-    )
+    both = read("variables: y\nrhs: -y\nexact: {y: 3*exp(-t)}\ninitial: {y: 3}\n")
     assert both.initial == (3,)
 
 
@@ -83,10 +77,7 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        (
-            "variables: [t]\nrhs: {t: 1}\ninitial: {t: 0}\n",
-            [(1, 13, "t is time")],
-        ),
+        ("variables: [t]\nrhs: {t: 1}\ninitial: {t: 0}\n", [(1, 13, "t is time")]),
         (
             "variables: [x]\nparameters: {t: 1}\nrhs: x\ninitial: {x: 1}\n",
             [(2, 14, "parameters: t is time already")],
@@ -99,31 +90,16 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
         ),
         (HEAD + "rhs: {x: y, y: -x}\n", [(1, 1, "initial missing")]),
         (HEAD + "rhs: {x: y}\ninitial: {x: 1}\n", [(3, 10, "no value for y")]),
-        (
-            HEAD + "rhs: {x: y}\nhamiltonian: px\n" + TAIL,
-            [(2, 6, "a hamiltonian and an rhs")],
-        ),
-        (
-            HEAD + "rhs: {x: 1/(x - 1)}\n" + TAIL,
-            [(2, 13, "at the initial values")],
-        ),
-        (
-            HEAD + "rhs: {x: sqrt(y - 2)}\n" + TAIL,
-            [(2, 10, "no derivative by y")],
-        ),
+        (HEAD + "rhs: {x: y}\nhamiltonian: px\n" + TAIL, [(2, 6, "a hamiltonian and an rhs")]),
+        (HEAD + "rhs: {x: 1/(x - 1)}\n" + TAIL, [(2, 13, "at the initial values")]),
+        (HEAD + "rhs: {x: sqrt(y - 2)}\n" + TAIL, [(2, 10, "no derivative by y")]),
         (HEAD + "rhs: {x: log(-1)*x}\n" + TAIL, [(2, 10, "f")]),
-        (
-            HEAD + "rhs: [{x: y}, {x: -y}]\n" + TAIL,
-            [(2, 11, "the right-hand sides sum to 0")],
-        ),
+        (HEAD + "rhs: [{x: y}, {x: -y}]\n" + TAIL, [(2, 11, "the right-hand sides sum to 0")]),
         (
             HEAD + "rhs: {x: y}\n" + TAIL + "invariants: {I: x - t}\n",
             [(4, 21, "'t' is no variable or parameter")],
         ),
-        (
-            HEAD + "rhs: {x: y}\n" + TAIL + "invariants: {I: 2}\n",
-            [(4, 17, "is constant")],
-        ),
+        (HEAD + "rhs: {x: y}\n" + TAIL + "invariants: {I: 2}\n", [(4, 17, "is constant")]),
         (
             HEAD + "rhs: {x: y, y: -x}\nexact: {x: sin(t), y: sin(t)}\n",
             [(3, 12, "no solution: at t = 2/3 its derivative is 0.785887")],
@@ -132,14 +108,8 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
             "variables: y\nrhs: -y\nexact: {y: exp(-t)}\ninitial: {y: 2}\n",
             [(3, 12, "starts at 1.00000, but initial has 2.00000")],
         ),
-        (
-            HEAD + "rhs: {x: y, y: -x}\nexact: {x: sin(t)}\n",
-            [(3, 8, "no value for y")],
-        ),
-        (
-            HEAD + "rhs: {x: y, y: -x}\nexact: {x: y, y: cos(t)}\n",
-            [(3, 12, "'y' is no parameter")],
-        ),
+        (HEAD + "rhs: {x: y, y: -x}\nexact: {x: sin(t)}\n", [(3, 8, "no value for y")]),
+        (HEAD + "rhs: {x: y, y: -x}\nexact: {x: y, y: cos(t)}\n", [(3, 12, "'y' is no parameter")]),
         (
             "variables: x\nhamiltonian: px**2/2\nexact: {x: t}\ninitial: {x: 0, px: 1}\n",
             [(3, 8, "exact is for rhs")],
@@ -156,9 +126,7 @@ def test_faults(text: str, wanted: list[tuple[int, int, str]]) -> None:
 
 def test_a_stiffness_that_is_no_parameter() -> None:
     """It would change nothing: neither where there is no such parameter, nor of a Hamiltonian."""
-    ((line, _, message),) = faults(
-        "variables: y\nrhs: -y\ninitial: {y: 1}\n", fmpq(2)
-    )
+    ((line, _, message),) = faults("variables: y\nrhs: -y\ninitial: {y: 1}\n", fmpq(2))
     assert line == 1
     assert "no parameter called stiffness" in message
     text = "variables: x\nhamiltonian: px**2/2\ninitial: {x: 0, px: 1}\n"

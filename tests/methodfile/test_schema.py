@@ -75,9 +75,7 @@ BEYOND = {
     },
 }  # fmt: skip
 """Invalid examples that the schema allows, by the reason why only the loader can refuse them."""
-ONLY_THE_LOADER = {
-    name: why for why, names in BEYOND.items() for name in names
-}
+ONLY_THE_LOADER = {name: why for why, names in BEYOND.items() for name in names}
 
 
 def data(path: Path) -> Any:
@@ -91,9 +89,7 @@ def test_the_schema_is_one() -> None:
     assert SCHEMA["$schema"] == "http://json-schema.org/draft-07/schema#"
     references = set(_references(SCHEMA))
     assert references
-    assert references <= {
-        f"#/definitions/{name}" for name in SCHEMA["definitions"]
-    }
+    assert references <= {f"#/definitions/{name}" for name in SCHEMA["definitions"]}
 
 
 def _references(part: Any) -> list[str]:
@@ -105,26 +101,20 @@ def _references(part: Any) -> list[str]:
     return own + [x for value in part.values() for x in _references(value)]
 
 
-@pytest.mark.parametrize(
-    "path", RIGHT, ids=lambda path: path.name.removesuffix(SUFFIX)
-)
+@pytest.mark.parametrize("path", RIGHT, ids=lambda path: path.name.removesuffix(SUFFIX))
 def test_what_loads_is_allowed(path: Path) -> None:
     """Every method of the project and every valid or failing example is a method file for the
     schema too.
     """
     load(str(path))
-    assert [
-        error.message[:200] for error in VALIDATOR.iter_errors(data(path))
-    ] == []
+    assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
 
 
 @pytest.mark.parametrize("path", FAMILY_FILES, ids=lambda path: path.name)
 def test_families_are_allowed(path: Path) -> None:
     """A file with unknowns is a method file for the schema too."""
     assert load_family(str(path)).parameters
-    assert [
-        error.message[:200] for error in VALIDATOR.iter_errors(data(path))
-    ] == []
+    assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
 
 
 @pytest.mark.parametrize(
@@ -195,9 +185,7 @@ def test_stages_are_needed_where_the_loader_needs_them(name: str) -> None:
     """
     family = FAMILIES[name]
     needed: dict[str, object] = {"family": name, family.size: family.smallest}
-    needed |= {
-        x.name: x.smallest or "1/2" for x in family.options if not x.default
-    }
+    needed |= {x.name: x.smallest or "1/2" for x in family.options if not x.default}
     assert VALIDATOR.is_valid({"methods": [needed]})
     for key in needed:
         less = {other: x for other, x in needed.items() if other != key}

@@ -16,10 +16,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
 from garkcli.methodfile.conjugated import write_conjugate_of
 from garkcli.methodfile.load import load, loads
-from garkcli.methodfile.writer import (
-    can_spell_out,
-    write_tableau_file,
-)
+from garkcli.methodfile.writer import can_spell_out, write_tableau_file
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import separable_prk, spelled_out, with_linear
 from garkcli.tableau.pointwise import in_points
@@ -27,10 +24,7 @@ from garkcli.tableau.tableau import Tableau
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted(
-    [
-        *(ROOT / "methods").glob("*.gark.yaml"),
-        *(ROOT / "tests/examples/valid").glob("*.gark.yaml"),
-    ]
+    [*(ROOT / "methods").glob("*.gark.yaml"), *(ROOT / "tests/examples/valid").glob("*.gark.yaml")]
 )
 
 rationals = st.builds(fmpq, st.integers(-50, 50), st.integers(1, 50))
@@ -53,43 +47,24 @@ def tableaus(draw: st.DrawFn) -> Tableau:
     return spelled_out(A, vectors, nodes, linear)
 
 
-@given(
-    tableaus(),
-    st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1),
-)
-def test_a_spelled_out_file_loads_as_the_same_tableau(
-    tableau: Tableau, name: str
-) -> None:
+@given(tableaus(), st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1))
+def test_a_spelled_out_file_loads_as_the_same_tableau(tableau: Tableau, name: str) -> None:
     """Blocks, absent blocks, nodes, weights, linear colours and the name survive writing and
     reading.
     """
-    method = loads(
-        write_tableau_file(tableau, name, note="written\nby a test")
-    )
+    method = loads(write_tableau_file(tableau, name, note="written\nby a test"))
     assert method.tableau == tableau
     assert method.name == name
 
 
 @given(st.data())
 @settings(max_examples=25)
-def test_a_partitioned_file_loads_as_the_same_tableau(
-    data: st.DataObject,
-) -> None:
+def test_a_partitioned_file_loads_as_the_same_tableau(data: st.DataObject) -> None:
     """Rectangular parts of a separable or Nyström method come back with their nodes."""
     s, t = data.draw(st.integers(1, 3)), data.draw(st.integers(1, 3))
-    q = (
-        data.draw(matrices(t, s)),
-        data.draw(matrices(1, s))[0],
-        data.draw(matrices(1, t))[0],
-    )
-    p = (
-        data.draw(matrices(s, t)),
-        data.draw(matrices(1, t))[0],
-        data.draw(matrices(1, s))[0],
-    )
-    tableau = with_linear(
-        separable_prk(q, p), data.draw(st.sampled_from([[], ["q"]]))
-    )
+    q = (data.draw(matrices(t, s)), data.draw(matrices(1, s))[0], data.draw(matrices(1, t))[0])
+    p = (data.draw(matrices(s, t)), data.draw(matrices(1, t))[0], data.draw(matrices(1, s))[0])
+    tableau = with_linear(separable_prk(q, p), data.draw(st.sampled_from([[], ["q"]])))
     assert loads(write_tableau_file(tableau, "prk")).tableau == tableau
 
 
@@ -97,9 +72,7 @@ def same_entries(one: Tableau, other: Tableau) -> bool:
     """Whether two tableaus have exactly the same entries, though each in a number field of its
     own.
     """
-    texts = [
-        to_text(x) for tableau in (one, other) for x in all_entries(tableau)
-    ]
+    texts = [to_text(x) for tableau in (one, other) for x in all_entries(tableau)]
     expressions = [parse(text) for text in texts]
     domain = Domain(expressions)
     values = [domain.evaluate(x) for x in expressions]
@@ -139,9 +112,7 @@ def has_conjugate(path: Path) -> bool:
 CONJUGABLE = [path for path in FILES if has_conjugate(path)]
 
 
-@pytest.mark.parametrize(
-    "path", CONJUGABLE, ids=lambda path: path.name.removesuffix(".gark.yaml")
-)
+@pytest.mark.parametrize("path", CONJUGABLE, ids=lambda path: path.name.removesuffix(".gark.yaml"))
 def test_the_file_of_a_conjugate_is_the_conjugate_and_back(path: Path) -> None:
     """A file with ``conjugate: true`` put in loads as the conjugate; put in twice it is the
     original exactly.
@@ -156,9 +127,7 @@ def test_the_file_of_a_conjugate_is_the_conjugate_and_back(path: Path) -> None:
     assert twice.is_conjugate == method.is_conjugate
 
 
-@pytest.mark.parametrize(
-    "path", FILES, ids=lambda path: path.name.removesuffix(".gark.yaml")
-)
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name.removesuffix(".gark.yaml"))
 def test_a_file_spelled_out_is_the_same_method(path: Path) -> None:
     """A method with simple radicals, written entry by entry, loads with the same entries."""
     exact = in_points(load(str(path)).tableau)

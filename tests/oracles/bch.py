@@ -44,10 +44,7 @@ def _times(u: Words, v: Words, order: int) -> Words:
 
 
 def in_brackets(
-    words: Words,
-    letters: Mapping[str, H],
-    bracket: Callable[[H, H], H],
-    zero: H,
+    words: Words, letters: Mapping[str, H], bracket: Callable[[H, H], H], zero: H
 ) -> list[H]:
     """For 1, 2, … letters the sum of their brackets."""
     order = max(map(len, words))

@@ -41,27 +41,12 @@ class Trees:
         while len(self._levels) < order:
             size = len(self._levels)
             roots = range(self.tableau.size)
-            self._levels.append(
-                [
-                    (l, forest)
-                    for l in roots
-                    for forest in self._forests(l, size)
-                ]
-            )
+            self._levels.append([(l, forest) for l in roots for forest in self._forests(l, size)])
         return self._levels[order - 1]
 
     def _forests(self, l: int, size: int) -> list[tuple[Plain, ...]]:
-        seen = {
-            m
-            for m in range(self.tableau.size)
-            if self.tableau.block(l, m) is not None
-        }
-        choices = [
-            (n, u)
-            for n in range(1, size + 1)
-            for u in self.of_order(n)
-            if u[0] in seen
-        ]
+        seen = {m for m in range(self.tableau.size) if self.tableau.block(l, m) is not None}
+        choices = [(n, u) for n in range(1, size + 1) for u in self.of_order(n) if u[0] in seen]
         most = 1 if self.tableau.colours[l].is_linear else size
         return list(_multisets(choices, size, most))
 
@@ -131,9 +116,7 @@ class Weights:
     def _branch(self, rows: int, v: Plain) -> Vector:
         key = (rows, v)
         if key not in self._images:
-            self._images[key] = image(
-                self.tableau.blocks[rows, v[0]], self.stage_vector(v)
-            )
+            self._images[key] = image(self.tableau.blocks[rows, v[0]], self.stage_vector(v))
         return self._images[key]
 
     def weight(self, u: Plain) -> Number:
@@ -144,11 +127,7 @@ class Weights:
 def failing(tableau: Tableau, order: int) -> list[Plain]:
     """The trees of one order whose condition fails."""
     weights = Weights(tableau)
-    return [
-        u
-        for u in Trees(tableau).of_order(order)
-        if weights.weight(u) != fmpq(1, density(u))
-    ]
+    return [u for u in Trees(tableau).of_order(order) if weights.weight(u) != fmpq(1, density(u))]
 
 
 def brute_order(tableau: Tableau, limit: int) -> int:
@@ -157,9 +136,6 @@ def brute_order(tableau: Tableau, limit: int) -> int:
     """
     trees, weights = Trees(tableau), Weights(tableau)
     for order in range(1, limit + 1):
-        if any(
-            weights.weight(u) != fmpq(1, density(u))
-            for u in trees.of_order(order)
-        ):
+        if any(weights.weight(u) != fmpq(1, density(u)) for u in trees.of_order(order)):
             return order - 1
     return limit

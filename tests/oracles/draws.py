@@ -13,11 +13,5 @@ def fractions(low: int, high: int, most: int) -> st.SearchStrategy[Fraction]:
     One draw makes one of them; ``st.fractions`` takes several, which for matrices cost more than
     what is tested.
     """
-    found = {
-        Fraction(p, q)
-        for q in range(1, most + 1)
-        for p in range(low * q, high * q + 1)
-    }
-    return st.sampled_from(
-        sorted(found, key=lambda x: (x.denominator, abs(x), x))
-    )
+    found = {Fraction(p, q) for q in range(1, most + 1) for p in range(low * q, high * q + 1)}
+    return st.sampled_from(sorted(found, key=lambda x: (x.denominator, abs(x), x)))

@@ -61,9 +61,7 @@ class Problem:
         """a·v."""
         return sum(map(mul, v, a), fmpq_poly())
 
-    def weights(
-        self, term: int, y: Point, vectors: Sequence[Point]
-    ) -> list[fmpq_poly]:
+    def weights(self, term: int, y: Point, vectors: Sequence[Point]) -> list[fmpq_poly]:
         """For each ridge the derivative H^(k)(v_1, …, v_k) before the last factor a."""
         found = []
         for ridge in self.terms[term]:
@@ -78,9 +76,7 @@ class Problem:
             found.append(self.times(scale, *powers, *along))
         return found
 
-    def derivative(
-        self, term: int, y: Point, vectors: Sequence[Point]
-    ) -> fmpq_poly:
+    def derivative(self, term: int, y: Point, vectors: Sequence[Point]) -> fmpq_poly:
         """H^{l}^(k)(v_1, …, v_k) at y."""
         return sum(self.weights(term, y, vectors), fmpq_poly())
 
@@ -89,20 +85,14 @@ class Problem:
         terms = range(len(self.terms))
         return sum((self.derivative(l, y, []) for l in terms), fmpq_poly())
 
-    def field(
-        self, colour: Colour, y: Point, vectors: Sequence[Point] = ()
-    ) -> Point:
+    def field(self, colour: Colour, y: Point, vectors: Sequence[Point] = ()) -> Point:
         """The k-th derivative of the vector field of a colour along k vectors."""
         lowered = [self.lowered(ridge) for ridge in self.terms[colour.term]]
-        lower = Problem(
-            self.tableau, (tuple(lowered),), self.start, self.powers
-        )
+        lower = Problem(self.tableau, (tuple(lowered),), self.start, self.powers)
         weights = lower.weights(0, y, vectors)
         d, zero = self.d, fmpq_poly()
         result = [zero] * (2 * d)
-        for ridge, weight in zip(
-            self.terms[colour.term], weights, strict=True
-        ):
+        for ridge, weight in zip(self.terms[colour.term], weights, strict=True):
             for i in range(d):
                 if colour.part != "p":
                     result[i] = result[i] + weight * ridge.a[d + i]
@@ -127,9 +117,7 @@ class Problem:
         return self.derivative(term, y, branches)
 
 
-def random_problem(
-    tableau: Tableau, powers: int, seed: int, d: int = 2
-) -> Problem:
+def random_problem(tableau: Tableau, powers: int, seed: int, d: int = 2) -> Problem:
     """A problem for a tableau with stages in points; coefficients are small rational numbers."""
     tableau = with_joined_terms(tableau)
     dice = Random(seed)
@@ -161,9 +149,7 @@ def step(problem: Problem) -> tuple[Point, list[Point]]:
     """y₁ and the columns of ∂y₁/∂y₀, each series in h; every iteration gains a power of h."""
     tableau, size = problem.tableau, 2 * problem.d
     start = [fmpq_poly([x]) for x in problem.start]
-    unit = [
-        [fmpq_poly([int(i == j)]) for i in range(size)] for j in range(size)
-    ]
+    unit = [[fmpq_poly([int(i == j)]) for i in range(size)] for j in range(size)]
     stages = []
     for space in tableau.spaces:
         assert isinstance(space, PointSpace)
@@ -178,9 +164,7 @@ def step(problem: Problem) -> tuple[Point, list[Point]]:
                 values.append((problem.field(colour, y), moved))
             slopes.append(values)
 
-        def moved_by(
-            rows: dict[int, Sequence[fmpq]],
-        ) -> tuple[Point, list[Point]]:
+        def moved_by(rows: dict[int, Sequence[fmpq]]) -> tuple[Point, list[Point]]:
             y, tangents = list(start), [list(v) for v in unit]
             for m, row in rows.items():
                 for a, (f, df) in zip(row, slopes[m], strict=True):  # noqa: B023
@@ -193,9 +177,7 @@ def step(problem: Problem) -> tuple[Point, list[Point]]:
 
         stages = [
             [
-                moved_by(
-                    {m: B[i] for (k, m), B in tableau.blocks.items() if k == n}
-                )
+                moved_by({m: B[i] for (k, m), B in tableau.blocks.items() if k == n})
                 for i in range(space.stages)
             ]
             for n, space in enumerate(tableau.spaces)
@@ -228,8 +210,6 @@ def symplectic_order(problem: Problem) -> int:
         for j, v in enumerate(tangents):
             form = fmpq_poly([-int(i + d == j) + int(j + d == i)])
             for k in range(d):
-                form += problem.times(u[k], v[d + k]) - problem.times(
-                    u[d + k], v[k]
-                )
+                form += problem.times(u[k], v[d + k]) - problem.times(u[d + k], v[k])
             entries.append(problem.cut(form))
     return lowest_power(entries, problem.powers) - 1

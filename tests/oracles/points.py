@@ -23,10 +23,7 @@ def numbers(*texts: str) -> tuple[Vector, ...]:
     """Rows of numbers of one common domain, written as texts with commas between the numbers."""
     rows = [[parse(entry) for entry in text.split(",")] for text in texts]
     domain = Domain(expression for row in rows for expression in row)
-    return tuple(
-        tuple(domain.evaluate(expression) for expression in row)
-        for row in rows
-    )
+    return tuple(tuple(domain.evaluate(expression) for expression in row) for row in rows)
 
 
 def lagrange(nodes: Sequence[Number], j: int) -> Vector:
@@ -35,10 +32,7 @@ def lagrange(nodes: Sequence[Number], j: int) -> Vector:
     for k, c in enumerate(nodes):
         if k != j:
             shifted, scale = [fmpq(0), *result], nodes[j] - c
-            result = [
-                (x - c * y) / scale
-                for x, y in zip(shifted, [*result, fmpq(0)], strict=True)
-            ]
+            result = [(x - c * y) / scale for x, y in zip(shifted, [*result, fmpq(0)], strict=True)]
     return tuple(result)
 
 
@@ -50,9 +44,7 @@ def value(polynomial: Sequence[Number], x: Number) -> Number:
     return total
 
 
-def block_at(
-    block: Matrix, rows: Sequence[Number], columns: Sequence[Number]
-) -> Matrix:
+def block_at(block: Matrix, rows: Sequence[Number], columns: Sequence[Number]) -> Matrix:
     """The entries (A L_j)(c_i)."""
     images = [image(block, lagrange(columns, j)) for j in range(len(columns))]
     return tuple(tuple(value(f, c) for f in images) for c in rows)
@@ -60,15 +52,8 @@ def block_at(
 
 def method_at(method: Method, nodes: Vector) -> Method:
     """A diagonal method of a polynomial space, entry by entry."""
-    weights = tuple(
-        pairing(method.b, lagrange(nodes, j)) for j in range(len(nodes))
-    )
-    return Method(
-        method.name,
-        PointSpace(nodes),
-        block_at(method.A, nodes, nodes),
-        weights,
-    )
+    weights = tuple(pairing(method.b, lagrange(nodes, j)) for j in range(len(nodes)))
+    return Method(method.name, PointSpace(nodes), block_at(method.A, nodes, nodes), weights)
 
 
 def at_points(tableau: Tableau, nodes: Sequence[Vector]) -> Tableau:
@@ -78,20 +63,14 @@ def at_points(tableau: Tableau, nodes: Sequence[Vector]) -> Tableau:
         return nodes[tableau.colours[m].space]
 
     blocks = {
-        (k, m): block_at(block, nodes[k], nodes_of(m))
-        for (k, m), block in tableau.blocks.items()
+        (k, m): block_at(block, nodes[k], nodes_of(m)) for (k, m), block in tableau.blocks.items()
     }
     colours = tuple(
         replace(
             colour,
-            b=tuple(
-                pairing(colour.b, lagrange(nodes_of(m), j))
-                for j in range(len(nodes_of(m)))
-            ),
+            b=tuple(pairing(colour.b, lagrange(nodes_of(m), j)) for j in range(len(nodes_of(m)))),
             c=tuple(value(colour.c, x) for x in nodes_of(m)),
         )
         for m, colour in enumerate(tableau.colours)
     )
-    return Tableau(
-        tuple(PointSpace(points) for points in nodes), colours, blocks
-    )
+    return Tableau(tuple(PointSpace(points) for points in nodes), colours, blocks)

@@ -46,26 +46,14 @@ def method(name: str) -> Method:
 def everywhere(rule: Rule, *names: str) -> Tableau:
     """The GARK tableau of some methods with one rule for all off-diagonal blocks."""
     methods = [method(name) for name in names]
-    edges = [
-        (l, m)
-        for l in range(len(methods))
-        for m in range(len(methods))
-        if l != m
-    ]
-    return gark(
-        methods, {(l, m): rule(methods[l], methods[m]) for l, m in edges}
-    )
+    edges = [(l, m) for l in range(len(methods)) for m in range(len(methods)) if l != m]
+    return gark(methods, {(l, m): rule(methods[l], methods[m]) for l, m in edges})
 
 
 def mixture(*weights: str) -> Rule:
     """The combination of collocation, interpolation and their conjugates with the given weights."""
     (row,) = numbers(",".join(weights))
-    rules = (
-        collocation,
-        interpolation,
-        conjugate_rule(collocation),
-        conjugate_rule(interpolation),
-    )
+    rules = (collocation, interpolation, conjugate_rule(collocation), conjugate_rule(interpolation))
     return lambda l, m: combination(list(zip(row, rules, strict=True)), l, m)
 
 
@@ -94,9 +82,7 @@ def rectangular() -> Tableau:
     return separable_prk((tuple(A_q), b_q, c_q), (tuple(A_p), b_p, c_p))
 
 
-def _split(
-    rows: tuple[Vector, ...], at: int
-) -> tuple[tuple[Vector, ...], tuple[Vector, ...]]:
+def _split(rows: tuple[Vector, ...], at: int) -> tuple[tuple[Vector, ...], tuple[Vector, ...]]:
     return rows[:at], rows[at:]
 
 
@@ -160,34 +146,21 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
             )  # type: ignore[misc]
     yield (
         "a mixture",
-        lambda: everywhere(
-            mixture("1/3", "1/2", "-1/5", "11/30"), "gauss 2", "lobatto-iiia 3"
-        ),
+        lambda: everywhere(mixture("1/3", "1/2", "-1/5", "11/30"), "gauss 2", "lobatto-iiia 3"),
     )
     yield (
         "a mixture over Q(sqrt(5))",
-        lambda: everywhere(
-            mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"),
-            "gauss 2",
-            "radau-iia 2",
-        ),
+        lambda: everywhere(mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"), "gauss 2", "radau-iia 2"),
     )
     yield (
         "an inconsistent mixture",
-        lambda: everywhere(
-            mixture("1", "1", "0", "0"), "gauss 2", "lobatto-iiia 3"
-        ),
+        lambda: everywhere(mixture("1", "1", "0", "0"), "gauss 2", "lobatto-iiia 3"),
     )
     yield (
         "three methods",
-        lambda: everywhere(
-            collocation, "gauss 2", "lobatto-iiia 2", "radau-iia 2"
-        ),
+        lambda: everywhere(collocation, "gauss 2", "lobatto-iiia 2", "radau-iia 2"),
     )
-    yield (
-        "pair, collocation",
-        lambda: pair(everywhere(collocation, "gauss 2", "lobatto-iiia 3")),
-    )
+    yield ("pair, collocation", lambda: pair(everywhere(collocation, "gauss 2", "lobatto-iiia 3")))
     yield (
         "pair, interpolation",
         lambda: pair(everywhere(interpolation, "gauss 2", "lobatto-iiia 3")),
@@ -203,9 +176,7 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
     yield "pair of Radau", lambda: pair(gark([method("radau-iia 2")], {}))
     yield (
         "pair of three",
-        lambda: pair(
-            everywhere(collocation, "gauss 1", "lobatto-iiia 2", "gauss 2")
-        ),
+        lambda: pair(everywhere(collocation, "gauss 1", "lobatto-iiia 2", "gauss 2")),
     )
     for name, velocities, forces in (
         ("semi-separable", [0], [0, 1]),
@@ -215,45 +186,30 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
         yield (
             name,
             lambda velocities=velocities, forces=forces: symplectic_pair(  # type: ignore[misc]
-                everywhere(collocation, "gauss 2", "lobatto-iiia 4"),
-                velocities,
-                forces,
+                everywhere(collocation, "gauss 2", "lobatto-iiia 4"), velocities, forces
             ),
         )
     yield (
         "nystrom",
         lambda: with_linear(
-            symplectic_pair(
-                everywhere(collocation, "gauss 2", "lobatto-iiia 3"), [0], [1]
-            ),
-            ["V1"],
+            symplectic_pair(everywhere(collocation, "gauss 2", "lobatto-iiia 3"), [0], [1]), ["V1"]
         ),
     )
-    yield (
-        "linear",
-        lambda: with_linear(gark([method("radau-iia 2")], {}), ["1"]),
-    )
+    yield ("linear", lambda: with_linear(gark([method("radau-iia 2")], {}), ["1"]))
     yield (
         "one linear of two",
-        lambda: with_linear(
-            everywhere(interpolation, "gauss 2", "radau-iia 2"), ["2"]
-        ),
+        lambda: with_linear(everywhere(interpolation, "gauss 2", "radau-iia 2"), ["2"]),
     )
     yield "rectangular", rectangular
     yield (
         "partitioned Lobatto",
-        lambda: partitioned(
-            method("lobatto-iiia 3"), method("lobatto-iiib 3")
-        ),
+        lambda: partitioned(method("lobatto-iiia 3"), method("lobatto-iiib 3")),
     )
     yield "IMEX over Q(sqrt(2))", implicit_explicit
     yield "one way", lambda: one_way("gauss 2", "radau-iia 2")
     yield "order 0", lambda: runge_kutta("0, 0", "1, 0", "1/2, 1/3")
     yield "order 1", lambda: runge_kutta("0, 0", "1, 0", "1/3, 2/3")
-    yield (
-        "over Q(cbrt(2))",
-        lambda: runge_kutta("0, 0", "cbrt(2), 0", "1 - cbrt(4)/4, cbrt(4)/4"),
-    )
+    yield ("over Q(cbrt(2))", lambda: runge_kutta("0, 0", "cbrt(2), 0", "1 - cbrt(4)/4, cbrt(4)/4"))
 
 
 NAMED: Mapping[str, Callable[[], Tableau]] = dict(_named())
@@ -287,21 +243,14 @@ def random_graph(dice: Random) -> Tableau:
     def block(l: int, m: int) -> Matrix | None:
         if dice.random() < 0.25:
             return None
-        rows = [
-            [small(dice) for _ in range(stages[m])] for _ in range(stages[l])
-        ]
+        rows = [[small(dice) for _ in range(stages[m])] for _ in range(stages[l])]
         if is_good:
-            rows = [
-                _normalised(row, c)
-                for row, c in zip(rows, nodes[l], strict=True)
-            ]
+            rows = [_normalised(row, c) for row, c in zip(rows, nodes[l], strict=True)]
         return tuple(tuple(row) for row in rows)
 
     A = [[block(l, m) for m in range(colours)] for l in range(colours)]
     linear = [l for l in range(colours) if dice.random() < 0.2]
-    return spelled_out(
-        A, [tuple(row) for row in b], [tuple(row) for row in nodes], linear
-    )
+    return spelled_out(A, [tuple(row) for row in b], [tuple(row) for row in nodes], linear)
 
 
 def _normalised(row: Sequence[fmpq], total: fmpq) -> list[fmpq]:
@@ -322,10 +271,7 @@ def random_additive(dice: Random) -> Tableau:
         tuple(row) + (fmpq(0),) * (s - len(row))
         for row in ([], [c[1]], _normalised([small(dice), fmpq(0)], c[2]))
     )
-    M = tuple(
-        tuple(_normalised([small(dice) for _ in range(s)], c[i]))
-        for i in range(s)
-    )
+    M = tuple(tuple(_normalised([small(dice) for _ in range(s)], c[i])) for i in range(s))
     return additive([E, M], [b, b], tuple(c))
 
 
@@ -333,27 +279,16 @@ def random_partitioned(dice: Random) -> Tableau:
     """A partitioned method for q̇ = V(p), ṗ = F(q) with rectangular blocks."""
     s_v, s_f = dice.randint(1, 3), dice.randint(1, 3)
     b_q = tuple(_normalised([small(dice) for _ in range(s_v)], fmpq(1)))
-    b_p = tuple(
-        _normalised(
-            [small(dice) for _ in range(s_f)], fmpq(dice.choice([1, 1, 2]))
-        )
-    )
+    b_p = tuple(_normalised([small(dice) for _ in range(s_f)], fmpq(dice.choice([1, 1, 2]))))
     A_q = [[small(dice) for _ in range(s_v)] for _ in range(s_f)]
     A_p = [[small(dice) for _ in range(s_f)] for _ in range(s_v)]
     for b, A in ((b_p, A_q), (b_q, A_p)):
         if b[-1]:  # the last row such that order 2 holds
             others = sum(
-                (
-                    x * sum(row, fmpq(0))
-                    for x, row in zip(b[:-1], A[:-1], strict=True)
-                ),
-                fmpq(0),
+                (x * sum(row, fmpq(0)) for x, row in zip(b[:-1], A[:-1], strict=True)), fmpq(0)
             )
             A[-1] = _normalised(A[-1], (fmpq(1, 2) - others) / b[-1])
-    return separable_prk(
-        (tuple(map(tuple, A_q)), b_q, None),
-        (tuple(map(tuple, A_p)), b_p, None),
-    )
+    return separable_prk((tuple(map(tuple, A_q)), b_q, None), (tuple(map(tuple, A_p)), b_p, None))
 
 
 def renumbered(tableau: Tableau, permutation: Sequence[int]) -> Tableau:
@@ -361,18 +296,13 @@ def renumbered(tableau: Tableau, permutation: Sequence[int]) -> Tableau:
     colours = tuple(tableau.colours[k] for k in permutation)
     place = {old: new for new, old in enumerate(permutation)}
     return Tableau(
-        tableau.spaces,
-        colours,
-        {(k, place[m]): block for (k, m), block in tableau.blocks.items()},
+        tableau.spaces, colours, {(k, place[m]): block for (k, m), block in tableau.blocks.items()}
     )
 
 
 def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
     """The stages of each space in another order; spaces must be of points."""
-    orders = [
-        dice.sample(range(space.stages), space.stages)
-        for space in tableau.spaces
-    ]
+    orders = [dice.sample(range(space.stages), space.stages) for space in tableau.spaces]
 
     def moved(v: Vector, k: int) -> Vector:
         return tuple(v[i] for i in orders[k])
@@ -383,13 +313,9 @@ def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
         for (k, m), block in tableau.blocks.items()
     }
     colours = tuple(
-        replace(x, b=moved(x.b, x.space), c=moved(x.c, x.space))
-        for x in tableau.colours
+        replace(x, b=moved(x.b, x.space), c=moved(x.c, x.space)) for x in tableau.colours
     )
-    spaces = tuple(
-        PointSpace(moved(space.nodes, k))
-        for k, space in enumerate(tableau.spaces)
-    )
+    spaces = tuple(PointSpace(moved(space.nodes, k)) for k, space in enumerate(tableau.spaces))
     return Tableau(spaces, colours, blocks)
 
 
@@ -401,11 +327,7 @@ def perturbed(tableau: Tableau, dice: Random) -> Tableau:
         colour: Colour = tableau.colours[l]
         j = dice.randrange(len(colour.b))
         b = tuple(x + change * int(k == j) for k, x in enumerate(colour.b))
-        colours = (
-            *tableau.colours[:l],
-            replace(colour, b=b),
-            *tableau.colours[l + 1 :],
-        )
+        colours = (*tableau.colours[:l], replace(colour, b=b), *tableau.colours[l + 1 :])
         return replace(tableau, colours=colours)
     return with_perturbed_block(tableau, dice)
 
@@ -431,12 +353,7 @@ def with_an_edge_less(tableau: Tableau, dice: Random) -> Tableau:
     """One block taken away: fewer trees are admissible."""
     gone = dice.choice(sorted(tableau.blocks))
     return replace(
-        tableau,
-        blocks={
-            edge: block
-            for edge, block in tableau.blocks.items()
-            if edge != gone
-        },
+        tableau, blocks={edge: block for edge, block in tableau.blocks.items() if edge != gone}
     )
 
 
@@ -462,9 +379,7 @@ def changed(dice: Random) -> Tableau:
     tableau = everywhere(rule, *names)
     if dice.random() < 0.3 and len(names) == 1:
         tableau = pair(tableau)
-    tableau = renumbered(
-        tableau, dice.sample(range(tableau.size), tableau.size)
-    )
+    tableau = renumbered(tableau, dice.sample(range(tableau.size), tableau.size))
     for change in (perturbed, with_an_edge_less, with_linear_colour):
         if tableau.blocks and dice.random() < 0.4:
             tableau = change(tableau, dice)

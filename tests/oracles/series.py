@@ -73,24 +73,14 @@ def flow(problem: Problem, powers: int) -> dict[Component, list[Number]]:
     x: dict[Component, Series] = {key: [(fmpq(0),)] for key in problem.fields}
     for known in range(powers):
         f = {
-            key: _field(
-                forms, x, known, (fmpq(1),), lambda u, v: (u[0] * v[0],)
-            )
+            key: _field(forms, x, known, (fmpq(1),), lambda u, v: (u[0] * v[0],))
             for key, forms in problem.fields.items()
         }
-        x = {
-            key: [
-                (fmpq(0),),
-                *((c[0] / n,) for n, c in enumerate(f[key], start=1)),
-            ]
-            for key in x
-        }
+        x = {key: [(fmpq(0),), *((c[0] / n,) for n, c in enumerate(f[key], start=1))] for key in x}
     return {key: [c[0] for c in series] for key, series in x.items()}
 
 
-def step(
-    tableau: Tableau, problem: Problem, powers: int
-) -> dict[Component, list[Number]]:
+def step(tableau: Tableau, problem: Problem, powers: int) -> dict[Component, list[Number]]:
     """One step from x = 0 up to h^powers; each iteration of the stage equations gains one power of
     h.
     """
@@ -101,10 +91,7 @@ def step(
     for known in range(powers):
         stages = [
             {
-                key: [
-                    zeros[k],
-                    *(image(tableau.blocks[k, key[0]], v) for v in f[key]),
-                ]
+                key: [zeros[k], *(image(tableau.blocks[k, key[0]], v) for v in f[key])]
                 if f
                 else [zeros[k]]
                 for key in problem.fields
@@ -115,9 +102,7 @@ def step(
         f = {}
         for (l, i), forms in problem.fields.items():
             rows = tableau.colours[l].space
-            f[l, i] = _field(
-                forms, stages[rows], known, ones[rows], products[rows]
-            )
+            f[l, i] = _field(forms, stages[rows], known, ones[rows], products[rows])
     return {
         (l, i): [fmpq(0), *(pairing(tableau.colours[l].b, v) for v in f[l, i])]
         for l, i in problem.fields
@@ -135,9 +120,7 @@ def _field(
     result: Series | None = None
     for form in forms:
         factor = list(_form(form, x, powers, unit))
-        result = (
-            factor if result is None else _multiplied(result, factor, times)
-        )
+        result = factor if result is None else _multiplied(result, factor, times)
     assert result is not None
     return result
 
@@ -146,9 +129,7 @@ def _form(
     form: Affine, x: Mapping[Component, Series], powers: int, unit: Vector
 ) -> Iterator[Vector]:
     for n in range(powers + 1):
-        total: list[Number] = [
-            form.constant * y if n == 0 else fmpq(0) for y in unit
-        ]
+        total: list[Number] = [form.constant * y if n == 0 else fmpq(0) for y in unit]
         for component, weight in form.weights.items():
             for k, y in enumerate(x[component][n]):
                 total[k] = total[k] + weight * y
@@ -171,8 +152,6 @@ def series_order(tableau: Tableau, limit: int, seed: int = 0) -> int:
     problem = random_problem(tableau, limit - 1, Random(seed))
     exact, found = flow(problem, limit), step(tableau, problem, limit)
     agreeing = (
-        n
-        for n in range(1, limit + 1)
-        if any(exact[key][n] != found[key][n] for key in exact)
+        n for n in range(1, limit + 1) if any(exact[key][n] != found[key][n] for key in exact)
     )
     return next(agreeing, limit + 1) - 1

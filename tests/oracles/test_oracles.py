@@ -12,15 +12,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.tableau.forms import gark
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from tests.oracles import samples
-from tests.oracles.brute import (
-    Plain,
-    Trees,
-    Weights,
-    brute_order,
-    density,
-    order_of,
-    same_tree,
-)
+from tests.oracles.brute import Plain, Trees, Weights, brute_order, density, order_of, same_tree
 from tests.oracles.points import at_points, lagrange, numbers, value
 from tests.oracles.series import series_order
 from tests.oracles.stages import one, product
@@ -31,23 +23,11 @@ def test_trees_are_all_and_once() -> None:
     twice.
     """
     alone = Trees(samples.NAMED["gauss 3"]())
-    assert [len(alone.of_order(n)) for n in range(1, 10)] == [
-        1,
-        1,
-        2,
-        4,
-        9,
-        20,
-        48,
-        115,
-        286,
-    ]
+    assert [len(alone.of_order(n)) for n in range(1, 10)] == [1, 1, 2, 4, 9, 20, 48, 115, 286]
     pair = Trees(samples.NAMED["pair, collocation"]())
     assert sum(len(pair.of_order(n)) for n in range(1, 6)) == 6872
     assert all(order_of(u) == 4 for u in pair.of_order(4))
-    assert not any(
-        same_tree(u, v) for u, v in combinations(pair.of_order(3), 2)
-    )
+    assert not any(same_tree(u, v) for u, v in combinations(pair.of_order(3), 2))
 
 
 def test_linear_colours_have_chains_only() -> None:
@@ -68,9 +48,7 @@ def test_linear_colours_have_chains_only() -> None:
     ],
 )
 @pytest.mark.parametrize("seed", range(3))
-def test_both_oracles_know_textbook_orders(
-    name: str, order: int, seed: int
-) -> None:
+def test_both_oracles_know_textbook_orders(name: str, order: int, seed: int) -> None:
     """Trees and power series give the orders of the textbooks, and both see the next power fail."""
     tableau = samples.NAMED[name]()
     assert brute_order(tableau, order + 2) == order
@@ -84,20 +62,9 @@ def test_table_1_of_the_paper() -> None:
     tableau = samples.NAMED["rk4"]()
     trees, weights = Trees(tableau), Weights(tableau)
     found = [(n, density(u)) for n in range(1, 5) for u in trees.of_order(n)]
-    assert sorted(found) == [
-        (1, 1),
-        (2, 2),
-        (3, 3),
-        (3, 6),
-        (4, 4),
-        (4, 8),
-        (4, 12),
-        (4, 24),
-    ]
+    assert sorted(found) == [(1, 1), (2, 2), (3, 3), (3, 6), (4, 4), (4, 8), (4, 12), (4, 24)]
     assert all(
-        weights.weight(u) == fmpq(1, density(u))
-        for n in range(1, 5)
-        for u in trees.of_order(n)
+        weights.weight(u) == fmpq(1, density(u)) for n in range(1, 5) for u in trees.of_order(n)
     )
 
 
@@ -118,10 +85,7 @@ def test_power_series_see_what_scalar_problems_hide() -> None:
     leaf: Plain = (0, ())
     twig: Plain = (0, (leaf,))
     weights = Weights(tableau)
-    residual = {
-        u: weights.weight(u) - fmpq(1, density(u))
-        for u in Trees(tableau).of_order(4)
-    }
+    residual = {u: weights.weight(u) - fmpq(1, density(u)) for u in Trees(tableau).of_order(4)}
     assert sorted(residual.values()) == [fmpq(-1, 12), 0, 0, fmpq(1, 6)]
     assert residual[(0, (leaf, twig))] == fmpq(-1, 12)
     assert residual[(0, ((0, (leaf, leaf)),))] == fmpq(1, 6)

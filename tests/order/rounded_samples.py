@@ -32,9 +32,7 @@ def nearest(number: arb, digits: int) -> fmpq:
 
 def published(name: str) -> Tableau:
     """A method of the catalogue, its radicals rounded to 80 digits."""
-    return tableau(
-        {**ENTRIES[name], "blocks": _without_radicals(ENTRIES[name]["blocks"])}
-    )
+    return tableau({**ENTRIES[name], "blocks": _without_radicals(ENTRIES[name]["blocks"])})
 
 
 def _without_radicals(blocks: Any) -> Any:
@@ -54,14 +52,9 @@ def in_decimals(exact: Tableau, digits: int) -> Tableau:
 
     def rounded(rows: Sequence[Sequence[Any]]) -> tuple[tuple[fmpq, ...], ...]:
         with ctx.workprec(4 * digits + 64):
-            return tuple(
-                tuple(nearest(x, digits) for x in row) for row in rows
-            )
+            return tuple(tuple(nearest(x, digits) for x in row) for row in rows)
 
-    A = [
-        [None if block is None else rounded(block) for block in row]
-        for row in found.A
-    ]
+    A = [[None if block is None else rounded(block) for block in row] for row in found.A]
     return spelled_out(A, rounded(found.b), rounded(found.c))
 
 

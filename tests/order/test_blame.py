@@ -24,9 +24,7 @@ def example(name: str) -> Tableau:
 
 def test_misprinted_collocation_example() -> None:
     """The paper's misprinted block A^{1,2} is named; no single entry repairs four wrong ones."""
-    tableau = load(
-        str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")
-    ).tableau
+    tableau = load(str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")).tableau
     blame = find_blame(tableau, 3, 4)
     assert blame is not None
     assert blame.culprit == (0, 1)
@@ -38,8 +36,7 @@ def test_misprinted_collocation_example() -> None:
 
 
 @pytest.mark.parametrize(
-    ("key", "i", "j"),
-    [((0, 0), 1, 0), ((0, 1), 0, 1), ((1, 0), 2, 1), ((1, 1), 2, 1)],
+    ("key", "i", "j"), [((0, 0), 1, 0), ((0, 1), 0, 1), ((1, 0), 2, 1), ((1, 1), 2, 1)]
 )
 def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
     """One entry changed in any block is found again, with its true value, and its block is the
@@ -49,9 +46,7 @@ def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
     block = [list(row) for row in tableau.blocks[key]]
     true = block[i][j]
     block[i][j] = true + fmpq(1, 7)
-    wrong = replace(
-        tableau, blocks={**tableau.blocks, key: tuple(map(tuple, block))}
-    )
+    wrong = replace(tableau, blocks={**tableau.blocks, key: tuple(map(tuple, block))})
     blame = find_blame(wrong, find_order(wrong).order + 1, 4)
     assert blame is not None
     assert blame.culprit == key
@@ -65,15 +60,10 @@ def test_single_wrong_weight() -> None:
     """
     tableau = example("collocation-conjugate")
     b = tableau.colours[1].b
-    colours = (
-        tableau.colours[0],
-        replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])),
-    )
+    colours = (tableau.colours[0], replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])))
     blame = find_blame(replace(tableau, colours=colours), 1, 4)
     assert blame is not None
-    assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [
-        (1, None, 1, fmpq(2, 3))
-    ]
+    assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [(1, None, 1, fmpq(2, 3))]
 
 
 def test_right_method_has_no_repair_for_more() -> None:
@@ -111,9 +101,7 @@ def test_blame_within_a_tolerance(key: str, tmp_path: Path) -> None:
     assert blame is not None
     assert (blame.of, blame.order) == (key, 2)
     (repair,) = [x for x in blame.repairs if (x.m, x.i, x.j) == (0, 1, 0)]
-    assert within(
-        repair.new - fmpq(53867513459481288, 10**17), fmpq(1, 10**15)
-    )
+    assert within(repair.new - fmpq(53867513459481288, 10**17), fmpq(1, 10**15))
 
 
 def test_what_rounding_explains_has_nobody_to_blame(tmp_path: Path) -> None:
@@ -129,20 +117,14 @@ def test_what_rounding_explains_has_nobody_to_blame(tmp_path: Path) -> None:
     assert found.analysis.suggestion is not None
 
 
-@pytest.mark.parametrize(
-    ("key", "j"), [("conjugate-order", 0), ("pair-order", 1)]
-)
-def test_an_exact_entry_is_found_through_the_conjugate(
-    key: str, j: int, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize(("key", "j"), [("conjugate-order", 0), ("pair-order", 1)])
+def test_an_exact_entry_is_found_through_the_conjugate(key: str, j: int, tmp_path: Path) -> None:
     """A wrong entry of Gauss 2 over ℚ(√3) is repaired by what the conjugate, or the pair, claims."""
     rows = [["1/4", "1/4 - sqrt(3)/6"], ["1/4 + sqrt(3)/6", "1/4"]]
     rows[1 - j][j] += " + 1/100"
     A = ", ".join(f"[{', '.join(row)}]" for row in rows)
     file = tmp_path / "m.gark.yaml"
-    file.write_text(
-        f"methods: [{{A: [{A}], b: [1/2, 1/2]}}]\nexpect: {{{key}: 4}}\n"
-    )
+    file.write_text(f"methods: [{{A: [{A}], b: [1/2, 1/2]}}]\nexpect: {{{key}: 4}}\n")
     blame = check_file(str(file)).blame
     assert blame is not None
     assert blame.of == key

@@ -11,15 +11,7 @@ from flint import fmpq
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
-from tests.oracles.brute import (
-    Trees,
-    Weights,
-    brute_order,
-    density,
-    failing,
-    plain,
-    same_tree,
-)
+from tests.oracles.brute import Trees, Weights, brute_order, density, failing, plain, same_tree
 from tests.oracles.series import series_order
 
 RANDOM: dict[str, tuple[Callable[[Random], Tableau], int]] = {
@@ -35,10 +27,7 @@ LIMIT = 5
 def cases(count_divisor: int = 1) -> list[pytest.param]:
     """Makers of random tableaus, each with its own seed."""
     return [
-        pytest.param(
-            lambda make=make, seed=seed: make(Random(seed)),
-            id=f"{kind}-{seed}",
-        )  # type: ignore[misc]
+        pytest.param(lambda make=make, seed=seed: make(Random(seed)), id=f"{kind}-{seed}")  # type: ignore[misc]
         for kind, (make, count) in RANDOM.items()
         for seed in range(count // count_divisor)
     ]
@@ -57,16 +46,12 @@ def assert_witness_fails(tableau: Tableau, found: Order) -> None:
     assert any(same_tree(tree, u) for u in trees_there)
     assert found.witness.value == Weights(tableau).weight(tree)
     assert found.witness.required == fmpq(1, density(tree))
-    assert (
-        found.witness.residual == found.witness.value - found.witness.required
-    )
+    assert found.witness.residual == found.witness.value - found.witness.required
     assert found.witness.value != found.witness.required
 
 
 @pytest.mark.parametrize("make", NAMED)
-def test_named_tableaus_against_every_tree(
-    make: Callable[[], Tableau],
-) -> None:
+def test_named_tableaus_against_every_tree(make: Callable[[], Tableau]) -> None:
     """All conditions hold up to the order that the certificate finds, and its witness fails one
     order higher.
     """
@@ -77,9 +62,7 @@ def test_named_tableaus_against_every_tree(
 
 
 @pytest.mark.parametrize("make", cases())
-def test_random_tableaus_against_every_tree(
-    make: Callable[[], Tableau],
-) -> None:
+def test_random_tableaus_against_every_tree(make: Callable[[], Tableau]) -> None:
     """Random coefficients, coupling graphs and linear colours: the same order as by listing all
     trees.
     """
@@ -93,9 +76,7 @@ def test_random_tableaus_against_every_tree(
 
 
 @pytest.mark.parametrize("make", NAMED)
-def test_named_tableaus_against_power_series(
-    make: Callable[[], Tableau],
-) -> None:
+def test_named_tableaus_against_power_series(make: Callable[[], Tableau]) -> None:
     """One step on a random polynomial problem agrees with the flow in exactly as many powers of
     h.
     """
@@ -105,17 +86,12 @@ def test_named_tableaus_against_power_series(
 
 
 @pytest.mark.parametrize("make", cases(count_divisor=2))
-def test_random_tableaus_against_power_series(
-    make: Callable[[], Tableau],
-) -> None:
+def test_random_tableaus_against_power_series(make: Callable[[], Tableau]) -> None:
     """The same on random tableaus, where absent edges and linear fields are those of the
     problem.
     """
     tableau = make()
-    assert (
-        series_order(tableau, LIMIT, seed=1)
-        == find_order(tableau, LIMIT).order
-    )
+    assert series_order(tableau, LIMIT, seed=1) == find_order(tableau, LIMIT).order
 
 
 def test_random_tableaus_are_worth_trying() -> None:
@@ -124,13 +100,8 @@ def test_random_tableaus_are_worth_trying() -> None:
     """
     tableaus = [case.values[0]() for case in cases()]
     orders = {find_order(tableau, LIMIT).order for tableau in tableaus}
-    sparse = sum(
-        len(list(tableau.edges())) < tableau.size**2 for tableau in tableaus
-    )
-    linear = sum(
-        any(colour.is_linear for colour in tableau.colours)
-        for tableau in tableaus
-    )
+    sparse = sum(len(list(tableau.edges())) < tableau.size**2 for tableau in tableaus)
+    linear = sum(any(colour.is_linear for colour in tableau.colours) for tableau in tableaus)
     assert orders == set(range(LIMIT + 1))
     assert sparse > 10
     assert linear > 10
@@ -165,9 +136,7 @@ def test_linear_fields_can_make_all_conditions_void() -> None:
     """A linear colour that sees one that sees nothing has two conditions, and both hold for the
     midpoint rule.
     """
-    full = samples.everywhere(
-        samples.RULES["collocation"], "gauss 1", "gauss 1"
-    )
+    full = samples.everywhere(samples.RULES["collocation"], "gauss 1", "gauss 1")
     chain = samples.with_linear(
         Tableau(full.spaces, full.colours, {(0, 1): full.blocks[0, 1]}), ["1"]
     )
@@ -190,10 +159,7 @@ def test_weights_that_do_not_sum_to_one_have_order_0() -> None:
     assert found.order == 0
     assert found.witness is not None
     assert plain(found.witness.tree) == (0, ())
-    assert (found.witness.value, found.witness.required) == (
-        fmpq(5, 6),
-        fmpq(1),
-    )
+    assert (found.witness.value, found.witness.required) == (fmpq(5, 6), fmpq(1))
 
 
 def test_many_trees_fail_where_one_witness_is_named() -> None:

@@ -7,13 +7,7 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from garkcli import (
-    Tableau,
-    Tree,
-    conditions,
-    find_order,
-    load,
-)
+from garkcli import Tableau, Tree, conditions, find_order, load
 from garkcli.families.registry import diagonal_method
 from garkcli.order import constants
 from garkcli.order.constants import error_constants
@@ -35,18 +29,9 @@ def example(name: str) -> Tableau:
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        "collocation",
-        "rectangular",
-        "semi-separable",
-        "ark-ars222",
-        "three-colours",
-    ],
+    "name", ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"]
 )
-def test_exact_and_float_paths_agree(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_exact_and_float_paths_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The exact sum over trees and the float one over the tree table give the same norms."""
     tableau = example(name)
     order = find_order(tableau).order + 1
@@ -56,10 +41,7 @@ def test_exact_and_float_paths_agree(
     assert exact is not None
     assert floats is not None
     assert (exact.is_exact, floats.is_exact) == (True, False)
-    for one, other in (
-        (exact.all, floats.all),
-        (exact.coupling, floats.coupling),
-    ):
+    for one, other in ((exact.all, floats.all), (exact.coupling, floats.coupling)):
         assert one.trees == other.trees
         assert one.two == pytest.approx(other.two, rel=1e-9)
         assert one.largest == pytest.approx(other.largest, rel=1e-9)
@@ -77,9 +59,7 @@ def test_twin_roots_count_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert exact.all.two == pytest.approx(floats.all.two, rel=1e-9)
 
 
-def test_twin_roots_mix_colours_each_for_itself(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_twin_roots_mix_colours_each_for_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """[τ^F]^V mixes colours and its twin [τ^F]^F does not: the coupling trees are those that do, in
     both paths.
     """
@@ -117,9 +97,7 @@ def test_classical_method() -> None:
         (fmpq(0) - fmpq(1, 120)) / 1,
     ]
     assert found.all.trees == 9
-    assert found.all.two_squared == sum(
-        (e * e for e in by_hand), start=fmpq(0)
-    )
+    assert found.all.two_squared == sum((e * e for e in by_hand), start=fmpq(0))
     assert found.coupling.trees == 0
 
 
@@ -137,9 +115,7 @@ def test_too_many_trees() -> None:
     assert error_constants(pair(example("gauss6-lobatto7")), 13) is None
 
 
-def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> (
-    None
-):
+def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> None:
     """Of the pair of one method every condition of order 2 is one of A or of Â, whichever root
     stands for it.
     """
@@ -149,7 +125,6 @@ def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> (
     assert [x.tree.colours for x in found] == [{0}, {0, 1}]
     assert not any(x.is_coupling for x in found)
     assert all(
-        x.is_coupling
-        == (len(x.tree.branches[0].colours | x.tree.branches[-1].colours) > 1)
+        x.is_coupling == (len(x.tree.branches[0].colours | x.tree.branches[-1].colours) > 1)
         for x in all_conditions(both, 3)
     )

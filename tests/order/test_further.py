@@ -26,24 +26,12 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import elementary_weight
-from garkcli.order.dense import (
-    DenseOrder,
-    dense_order,
-    ends_at_step,
-    slopes,
-)
+from garkcli.order.dense import DenseOrder, dense_order, ends_at_step, slopes
 from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.forms import gark, spelled_out
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
-from tests.oracles.brute import (
-    Trees,
-    Weights,
-    brute_order,
-    density,
-    order_of,
-    plain,
-)
+from tests.oracles.brute import Trees, Weights, brute_order, density, order_of, plain
 from tests.oracles.series import random_problem, series_order, step
 
 T = TypeVar("T")
@@ -59,9 +47,7 @@ def judged() -> dict[str, tuple[MethodFile, Analysis]]:
     found = {}
     for name, pair in PAIRS.items():
         method = loads(pair["file"])
-        analysis = analyse(
-            method.tableau, 12, method.tolerance, further=method.further
-        )
+        analysis = analyse(method.tableau, 12, method.tolerance, further=method.further)
         found[name] = method, analysis
     return found
 
@@ -81,9 +67,7 @@ def test_published_pairs_have_the_orders_that_are_known(
 
 
 EXACT = [
-    name
-    for name, pair in PAIRS.items()
-    if pair["embedded"] and "tolerance" not in pair["file"]
+    name for name, pair in PAIRS.items() if pair["embedded"] and "tolerance" not in pair["file"]
 ]
 
 
@@ -375,10 +359,7 @@ def outputs(draw: st.DrawFn) -> tuple[Tableau, DenseOutput]:
     if draw(st.booleans()):
         tableau = samples.random_additive(dice)
         blocks = [
-            tuple(
-                tuple(samples.small(dice) for _ in range(degree))
-                for _ in colour.b
-            )
+            tuple(tuple(samples.small(dice) for _ in range(degree)) for _ in colour.b)
             for colour in tableau.colours
         ]
         return tableau, DenseOutput(tuple(blocks))
@@ -420,9 +401,7 @@ def test_the_order_of_dense_output_ends_with_its_degree() -> None:
 
 @given(st.integers(0, 10**6))
 @settings(max_examples=25, deadline=None)
-def test_random_embedded_weights_have_the_order_of_the_oracles(
-    seed: int,
-) -> None:
+def test_random_embedded_weights_have_the_order_of_the_oracles(seed: int) -> None:
     """Weights with any sums have the order that trees one by one say, with time too."""
     dice = Random(seed)
     tableau = samples.changed(dice)
@@ -449,9 +428,7 @@ def drawn_row(b: Sequence[Number], dice: Random) -> Vector:
     return tuple(row)
 
 
-def test_too_many_trees_leave_dense_output_open(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_too_many_trees_leave_dense_output_open(monkeypatch: pytest.MonkeyPatch) -> None:
     """Within a tolerance an order with more trees than are looked at is undecided, the ones below
     it stand, and so does what needs no trees; the estimate then has no leading order.
     """
@@ -460,11 +437,7 @@ def test_too_many_trees_leave_dense_output_open(
     assert method.dense is not None
     tableau = rounded_tableau(method.tableau)
     found = dense_order(tableau, method.dense, 9, TOLERANCE)
-    assert (found.order, found.undecided, found.is_lower_bound) == (
-        2,
-        True,
-        True,
-    )
+    assert (found.order, found.undecided, found.is_lower_bound) == (2, True, True)
     alike = loads(ALIKE)
     analysis = analyse(alike.tableau, 9, TOLERANCE, further=alike.further)
     assert analysis.embedded is not None
@@ -483,15 +456,10 @@ def test_renumbering_colours_changes_no_order(seed: int) -> None:
     dice.shuffle(order)
     rows = [drawn_row(colour.b, dice) for colour in tableau.colours]
     blocks = [tuple((w, samples.small(dice)) for w in row) for row in rows]
-    one = analyse(
-        tableau,
-        4,
-        further=Further(tuple(rows), DenseOutput(tuple(blocks))),
-    )
+    one = analyse(tableau, 4, further=Further(tuple(rows), DenseOutput(tuple(blocks))))
     moved = samples.renumbered(tableau, order)
     further = Further(
-        tuple(row_of(moved, tableau, rows)),
-        DenseOutput(tuple(row_of(moved, tableau, blocks))),
+        tuple(row_of(moved, tableau, rows)), DenseOutput(tuple(row_of(moved, tableau, blocks)))
     )
     other = analyse(moved, 4, further=further)
     assert one.embedded is not None
@@ -505,8 +473,5 @@ def test_renumbering_colours_changes_no_order(seed: int) -> None:
 
 def row_of(moved: Tableau, tableau: Tableau, rows: Sequence[T]) -> list[T]:
     """What belongs to each colour of a renumbered tableau, by the terms that colours keep."""
-    by_term = {
-        colour.term: row
-        for colour, row in zip(tableau.colours, rows, strict=True)
-    }
+    by_term = {colour.term: row for colour, row in zip(tableau.colours, rows, strict=True)}
     return [by_term[colour.term] for colour in moved.colours]

@@ -41,22 +41,13 @@ def step(method: Tableau, f: Monomials, start: fmpq) -> fmpq_poly:
     (colour,), A = method.colours, method.blocks[0, 0]
     h, stages = fmpq_poly([0, 1]), [fmpq_poly([start])] * len(colour.b)
     for _ in range(DEGREE + 1):  # each round is right for one power of h more
-        slopes = [
-            right_hand_side(f, c * h, y)
-            for c, y in zip(colour.c, stages, strict=True)
-        ]
+        slopes = [right_hand_side(f, c * h, y) for c, y in zip(colour.c, stages, strict=True)]
         stages = [
             fmpq_poly([start])
-            + h
-            * sum(
-                (a * k for a, k in zip(row, slopes, strict=True)),
-                fmpq_poly([0]),
-            )
+            + h * sum((a * k for a, k in zip(row, slopes, strict=True)), fmpq_poly([0]))
             for row in A
         ]
-    end = sum(
-        (b * k for b, k in zip(colour.b, slopes, strict=True)), fmpq_poly([0])
-    )
+    end = sum((b * k for b, k in zip(colour.b, slopes, strict=True)), fmpq_poly([0]))
     return fmpq_poly([start]) + h * end
 
 
@@ -64,10 +55,7 @@ def solution(f: Monomials, start: fmpq) -> fmpq_poly:
     """The Taylor polynomial of the solution, by Picard iteration."""
     y = fmpq_poly([start])
     for _ in range(DEGREE + 1):
-        y = (
-            fmpq_poly([start])
-            + right_hand_side(f, fmpq_poly([0, 1]), y).integral()
-        )
+        y = fmpq_poly([start]) + right_hand_side(f, fmpq_poly([0, 1]), y).integral()
     return y
 
 
@@ -80,10 +68,7 @@ def order_seen(method: Tableau, dice: Random) -> int:
     ]
     start = fmpq(dice.randint(1, 5))
     found, true = step(method, f, start), solution(f, start)
-    return (
-        next(k for k in range(DEGREE + 2) if k > DEGREE or found[k] != true[k])
-        - 1
-    )
+    return next(k for k in range(DEGREE + 2) if k > DEGREE or found[k] != true[k]) - 1
 
 
 def with_nodes(A: str, b: str, c: list[fmpq]) -> Tableau:
@@ -109,10 +94,7 @@ def test_the_order_is_that_of_steps_as_power_series(
     """
     dice = Random(seed)
     method = samples.runge_kutta(*coefficients[0].split(";"), coefficients[1])
-    c = [
-        x + dice.choice([fmpq(0), fmpq(0), fmpq(1, 7)])
-        for x in method.colours[0].c
-    ]
+    c = [x + dice.choice([fmpq(0), fmpq(0), fmpq(1, 7)]) for x in method.colours[0].c]
     changed = with_nodes(*coefficients, c)
     timed = with_time(changed)
     assert timed is not None
@@ -136,12 +118,9 @@ def test_consistent_methods_keep_their_order() -> None:
 
 
 @pytest.mark.parametrize(
-    ("c", "order"),
-    [("[0, 1/2]", 2), ("[0, 1/3]", 1), ("[1/9, 1/2]", 2), ("[1/9, 2/3]", 1)],
+    ("c", "order"), [("[0, 1/2]", 2), ("[0, 1/3]", 1), ("[1/9, 1/2]", 2), ("[1/9, 2/3]", 1)]
 )
-def test_a_check_says_the_order_with_the_nodes_as_printed(
-    c: str, order: int
-) -> None:
+def test_a_check_says_the_order_with_the_nodes_as_printed(c: str, order: int) -> None:
     """The midpoint rule: its second node counts, the first has no weight."""
     method = loads(f"methods: [{{A: [[0, 0], [1/2, 0]], b: [0, 1], c: {c}}}]")
     found = analyse(method.tableau)

@@ -32,15 +32,9 @@ def moved(tableau: Tableau, dice: Random) -> Tableau:
     """Every entry of A and b off by at most ``T``, some of them by all of it."""
 
     def row(values: tuple[fmpq, ...]) -> tuple[fmpq, ...]:
-        return tuple(
-            x + T * fmpq(dice.choice([-10, 10, dice.randint(-9, 9)]), 10)
-            for x in values
-        )
+        return tuple(x + T * fmpq(dice.choice([-10, 10, dice.randint(-9, 9)]), 10) for x in values)
 
-    blocks = {
-        key: tuple(row(x) for x in block)
-        for key, block in tableau.blocks.items()
-    }  # type: ignore[arg-type]
+    blocks = {key: tuple(row(x) for x in block) for key, block in tableau.blocks.items()}  # type: ignore[arg-type]
     colours = tuple(replace(x, b=row(x.b)) for x in tableau.colours)  # type: ignore[arg-type]
     return replace(tableau, blocks=blocks, colours=colours)
 
@@ -57,14 +51,9 @@ def test_entries_of_the_conjugate(name: str, seed: int) -> None:
     tableau = sample(name)
     found = conjugate_rounding(tableau, T)
     assert found is not None
-    printed, other = (
-        conjugate(tableau).blocks,
-        conjugate(moved(tableau, Random(seed))).blocks,
-    )
+    printed, other = (conjugate(tableau).blocks, conjugate(moved(tableau, Random(seed))).blocks)
     for key, radii in found.hats.items():
-        for row, others, bounds in zip(
-            printed[key], other[key], radii.tolist(), strict=True
-        ):
+        for row, others, bounds in zip(printed[key], other[key], radii.tolist(), strict=True):
             for x, y, bound in zip(row, others, bounds, strict=True):
                 assert within(x - y, rounded_up(bound))
 
@@ -72,9 +61,7 @@ def test_entries_of_the_conjugate(name: str, seed: int) -> None:
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("which", ["method", "conjugate", "pair"])
 @given(seed=SEEDS)
-def test_residuals_change_by_no_more_than_the_effect(
-    name: str, which: str, seed: int
-) -> None:
+def test_residuals_change_by_no_more_than_the_effect(name: str, which: str, seed: int) -> None:
     """Every tree up to order 4, for the method, its conjugate and their pair."""
     tableau = sample(name)
     rounding = conjugate_rounding(tableau, T)
@@ -89,16 +76,10 @@ def test_residuals_change_by_no_more_than_the_effect(
     else:
         printed, other = pair(tableau), pair(moved(tableau, dice))
         made = rounding.of_pair(printed)
-    table = TreeTable.upto(
-        printed.size, 4 if printed.size < 3 else 3, *coupling_graph(printed)
-    )
+    table = TreeTable.upto(printed.size, 4 if printed.size < 3 else 3, *coupling_graph(printed))
     trees = [table.tree(i) for i in range(len(table))]
-    for one, two in zip(
-        conditions(printed, trees), conditions(other, trees), strict=True
-    ):
-        assert within(
-            one.value - two.value, rounded_up(made.effect(one.tree.order))
-        )
+    for one, two in zip(conditions(printed, trees), conditions(other, trees), strict=True):
+        assert within(one.value - two.value, rounded_up(made.effect(one.tree.order)))
 
 
 def test_the_effect_is_of_the_size_of_the_rounding() -> None:
@@ -110,21 +91,15 @@ def test_the_effect_is_of_the_size_of_the_rounding() -> None:
     reached = [arb(0)] * 4
     for seed in range(40):
         other = moved(tableau, Random(seed))
-        for one, two in zip(
-            conditions(tableau, trees), conditions(other, trees), strict=True
-        ):
+        for one, two in zip(conditions(tableau, trees), conditions(other, trees), strict=True):
             n = one.tree.order - 1
             reached[n] = reached[n].max(abs(to_ball(one.value - two.value)))
     assert all(10 * reached[n - 1] > made.effect(n) for n in range(1, 5))
 
 
-def test_a_weight_within_the_tolerance_of_zero_leaves_the_conjugate_open() -> (
-    None
-):
+def test_a_weight_within_the_tolerance_of_zero_leaves_the_conjugate_open() -> None:
     """b_2 = 10⁻⁶ might be zero within 10⁻⁵, not within 10⁻⁷."""
-    tableau = samples.runge_kutta(
-        "0, 0", "1/2, 0", "999999/1000000, 1/1000000"
-    )
+    tableau = samples.runge_kutta("0, 0", "1/2, 0", "999999/1000000, 1/1000000")
     assert conjugate_rounding(tableau, T) is None
     found = conjugate_rounding(tableau, fmpq(1, 10**7))
     assert found is not None

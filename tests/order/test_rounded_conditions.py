@@ -17,12 +17,7 @@ from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
 from garkcli.order.defects import is_symplectic_within
 from garkcli.order.simplifying import consistent_blocks, simplifying
-from garkcli.order.tolerance import (
-    form_within,
-    functional_within,
-    vector_within,
-    within,
-)
+from garkcli.order.tolerance import form_within, functional_within, vector_within, within
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.tableau import Tableau
@@ -43,9 +38,7 @@ def moved(tableau: Tableau, size: fmpq) -> Tableau:
 
 @pytest.mark.parametrize("name", samples.NAMED)
 @pytest.mark.parametrize("tolerance", [fmpq(0), SMALL])
-def test_exact_methods_satisfy_what_they_satisfy_exactly(
-    name: str, tolerance: fmpq
-) -> None:
+def test_exact_methods_satisfy_what_they_satisfy_exactly(name: str, tolerance: fmpq) -> None:
     """For methods without rounding a tolerance, also of zero, changes nothing, in every kind of
     stage space.
     """
@@ -56,25 +49,17 @@ def test_exact_methods_satisfy_what_they_satisfy_exactly(
 
 
 @pytest.mark.parametrize(("stages", "digits"), [(2, 16), (4, 30), (10, 60)])
-def test_decimals_satisfy_what_the_family_does(
-    stages: int, digits: int
-) -> None:
+def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None:
     """B, C, D of Gauss × Lobatto IIIA in decimals are those of the families, and the pair is
     symplectic.
     """
     decimal = gauss_lobatto(stages, digits)
-    exact = samples.everywhere(
-        collocation, f"gauss {stages}", f"lobatto-iiia {stages + 1}"
-    )
+    exact = samples.everywhere(collocation, f"gauss {stages}", f"lobatto-iiia {stages + 1}")
     tolerance = fmpq(1, 10 ** (digits - 3))
     assert simplifying(decimal, tolerance=tolerance) == simplifying(exact)
-    assert simplifying(pair(decimal), tolerance=tolerance) == simplifying(
-        pair(exact)
-    )
+    assert simplifying(pair(decimal), tolerance=tolerance) == simplifying(pair(exact))
     assert all(consistent_blocks(decimal, tolerance).values())
-    assert not any(
-        consistent_blocks(decimal, fmpq(1, 10 ** (digits + 3))).values()
-    )
+    assert not any(consistent_blocks(decimal, fmpq(1, 10 ** (digits + 3))).values())
     assert is_symplectic_within(pair(decimal), tolerance)
     assert not is_symplectic_within(decimal, tolerance)
 
@@ -88,15 +73,9 @@ def test_symplectic_within_the_rounding() -> None:
 
 
 @pytest.mark.parametrize(
-    "make",
-    [
-        lambda: gark([diagonal_method("gauss", 5)], {}),
-        lambda: published("DP8_Hairer_853"),
-    ],
+    "make", [lambda: gark([diagonal_method("gauss", 5)], {}), lambda: published("DP8_Hairer_853")]
 )
-def test_a_change_is_met_by_larger_tolerances_only(
-    make: Callable[[], Tableau],
-) -> None:
+def test_a_change_is_met_by_larger_tolerances_only(make: Callable[[], Tableau]) -> None:
     """A coefficient moved by 10⁻⁸: within 10⁻⁶ all is as before, within 10⁻¹⁰ consistency and C are
     gone.
     """
@@ -110,9 +89,7 @@ def test_a_change_is_met_by_larger_tolerances_only(
     assert is_symplectic_within(changed, tight) is False
 
 
-@pytest.mark.parametrize(
-    "text", ["sqrt(2)", "cbrt(2) - 1", "sqrt(2) - sqrt(3)", "1/3", "-7/5"]
-)
+@pytest.mark.parametrize("text", ["sqrt(2)", "cbrt(2) - 1", "sqrt(2) - sqrt(3)", "1/3", "-7/5"])
 def test_within_is_exact(text: str) -> None:
     """A number against its own decimals to 200 places, from both sides; equality is met."""
     expression = parse(text)
@@ -121,9 +98,9 @@ def test_within_is_exact(text: str) -> None:
         assert within(number, abs(number))
         assert not within(number, abs(number) - fmpq(1, 10**300))
         return
-    below = abs(
-        Domain([]).evaluate(parse(to_decimal(number, 200).removeprefix("-")))
-    ) - fmpq(1, 10**199)
+    below = abs(Domain([]).evaluate(parse(to_decimal(number, 200).removeprefix("-")))) - fmpq(
+        1, 10**199
+    )
     assert not within(number, below)
     assert within(number, below + fmpq(1, 10**198))
 
@@ -137,9 +114,7 @@ def test_values_at_nodes_decide(x: Fraction, t: Fraction) -> None:
     tolerance = fmpq(str(t))
     scale = fmpq(str(x))
     vector = tuple(scale * y for y in space.nodes)
-    upper = scale * fmpq(
-        7886751345948128822, 10**19
-    )  # (3 + √3)/6, rounded down
+    upper = scale * fmpq(7886751345948128822, 10**19)  # (3 + √3)/6, rounded down
     if abs(upper - tolerance) > fmpq(1, 10**15):
         assert vector_within(space, vector, tolerance) == (upper < tolerance)
 
@@ -153,6 +128,4 @@ def test_functionals_and_forms_at_nodes() -> None:
     assert not functional_within(method.space, method.b, fmpq(1, 2) - SMALL)
     gram = method.space.gram(method.b)
     assert form_within(method.space, method.space, gram, fmpq(1, 2) + SMALL)
-    assert not form_within(
-        method.space, method.space, gram, fmpq(1, 2) - SMALL
-    )
+    assert not form_within(method.space, method.space, gram, fmpq(1, 2) - SMALL)

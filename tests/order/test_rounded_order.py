@@ -30,13 +30,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
 from garkcli.trees.table import TreeTable
 from tests.oracles import samples
-from tests.order.rounded_samples import (
-    ENTRIES,
-    gauss_lobatto,
-    in_decimals,
-    nearest,
-    published,
-)
+from tests.order.rounded_samples import ENTRIES, gauss_lobatto, in_decimals, nearest, published
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -55,14 +49,9 @@ def rounded(tableau: Tableau, dice: Random, size: fmpq) -> Tableau:
     """Every entry of the blocks and weights moved by a random amount up to ``size``."""
 
     def moved(row: tuple[fmpq, ...]) -> tuple[fmpq, ...]:
-        return tuple(
-            x + size * fmpq(dice.randint(-100, 100), 100) for x in row
-        )
+        return tuple(x + size * fmpq(dice.randint(-100, 100), 100) for x in row)
 
-    blocks = {
-        key: tuple(moved(row) for row in block)
-        for key, block in tableau.blocks.items()
-    }  # type: ignore[arg-type]
+    blocks = {key: tuple(moved(row) for row in block) for key, block in tableau.blocks.items()}  # type: ignore[arg-type]
     colours = tuple(replace(x, b=moved(x.b)) for x in tableau.colours)  # type: ignore[arg-type]
     return Tableau(tableau.spaces, colours, blocks)
 
@@ -80,9 +69,7 @@ def test_the_catalogue_has_its_verified_orders(name: str) -> None:
     """Each of the 94 methods has its verified order within its rounding, and a witness one order
     higher.
     """
-    found = find_order_within(
-        published(name), power_of_ten(ENTRIES[name]["rounding"])
-    )
+    found = find_order_within(published(name), power_of_ten(ENTRIES[name]["rounding"]))
     assert found.order == ENTRIES[name]["verified_order"]
     assert not found.undecided
     assert_witness(found)
@@ -102,9 +89,7 @@ def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
             both, other = pair(method), conjugate(method)
         except ZeroWeight:
             continue
-        orders = [
-            find_order_within(x, tolerance) for x in (both, method, other)
-        ]
+        orders = [find_order_within(x, tolerance) for x in (both, method, other)]
         assert not any(x.undecided for x in orders)
         assert orders[0].order <= min(orders[1].order, orders[2].order)
         decided += 1
@@ -119,10 +104,7 @@ def test_orders_are_those_of_exact_enumeration(seed: int) -> None:
     dice = Random(seed)
     tableau = samples.random_graph(dice)
     if dice.random() < 0.5:
-        tableau = gark(
-            [samples.method(dice.choice(["rk4", "kutta", "heun", "ssp2 4"]))],
-            {},
-        )
+        tableau = gark([samples.method(dice.choice(["rk4", "kutta", "heun", "ssp2 4"]))], {})
     tableau = rounded(tableau, dice, fmpq(1, 10 ** dice.randint(1, 30)))
     tolerance = fmpq(1, 10 ** dice.randint(0, 31))
     exact = largest_residuals(tableau, 5)
@@ -132,8 +114,7 @@ def test_orders_are_those_of_exact_enumeration(seed: int) -> None:
     assert found.is_lower_bound == (expected == 5)
     with ctx.workprec(2000):
         assert all(
-            bound >= size
-            for bound, size in zip(found.sizes[:expected], exact, strict=False)
+            bound >= size for bound, size in zip(found.sizes[:expected], exact, strict=False)
         )
 
 
@@ -157,25 +138,15 @@ def test_a_residual_equal_to_the_tolerance_is_met(
 
 def test_irrational_residuals_near_the_tolerance() -> None:
     """A residual of ℚ(cbrt(2)) is told from tolerances 10⁻⁹⁰ away on both sides."""
-    tableau = samples.runge_kutta(
-        "0, 0", "cbrt(2), 0", "1 - cbrt(4)/4, cbrt(4)/4"
-    )
+    tableau = samples.runge_kutta("0, 0", "cbrt(2), 0", "1 - cbrt(4)/4, cbrt(4)/4")
     exact = find_order(tableau)
     table = TreeTable.upto(1, exact.order + 1)
     trees = map(table.tree, table.ids(exact.order + 1))
     with ctx.workprec(400):
-        size = max(
-            (
-                abs(to_ball(x.residual, 100))
-                for x in conditions(tableau, trees)
-            ),
-            key=float,
-        )
+        size = max((abs(to_ball(x.residual, 100)) for x in conditions(tableau, trees)), key=float)
         below = nearest(size, 90)
     assert find_order_within(tableau, below).order == exact.order
-    assert (
-        find_order_within(tableau, below + fmpq(1, 10**90)).order > exact.order
-    )
+    assert find_order_within(tableau, below + fmpq(1, 10**90)).order > exact.order
 
 
 def test_a_perturbed_coefficient_lowers_the_order() -> None:
@@ -193,8 +164,7 @@ def test_a_perturbed_coefficient_lowers_the_order() -> None:
             last = (block[-1][0] + size, *block[-1][1:])
             block = (*block[:-1], last)
         return find_order_within(
-            replace(tableau, colours=(colour,), blocks={(0, 0): block}),
-            tolerance,
+            replace(tableau, colours=(colour,), blocks={(0, 0): block}), tolerance
         ).order
 
     assert [changed(fmpq(1, 10**n), True) for n in (10, 14)] == [0, 8]
@@ -207,9 +177,7 @@ def test_spans_bound_every_tree(seed: int) -> None:
     less.
     """
     dice = Random(seed)
-    tableau = rounded(
-        samples.random_graph(dice), dice, fmpq(1, 10 ** dice.randint(2, 20))
-    )
+    tableau = rounded(samples.random_graph(dice), dice, fmpq(1, 10 ** dice.randint(2, 20)))
     grain = arb(fmpq(1, 10 ** dice.randint(0, 25)))
     spans = ApproximateSpans(tableau, enclose_tableau(tableau, 600), grain)
     for n, largest in enumerate(largest_residuals(tableau, 5), start=1):
@@ -225,23 +193,14 @@ def test_spans_are_sharp_where_all_is_known() -> None:
     """
     tableau = gark([diagonal_method("gauss", 2)], {})
     enclosure = enclose_tableau(tableau, 300)
-    spans, trees = (
-        ApproximateSpans(tableau, enclosure, arb(0)),
-        TreeResiduals(tableau, enclosure),
-    )
+    spans, trees = (ApproximateSpans(tableau, enclosure, arb(0)), TreeResiduals(tableau, enclosure))
     assert spans.sizes(4).bound < fmpq(1, 10**60)
     assert spans.sizes(5).reached.overlaps(trees.sizes(5).reached)
 
 
 @pytest.mark.parametrize(
     ("stages", "digits", "tolerance", "order"),
-    [
-        (2, 16, 14, 4),
-        (3, 30, 28, 6),
-        (4, 30, 26, 8),
-        (6, 30, 25, 12),
-        (10, 60, 45, 20),
-    ],
+    [(2, 16, 14, 4), (3, 30, 28, 6), (4, 30, 26, 8), (6, 30, 25, 12), (10, 60, 45, 20)],
 )
 def test_gauss_and_lobatto_in_decimals(
     stages: int, digits: int, tolerance: int, order: int
@@ -259,18 +218,11 @@ def test_families_mixed_with_decimals() -> None:
     """A family stays exact beside a method in decimals: its nodes are enclosed as finely as
     needed.
     """
-    gauss, lobatto = (
-        diagonal_method("gauss", 3),
-        diagonal_method("lobatto-iiia", 4),
-    )
+    gauss, lobatto = (diagonal_method("gauss", 3), diagonal_method("lobatto-iiia", 4))
     cut = in_decimals(gark([lobatto], {}), 30)
     decimal = butcher(cut.blocks[0, 0], cut.colours[0].b, cut.colours[0].c)
     mixed = gark(
-        [gauss, decimal],
-        {
-            (0, 1): collocation(gauss, decimal),
-            (1, 0): collocation(decimal, gauss),
-        },
+        [gauss, decimal], {(0, 1): collocation(gauss, decimal), (1, 0): collocation(decimal, gauss)}
     )
     assert find_order(mixed).order < 6
     assert find_order_within(mixed, fmpq(1, 10**28)).order == 6
@@ -314,15 +266,7 @@ def test_limits() -> None:
     """
     tableau = published("sprk_Yoshida_6_8")
     found = find_order_within(tableau, fmpq(1, 10**30), 3)
-    assert (found.order, found.is_lower_bound, found.undecided) == (
-        3,
-        True,
-        False,
-    )
-    assert (
-        find_order_within(tableau, fmpq(0)).order
-        == find_order(tableau).order
-        == 0
-    )
+    assert (found.order, found.is_lower_bound, found.undecided) == (3, True, False)
+    assert find_order_within(tableau, fmpq(0)).order == find_order(tableau).order == 0
     endless = samples.without_cycles()
     assert find_order_within(endless, fmpq(1, 2)).order == 60

@@ -24,13 +24,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import tableau
 from tests.catalogue.method_files import method_file
 from tests.oracles import samples
-from tests.order.rounded_samples import (
-    ENTRIES,
-    EXACT,
-    ROUNDED,
-    gauss_lobatto,
-    published,
-)
+from tests.order.rounded_samples import ENTRIES, EXACT, ROUNDED, gauss_lobatto, published
 
 
 def suggestion(method: Tableau) -> Suggestion | None:
@@ -38,9 +32,7 @@ def suggestion(method: Tableau) -> Suggestion | None:
     return suggest_tolerance(method, find_order(method))
 
 
-@pytest.mark.parametrize(
-    "name", [name for name in EXACT if name != "sprk_McLachlan_3_3"]
-)
+@pytest.mark.parametrize("name", [name for name in EXACT if name != "sprk_McLachlan_3_3"])
 def test_exact_methods_get_none(name: str) -> None:
     """Their first failing residuals are genuine, down to 7·10⁻⁸ at order 9.
 
@@ -65,12 +57,9 @@ def test_float64_coefficients() -> None:
 
 
 @pytest.mark.parametrize(
-    ("stages", "digits", "order"),
-    [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)],
+    ("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)]
 )
-def test_decimals_of_gauss_and_lobatto(
-    stages: int, digits: int, order: int
-) -> None:
+def test_decimals_of_gauss_and_lobatto(stages: int, digits: int, order: int) -> None:
     """Also where the trees are too many to list."""
     decimal = gauss_lobatto(stages, digits)
     found = suggestion(decimal)
@@ -83,13 +72,8 @@ def test_no_gap_no_suggestion() -> None:
     """A weight off by 10⁻⁷, or by 10⁻⁴, under an error of 10⁻⁵ is a mistake, not rounding."""
     rk = samples.runge_kutta("0, 0", "1/2, 0", "1/10000, 9999/10000")
     assert suggestion(rk) is None
-    assert (
-        suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 1000001/1000000"))
-        is None
-    )
-    off = suggestion(
-        samples.runge_kutta("0, 0", "1/2, 0", "0, 100000001/100000000")
-    )
+    assert suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 1000001/1000000")) is None
+    off = suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 100000001/100000000"))
     assert off is not None
     assert off.tolerance == fmpq(1, 10**7)
 
@@ -100,9 +84,7 @@ DECIMALS = "methods: [{{A: [[0.25, -0.03867513459481288], [{}, 0.25]], b: [0.5, 
 def analysed(text: str) -> Analysis:
     """What a check finds, the digits of the text known."""
     method = loads(text)
-    return analyse(
-        method.tableau, 30, None, lambda: printed_units(method.printed)
-    )
+    return analyse(method.tableau, 30, None, lambda: printed_units(method.printed))
 
 
 def test_no_tolerance_swallows_a_misprint() -> None:
@@ -124,10 +106,7 @@ def test_what_the_digits_explain_is_proposed() -> None:
     found = analysed(DECIMALS.format("0.53867513459481288"))
     assert found.misprint is None
     assert found.suggestion is not None
-    assert (found.suggestion.order, found.suggestion.line) == (
-        4,
-        "tolerance: 1e-17",
-    )
+    assert (found.suggestion.order, found.suggestion.line) == (4, "tolerance: 1e-17")
 
 
 @pytest.mark.parametrize("name", ROUNDED)
@@ -146,9 +125,7 @@ def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
     assert within.order == proposed.order
 
 
-@pytest.mark.parametrize(
-    "name", ["sundials_VERNER_10_6_7", "sundials_KVAERNO_4_2_3"]
-)
+@pytest.mark.parametrize("name", ["sundials_VERNER_10_6_7", "sundials_KVAERNO_4_2_3"])
 @pytest.mark.parametrize("seed", range(3))
 def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:
     """A digit of A changed in the 11th place is never taken for rounding; where one entry repairs
@@ -167,13 +144,10 @@ def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:
     at = text.index(".") + 11
     wrong = f"{text[:at]}{(int(text[at]) + 5) % 10}{text[at + 1 :]}"
     changed = [
-        [wrong if (k, m) == (i, j) else x for m, x in enumerate(row)]
-        for k, row in enumerate(rows)
+        [wrong if (k, m) == (i, j) else x for m, x in enumerate(row)] for k, row in enumerate(rows)
     ]
     blocks = {**entry["blocks"], "A": [[changed]]}
-    found = analysed(
-        re.sub("tolerance: .*", "", method_file({**entry, "blocks": blocks}))
-    )
+    found = analysed(re.sub("tolerance: .*", "", method_file({**entry, "blocks": blocks})))
     assert found.suggestion is None
     assert found.misprint is not None
     assert (i, j) in [(x.i, x.j) for x in found.misprint.repairs]

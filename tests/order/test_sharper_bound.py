@@ -49,9 +49,7 @@ def assert_bounded(tableau: Tableau) -> int:
     return order.order - found.sharp_bound
 
 
-@pytest.mark.parametrize(
-    ("first", "second"), list(product(FAMILIES, FAMILIES))
-)
+@pytest.mark.parametrize(("first", "second"), list(product(FAMILIES, FAMILIES)))
 @pytest.mark.parametrize("rule", ["collocation", "interpolation"])
 def test_families(first: str, second: str, rule: str) -> None:
     """Two families coupled by a rule, and the symplectic pair that they form."""
@@ -93,11 +91,7 @@ def test_it_is_sharper() -> None:
     """The pair of the collocation example: printed 3, sharper 4, true 4."""
     both = pair(load("methods/collocation.gark.yaml").tableau)
     found = simplifying(both)
-    assert (found.bound, found.sharp_bound, find_order(both).order) == (
-        3,
-        4,
-        4,
-    )
+    assert (found.bound, found.sharp_bound, find_order(both).order) == (3, 4, 4)
 
 
 def test_it_is_attained_by_most_pairs_of_families() -> None:
@@ -123,9 +117,7 @@ SMALL = st.sampled_from([name for name in FAMILIES if not name.endswith("4")])
 @st.composite
 def coupled(draw: st.DrawFn) -> Tableau:
     """Up to three methods of families, each block absent, by a rule, or a combination of two."""
-    methods = [
-        samples.method(draw(SMALL)) for _ in range(draw(st.integers(1, 3)))
-    ]
+    methods = [samples.method(draw(SMALL)) for _ in range(draw(st.integers(1, 3)))]
     blocks = {}
     for l, m in permutations(range(len(methods)), 2):
         if draw(st.booleans()):
@@ -151,8 +143,6 @@ def test_the_documented_counts() -> None:
     rules the sharper bound is the order each time.
     """
     assert "\n".join(table()) in DOCS.read_text(encoding="utf-8")
-    pairs = [
-        pair(tableau) for tableau in drawn(combine=False, count=50, seed=1)
-    ]
+    pairs = [pair(tableau) for tableau in drawn(combine=False, count=50, seed=1)]
     found = counted(pairs)
     assert found.sharp == found.methods > found.printed

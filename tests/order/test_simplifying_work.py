@@ -19,9 +19,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 
 
-def conditions_one_by_one(
-    tableau: Tableau, limit: int
-) -> list[list[int | None]]:
+def conditions_one_by_one(tableau: Tableau, limit: int) -> list[list[int | None]]:
     """η^{l,m} of every pair of colours, each found on its own."""
     defects = Defects(tableau)
     found: list[list[int | None]] = []
@@ -31,9 +29,7 @@ def conditions_one_by_one(
             if tableau.block(l, m) is None:
                 row.append(None)
                 continue
-            failing = (
-                k for k in range(1, limit + 1) if any(defects.C(l, m, k))
-            )
+            failing = (k for k in range(1, limit + 1) if any(defects.C(l, m, k)))
             row.append(next(failing, limit + 1) - 1)
         found.append(row)
     return found
@@ -43,19 +39,12 @@ def conditions_one_by_one(
 def test_shared_rows_have_their_own_conditions(seed: int) -> None:
     """Additive and partitioned methods, whose colours share stages, and some that share none."""
     dice = Random(seed)
-    make = dice.choice(
-        [
-            samples.random_additive,
-            samples.random_partitioned,
-            samples.random_graph,
-        ]
-    )
+    make = dice.choice([samples.random_additive, samples.random_partitioned, samples.random_graph])
     tableau = make(dice)
     found = simplifying(tableau, 6)
     assert [list(row) for row in found.C] == conditions_one_by_one(tableau, 6)
     assert all(
-        holds == (found.C[l][m] != 0)
-        for (l, m), holds in consistent_blocks(tableau).items()
+        holds == (found.C[l][m] != 0) for (l, m), holds in consistent_blocks(tableau).items()
     )
 
 
@@ -85,10 +74,6 @@ def test_moments_are_kept_and_right(stages: int) -> None:
     fresh = PolynomialSpace(space.modulus)
     for k in range(MAX_MOMENTS + 3):
         functional = tuple(x + k for x in method.b)
-        assert (
-            space.gram(functional)
-            == fresh.gram(functional)
-            == fresh.gram(functional)
-        )
+        assert space.gram(functional) == fresh.gram(functional) == fresh.gram(functional)
     one = space.gram(method.b)[0]
     assert one == tuple(fmpq(1, k) for k in range(1, stages + 1))

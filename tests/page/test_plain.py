@@ -10,13 +10,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
 from garkcli.page.paint import Paint
 from garkcli.page.plain import csv_cell, inert, printable
-from garkcli.report import (
-    check_github,
-    check_junit,
-    check_markdown,
-    check_sarif,
-    check_text,
-)
+from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
 
 TURNED = "a\N{RIGHT-TO-LEFT OVERRIDE}b\x1b[2J\x9b1m"
 """A name that turns text, clears a terminal, and colours it by a control character of one byte."""
@@ -31,13 +25,7 @@ def test_printable_text_is_one_line_without_controls(text: str) -> None:
     assert len(shown.splitlines()) <= 1
 
 
-@given(
-    st.lists(
-        st.sampled_from(
-            [" ", ":", "::", "#", "[", "error", "\n", "\t", "\xa0", "x"]
-        )
-    )
-)
+@given(st.lists(st.sampled_from([" ", ":", "::", "#", "[", "error", "\n", "\t", "\xa0", "x"])))
 def test_no_line_is_a_workflow_command(parts: list[str]) -> None:
     """However a line is made, after blanks it does not begin with two colons, nor has ##[ in it."""
     shown = inert("".join(parts))
@@ -45,9 +33,7 @@ def test_no_line_is_a_workflow_command(parts: list[str]) -> None:
     assert "##[" not in shown
 
 
-@pytest.mark.parametrize(
-    "text", ["=1+1", "+cmd", "-cmd|x", "@sum", "\tx", "\rx"]
-)
+@pytest.mark.parametrize("text", ["=1+1", "+cmd", "-cmd|x", "@sum", "\tx", "\rx"])
 def test_no_cell_is_a_formula(text: str) -> None:
     """A spreadsheet takes the cell for text; numbers with a sign stay numbers."""
     assert csv_cell(text) == f"'{text}"
@@ -58,9 +44,7 @@ def test_no_cell_is_a_formula(text: str) -> None:
 def test_every_format_writes_faults_without_controls() -> None:
     """The name of the file, the line that is shown, the message and its cure."""
     fault = Fault(f"no {TURNED}", f"not {TURNED}", 1, 2)
-    outcome = Outcome(
-        f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}"
-    )
+    outcome = Outcome(f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}")
     texts = [
         check_text.render([outcome], Paint()),
         check_github.render([outcome]),
@@ -75,8 +59,6 @@ def test_every_format_writes_faults_without_controls() -> None:
 
 def test_the_caret_stands_under_the_text_as_it_is_shown() -> None:
     """What is written out before the column moves the caret."""
-    outcome = Outcome(
-        "f", "f", faults=(Fault("wrong", "", 1, 3),), text="a\x1bb"
-    )
+    outcome = Outcome("f", "f", faults=(Fault("wrong", "", 1, 3),), text="a\x1bb")
     _, line, caret = check_text.render([outcome], Paint()).splitlines()
     assert line.index("b", line.index("x1b") + 3) == caret.index("^")

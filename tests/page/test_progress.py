@@ -15,9 +15,7 @@ class _Terminal(io.StringIO):
         return True
 
 
-def terminal(
-    monkeypatch: pytest.MonkeyPatch, patience: float = 0.0
-) -> _Terminal:
+def terminal(monkeypatch: pytest.MonkeyPatch, patience: float = 0.0) -> _Terminal:
     """Stderr as a terminal, and a bar that appears after so many seconds; no fixture, which would
     be undone.
     """

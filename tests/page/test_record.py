@@ -67,9 +67,7 @@ def test_the_schema_is_closed_and_needs_its_fields() -> None:
     assert not allowed({"note": "last"})
     assert not allowed({"number": "1"})
     is_open: Record[_Stage] = Record(*_STAGE.fields, is_open=True)
-    assert Draft7Validator(is_open.schema).is_valid(
-        {"number": 1, "mood": "good"}
-    )
+    assert Draft7Validator(is_open.schema).is_valid({"number": 1, "mood": "good"})
 
 
 def test_null_is_allowed_of_any_schema() -> None:
@@ -90,9 +88,7 @@ def test_null_is_allowed_of_any_schema() -> None:
 def test_a_report_begins_with_the_name_of_its_schema() -> None:
     """The schema admits that name alone, and the text is the document with a final newline."""
     report: Record[_Stage] = Record(schema_named("a/1"), *_STAGE.fields)
-    assert report.text(_Stage(3)) == (
-        '{\n  "schema": "a/1",\n  "number": 3\n}\n'
-    )
+    assert report.text(_Stage(3)) == ('{\n  "schema": "a/1",\n  "number": 3\n}\n')
     check = Draft7Validator(report.schema)
     assert check.is_valid({"schema": "a/1", "number": 3})
     assert not check.is_valid({"schema": "a/2", "number": 3})

@@ -18,9 +18,7 @@ from garkcli.page.writing import refuse_unwritable, write_whole
 from tests.cli.harness import ROOT, gark
 from tests.had import needs_fifos
 
-posix = pytest.mark.skipif(
-    os.name != "posix", reason="links and permissions of POSIX"
-)
+posix = pytest.mark.skipif(os.name != "posix", reason="links and permissions of POSIX")
 
 
 def mode(path: Path) -> int:
@@ -49,10 +47,7 @@ def test_permissions(umask: int, tmp_path: Path) -> None:
         (tmp_path / "old").write_text("old")
         (tmp_path / "old").chmod(kept)
         write_whole(str(tmp_path / "old"), ["new"])
-        assert (mode(tmp_path / "old"), (tmp_path / "old").read_text()) == (
-            kept,
-            "new",
-        )
+        assert (mode(tmp_path / "old"), (tmp_path / "old").read_text()) == (kept, "new")
 
 
 @posix
@@ -112,9 +107,7 @@ def test_a_pipe_is_written_through(tmp_path: Path) -> None:
         ("link", "| cat >"),
     ],
 )
-def test_the_devices_of_streams(
-    name: str, redirection: str, tmp_path: Path
-) -> None:
+def test_the_devices_of_streams(name: str, redirection: str, tmp_path: Path) -> None:
     """``-o /dev/stdout`` is standard output, whatever that is, at the place where it is; neither
     the device nor a link to it is replaced.
     """
@@ -123,9 +116,7 @@ def test_the_devices_of_streams(
     (tmp_path / "link").symlink_to("/dev/stdout")
     target = tmp_path / "target"
     target.write_text("before\n")
-    command = (
-        f'{sys.executable} -m garkcli list -o "{name}" {redirection} target'
-    )
+    command = f'{sys.executable} -m garkcli list -o "{name}" {redirection} target'
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=tmp_path,
@@ -172,9 +163,7 @@ def test_what_fails_leaves_the_old_file(tmp_path: Path) -> None:
         ("file/f", "Not a directory"),
     ],
 )
-def test_no_place_is_said_before_the_work(
-    place: str, why: str, tmp_path: Path
-) -> None:
+def test_no_place_is_said_before_the_work(place: str, why: str, tmp_path: Path) -> None:
     """Where nothing can be written a command says so before it reads its files."""
     (tmp_path / "loop").symlink_to("loop")
     (tmp_path / "file").write_text("")

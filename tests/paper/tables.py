@@ -83,19 +83,12 @@ CONJUGATE_MISPRINTS: Mapping[tuple[int, int], str] = {
 """The same for its conjugate."""
 
 
-def matrix(
-    text: str, corrections: Mapping[tuple[int, int], str] | None = None
-) -> Matrix:
+def matrix(text: str, corrections: Mapping[tuple[int, int], str] | None = None) -> Matrix:
     """A printed matrix, with some entries put right."""
-    rows = [
-        [x.strip() for x in line.split(",")]
-        for line in text.strip().splitlines()
-    ]
+    rows = [[x.strip() for x in line.split(",")] for line in text.strip().splitlines()]
     for (i, j), entry in (corrections or {}).items():
         rows[i - 1][j - 1] = entry
-    return tuple(
-        tuple(FIELD.evaluate(parse(entry)) for entry in line) for line in rows
-    )
+    return tuple(tuple(FIELD.evaluate(parse(entry)) for entry in line) for line in rows)
 
 
 def tableau(entries: Matrix) -> Tableau:

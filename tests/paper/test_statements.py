@@ -72,21 +72,10 @@ def test_lemma_stage_order(m: str) -> None:
 
 def test_lemma_stage_order_at_general_and_special_nodes() -> None:
     """Collocation on Gauss 2 has C(2) at general nodes, C(3) at 0, 1/2, 1, and C(4) at 0, 1."""
-    assert (
-        C(samples.everywhere(collocation, "radau-iia 2", "gauss 2"), 0, 1) == 2
-    )
-    assert (
-        C(samples.everywhere(collocation, "lobatto-iiia 3", "gauss 2"), 0, 1)
-        == 3
-    )
-    assert (
-        C(samples.everywhere(collocation, "lobatto-iiia 2", "gauss 2"), 0, 1)
-        == 4
-    )
-    assert (
-        C(samples.everywhere(interpolation, "lobatto-iiia 3", "gauss 2"), 0, 1)
-        == 1
-    )
+    assert C(samples.everywhere(collocation, "radau-iia 2", "gauss 2"), 0, 1) == 2
+    assert C(samples.everywhere(collocation, "lobatto-iiia 3", "gauss 2"), 0, 1) == 3
+    assert C(samples.everywhere(collocation, "lobatto-iiia 2", "gauss 2"), 0, 1) == 4
+    assert C(samples.everywhere(interpolation, "lobatto-iiia 3", "gauss 2"), 0, 1) == 1
 
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
@@ -103,13 +92,9 @@ def test_proposition_row_sums(rule: Callable[..., Matrix], m: str) -> None:
 
 
 @given(st.sampled_from(PAIRS), st.fractions(-5, 5, max_denominator=20))
-def test_corollary_on_combinations(
-    names: tuple[str, str], tau: Fraction
-) -> None:
+def test_corollary_on_combinations(names: tuple[str, str], tau: Fraction) -> None:
     """Any τ interpolation + (1 − τ) collocation satisfies C^{l,m}(min(η^{m,m}, s_m − 1))."""
-    tableau = samples.everywhere(
-        samples.mixture(str(1 - tau), str(tau), "0", "0"), *names
-    )
+    tableau = samples.everywhere(samples.mixture(str(1 - tau), str(tau), "0", "0"), *names)
     for l, m in ((0, 1), (1, 0)):
         stages = tableau.space(m).stages
         assert C(tableau, l, m) >= min(C(tableau, m, m), stages - 1)
@@ -153,28 +138,19 @@ def test_the_pair_of_superconvergent_methods_may_have_a_lower_order() -> None:
 
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
-def test_blocks_conjugate_to_each_other_keep_the_order(
-    rule: Callable[..., Matrix],
-) -> None:
+def test_blocks_conjugate_to_each_other_keep_the_order(rule: Callable[..., Matrix]) -> None:
     """Built on the method of smaller order, with the opposite block its conjugate, the same pair
     has order 4.
     """
     Q = samples.by_conjugates(rule, "gauss 2", "lobatto-iiia 4")
-    assert (
-        find_order(Q).order
-        == find_order(pair(Q)).order
-        == brute_order(pair(Q), 5)
-        == 4
-    )
+    assert find_order(Q).order == find_order(pair(Q)).order == brute_order(pair(Q), 5) == 4
     assert conjugate(Q).block(0, 1) == Q.block(0, 1)
     assert conjugate(Q).block(1, 0) == Q.block(1, 0)
 
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
 @pytest.mark.parametrize(("l", "m"), [(l, m) for l, m in PAIRS if l < m])
-def test_nodes_of_the_conjugate(
-    rule: Callable[..., Matrix], l: str, m: str
-) -> None:
+def test_nodes_of_the_conjugate(rule: Callable[..., Matrix], l: str, m: str) -> None:
     """Â^{l,m} 𝟙 = c^{l} exactly where D^{m,l}(1) holds."""
     Q = samples.everywhere(rule, l, m)
     D = simplifying(Q, 3).D
@@ -190,13 +166,8 @@ def test_the_bracket_of_the_semi_separable_conjugate() -> None:
     A = tables.matrix(tables.RECTANGULAR_Q)
     b, b_other = tables.b_1, tables.b_2
     quotient = [[A[j][i] / b[i] for j in range(3)] for i in range(2)]
-    printed = [
-        [1 - quotient[i][j] * b_other[j] for j in range(3)] for i in range(2)
-    ]
-    correct = tuple(
-        tuple((1 - quotient[i][j]) * b_other[j] for j in range(3))
-        for i in range(2)
-    )
+    printed = [[1 - quotient[i][j] * b_other[j] for j in range(3)] for i in range(2)]
+    correct = tuple(tuple((1 - quotient[i][j]) * b_other[j] for j in range(3)) for i in range(2))
     assert tuple(sum(line, fmpq(0)) for line in correct) == tables.c_1
     assert tuple(sum(line, fmpq(0)) for line in printed) != tables.c_1
     made = at_points(symplectic_pair(Q, [0], [0, 1]), [tables.c_1, tables.c_2])
@@ -206,35 +177,20 @@ def test_the_bracket_of_the_semi_separable_conjugate() -> None:
 @pytest.mark.parametrize(
     ("velocities", "forces", "colours", "edges"),
     [
-        (
-            [0, 1],
-            [0, 1],
-            ["V1", "V2", "F1", "F2"],
-            {(l, m) for l in range(4) for m in range(4)},
-        ),
-        (
-            [0],
-            [0, 1],
-            ["V1", "F1", "F2"],
-            {(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0)},
-        ),
+        ([0, 1], [0, 1], ["V1", "V2", "F1", "F2"], {(l, m) for l in range(4) for m in range(4)}),
+        ([0], [0, 1], ["V1", "F1", "F2"], {(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0)}),
         ([0], [1], ["V1", "F2"], {(0, 1), (1, 0)}),
     ],
     ids=["general", "semi-separable", "separable"],
 )
 def test_special_cases(
-    velocities: list[int],
-    forces: list[int],
-    colours: list[str],
-    edges: set[tuple[int, int]],
+    velocities: list[int], forces: list[int], colours: list[str], edges: set[tuple[int, int]]
 ) -> None:
     """Each special case has the colours and blocks of its tableau in the paper, is symplectic, and
     has order 4.
     """
     tableau = symplectic_pair(
-        samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3"),
-        velocities,
-        forces,
+        samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3"), velocities, forces
     )
     assert [colour.name for colour in tableau.colours] == colours
     assert set(tableau.edges()) == edges
@@ -244,20 +200,14 @@ def test_special_cases(
 
 def test_the_pair_has_the_blocks_of_eq_vargark() -> None:
     """Rows l and l + N are the same; columns m and m + N hold A^{l,m} and Â^{l,m}."""
-    Q = samples.everywhere(
-        interpolation, "gauss 2", "lobatto-iiia 3", "radau-iia 2"
-    )
+    Q = samples.everywhere(interpolation, "gauss 2", "lobatto-iiia 3", "radau-iia 2")
     P, both = conjugate(Q), pair(Q)
     assert both.size == 6
     for l in range(3):
         assert both.colours[l].b == both.colours[l + 3].b == Q.colours[l].b
         for m in range(3):
             assert both.block(l, m) == both.block(l + 3, m) == Q.block(l, m)
-            assert (
-                both.block(l, m + 3)
-                == both.block(l + 3, m + 3)
-                == P.block(l, m)
-            )
+            assert both.block(l, m + 3) == both.block(l + 3, m + 3) == P.block(l, m)
 
 
 def test_symplectic_diagonal_methods_are_their_own_conjugates() -> None:

@@ -22,9 +22,7 @@ from tests.oracles.samples import everywhere
 from tests.oracles.series import series_order
 from tests.paper import tables
 
-CORRECTED = tables.matrix(
-    tables.COLLOCATION_AS_PRINTED, tables.COLLOCATION_MISPRINTS
-)
+CORRECTED = tables.matrix(tables.COLLOCATION_AS_PRINTED, tables.COLLOCATION_MISPRINTS)
 CORRECTED_CONJUGATE = tables.matrix(
     tables.COLLOCATION_CONJUGATE_AS_PRINTED, tables.CONJUGATE_MISPRINTS
 )
@@ -41,9 +39,7 @@ def entries(tableau: Tableau) -> Matrix:
     for l in range(tableau.size):
         blocks = [tableau.block(l, m) for m in range(tableau.size)]
         for i in range(tableau.space(l).stages):
-            row = tuple(
-                x for block in blocks if block is not None for x in block[i]
-            )
+            row = tuple(x for block in blocks if block is not None for x in block[i])
             rows.append(row)
     return tuple(rows)
 
@@ -65,9 +61,7 @@ def spelled(tableau: Tableau) -> Tableau:
     ],
     ids=["collocation", "interpolation"],
 )
-def test_examples_entry_by_entry(
-    rule: Rule, printed: Matrix, printed_conjugate: Matrix
-) -> None:
+def test_examples_entry_by_entry(rule: Rule, printed: Matrix, printed_conjugate: Matrix) -> None:
     """A, Â, b and c of both examples are, entry by entry, what the paper prints, its misprints put
     right.
     """
@@ -76,14 +70,8 @@ def test_examples_entry_by_entry(
     assert entries(spelled(Q)) == printed
     assert entries(spelled(P)) == printed_conjugate
     for tableau in (Q, P):
-        assert [colour.b for colour in spelled(tableau).colours] == [
-            tables.b_1,
-            tables.b_2,
-        ]
-        assert [colour.c for colour in spelled(tableau).colours] == [
-            tables.c_1,
-            tables.c_2,
-        ]
+        assert [colour.b for colour in spelled(tableau).colours] == [tables.b_1, tables.b_2]
+        assert [colour.c for colour in spelled(tableau).colours] == [tables.c_1, tables.c_2]
 
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
@@ -120,12 +108,10 @@ def test_the_misprints_are_all_the_differences() -> None:
     printed = tables.matrix(tables.COLLOCATION_AS_PRINTED)
     printed_conjugate = tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED)
     Q = constructed(collocation)
-    assert _differences(printed, entries(spelled(Q))) == set(
-        tables.COLLOCATION_MISPRINTS
+    assert _differences(printed, entries(spelled(Q))) == set(tables.COLLOCATION_MISPRINTS)
+    assert _differences(printed_conjugate, entries(spelled(conjugate(Q)))) == set(
+        tables.CONJUGATE_MISPRINTS
     )
-    assert _differences(
-        printed_conjugate, entries(spelled(conjugate(Q)))
-    ) == set(tables.CONJUGATE_MISPRINTS)
 
 
 def _differences(one: Matrix, other: Matrix) -> set[tuple[int, int]]:
@@ -138,8 +124,7 @@ def _differences(one: Matrix, other: Matrix) -> set[tuple[int, int]]:
     [
         pytest.param(lambda: tables.tableau(CORRECTED), id="collocation"),
         pytest.param(
-            lambda: tables.tableau(tables.matrix(tables.INTERPOLATION)),
-            id="interpolation",
+            lambda: tables.tableau(tables.matrix(tables.INTERPOLATION)), id="interpolation"
         ),
         pytest.param(samples.rectangular, id="rectangular"),
     ],
@@ -170,19 +155,9 @@ def test_the_misprinted_collocation_example_has_order_2() -> None:
     fail.
     """
     wrong = tables.tableau(tables.matrix(tables.COLLOCATION_AS_PRINTED))
-    assert (
-        tuple(sum(line[2:], fmpq(0)) for line in entries(wrong)[:2])
-        != tables.c_1
-    )
-    assert (
-        tuple(sum(line[2:], fmpq(0)) for line in CORRECTED[:2]) == tables.c_1
-    )
-    assert (
-        find_order(wrong).order
-        == brute_order(wrong, 4)
-        == series_order(wrong, 4)
-        == 2
-    )
+    assert tuple(sum(line[2:], fmpq(0)) for line in entries(wrong)[:2]) != tables.c_1
+    assert tuple(sum(line[2:], fmpq(0)) for line in CORRECTED[:2]) == tables.c_1
+    assert find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
     witness = find_order(wrong).witness
     assert witness is not None
     assert witness.tree == Tree(0, [Tree(0, [Tree(1)])])
@@ -193,35 +168,19 @@ def test_the_misprinted_conjugate_has_order_2() -> None:
     """As printed, the conjugate's last row of Â^{2,1} belongs to no conjugate and the order is
     2.
     """
-    wrong = tables.tableau(
-        tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED)
-    )
-    assert (
-        find_order(wrong).order
-        == brute_order(wrong, 4)
-        == series_order(wrong, 4)
-        == 2
-    )
+    wrong = tables.tableau(tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED))
+    assert find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
     assert entries(conjugate(tables.tableau(CORRECTED))) != entries(wrong)
     assert entries(conjugate(wrong)) != CORRECTED
 
 
 def test_the_rectangular_method() -> None:
     """Eq. (rectangular) is A^{2,1} and Â^{1,2} of the collocation example, and symplectic."""
-    Q, P = (
-        tables.matrix(tables.RECTANGULAR_Q),
-        tables.matrix(tables.RECTANGULAR_P),
-    )
-    printed = separable_prk(
-        (Q, tables.b_1, tables.c_2), (P, tables.b_2, tables.c_1)
-    )
+    Q, P = (tables.matrix(tables.RECTANGULAR_Q), tables.matrix(tables.RECTANGULAR_P))
+    printed = separable_prk((Q, tables.b_1, tables.c_2), (P, tables.b_2, tables.c_1))
     made = spelled(symplectic_pair(constructed(collocation), [0], [1]))
     assert made.blocks == printed.blocks
-    assert [(x.b, x.c) for x in made.colours] == [
-        (x.b, x.c) for x in printed.colours
-    ]
+    assert [(x.b, x.c) for x in made.colours] == [(x.b, x.c) for x in printed.colours]
     assert is_symplectic(printed)
-    upside_down = separable_prk(
-        (Q, tables.b_1, tables.c_2), (P[::-1], tables.b_2, tables.c_1)
-    )
+    upside_down = separable_prk((Q, tables.b_1, tables.c_2), (P[::-1], tables.b_2, tables.c_1))
     assert not is_symplectic(upside_down)

@@ -12,15 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.portable.venvs import (
-    CACHE,
-    ROOT,
-    NotHad,
-    Venv,
-    done,
-    python_of,
-    version_of,
-)
+from tests.portable.venvs import CACHE, ROOT, NotHad, Venv, done, python_of, version_of
 
 KERNELS = {
     "x86_64": ("PRESCOTT", "NEHALEM", "SANDYBRIDGE", "HASWELL"),
@@ -100,13 +92,7 @@ PROCESSES = (
     "tests/sweep",
 )
 """Everything that starts and stops processes."""
-ELSEWHERE = (
-    "tests/cli",
-    "tests/crew",
-    "tests/methodfile",
-    "tests/page",
-    "tests/sweep",
-)
+ELSEWHERE = ("tests/cli", "tests/crew", "tests/methodfile", "tests/page", "tests/sweep")
 """Everything that asks for something of the system, which may not be there."""
 
 Environment = Callable[[Path], dict[str, str]]
@@ -145,9 +131,7 @@ class Circumstance:
         Raises:
             NotHad: this machine has no such circumstance.
         """
-        inherited = {
-            key: value for key, value in os.environ.items() if key not in OURS
-        }
+        inherited = {key: value for key, value in os.environ.items() if key not in OURS}
         return {**inherited, **self.environment(python_of(self.venv))}
 
 
@@ -158,37 +142,23 @@ def circumstances() -> Iterator[Circumstance]:
     # at once, as what they may break is different
     yield Circumstance("newest", what, newest, WHOLE, _hash_seed)
     floors = Venv(sys.executable, "floors")
-    yield Circumstance(
-        "floors", "the oldest declared version of each dependency", floors
-    )
+    yield Circumstance("floors", "the oldest declared version of each dependency", floors)
     no_libyaml = Venv(sys.executable, "no-libyaml")
-    yield Circumstance(
-        "no-libyaml", "PyYAML without libyaml", no_libyaml, FILES
-    )
+    yield Circumstance("no-libyaml", "PyYAML without libyaml", no_libyaml, FILES)
     what = "the tree of the source distribution"
-    yield Circumstance(
-        "sdist", what, newest, PACKAGED, tree=_source_distribution
-    )
+    yield Circumstance("sdist", what, newest, PACKAGED, tree=_source_distribution)
     what = "the wheel, without the sources of the package"
     wheel = Venv(sys.executable, "wheel")
-    yield Circumstance(
-        "wheel", what, wheel, INSTALLED, tree=_without_the_package
-    )
+    yield Circumstance("wheel", what, wheel, INSTALLED, tree=_without_the_package)
     for name in KERNELS.get(platform.machine(), ()):
         what = f"the {name} kernel of OpenBLAS"
-        yield Circumstance(
-            f"kernel-{name.lower()}", what, newest, MEASURED, _kernel(name)
-        )
+        yield Circumstance(f"kernel-{name.lower()}", what, newest, MEASURED, _kernel(name))
     what = "numpy with its SIMD features disabled"
     yield Circumstance("no-simd", what, newest, MEASURED, _no_simd)
     what = "functions of libm and LAPACK off by units of the last place"
     yield Circumstance("noise", what, newest, RECORDED, _noise)
-    yield Circumstance(
-        "locale", "the locale of another country", newest, FILES, _locale
-    )
-    yield Circumstance(
-        "ascii", "a locale and streams of ASCII", newest, FILES, _ascii
-    )
+    yield Circumstance("locale", "the locale of another country", newest, FILES, _locale)
+    yield Circumstance("ascii", "a locale and streams of ASCII", newest, FILES, _ascii)
     ignoring = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
     what = "started with ^C ignored, as in the background of a script"
     yield Circumstance("background", what, newest, PROCESSES, wrapper=ignoring)
@@ -214,11 +184,7 @@ def other_pythons() -> list[str]:
             continue
         found.setdefault(version, python)
     found.pop(version_of(sys.executable), None)
-    return [
-        python
-        for version, python in sorted(found.items())
-        if _number(version) >= LEAST_PYTHON
-    ]
+    return [python for version, python in sorted(found.items()) if _number(version) >= LEAST_PYTHON]
 
 
 def _number(version: str) -> tuple[int, ...]:
@@ -231,21 +197,11 @@ def _interpreters() -> Iterator[str]:
         if command := shutil.which(f"python3.{minor}"):
             yield command
     if pyenv := shutil.which("pyenv"):
-        root = subprocess.run(
-            [pyenv, "root"], capture_output=True, text=True, check=False
-        )
-        yield from map(
-            str,
-            sorted(Path(root.stdout.strip()).glob("versions/3.*/bin/python")),
-        )
+        root = subprocess.run([pyenv, "root"], capture_output=True, text=True, check=False)
+        yield from map(str, sorted(Path(root.stdout.strip()).glob("versions/3.*/bin/python")))
 
 
-def _asked(
-    python: Path,
-    program: str,
-    variables: dict[str, str],
-    cwd: Path | None = None,
-) -> str:
+def _asked(python: Path, program: str, variables: dict[str, str], cwd: Path | None = None) -> str:
     """What a program prints under ``variables``.
 
     Raises:
@@ -260,9 +216,7 @@ def _asked(
         check=False,
     )
     if done.returncode < 0:
-        raise NotHad(
-            f"this processor cannot run it (signal {-done.returncode})"
-        )
+        raise NotHad(f"this processor cannot run it (signal {-done.returncode})")
     if done.returncode:
         raise NotHad(done.stderr.strip().splitlines()[-1])
     return done.stdout.strip()
@@ -284,9 +238,7 @@ def _kernel(name: str) -> Environment:
         variables = {"OPENBLAS_CORETYPE": name}
         taken = _asked(python, _WHICH_KERNEL, variables)
         if SAME.get(taken.upper(), taken.upper()) != name:
-            raise NotHad(
-                f"numpy computes with {taken or 'no OpenBLAS'} all the same"
-            )
+            raise NotHad(f"numpy computes with {taken or 'no OpenBLAS'} all the same")
         return variables
 
     return environment

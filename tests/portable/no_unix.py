@@ -11,15 +11,7 @@ from pathlib import Path
 MODULES = ("fcntl", "grp", "pwd", "pty", "resource", "syslog", "termios")
 """To import one of these is an error."""
 OF_OS = ("fork", "forkpty", "geteuid", "mkfifo", "nice")
-OF_SIGNAL = (
-    "SIGALRM",
-    "SIGHUP",
-    "SIGPIPE",
-    "SIGUSR1",
-    "alarm",
-    "pthread_sigmask",
-    "setitimer",
-)
+OF_SIGNAL = ("SIGALRM", "SIGHUP", "SIGPIPE", "SIGUSR1", "alarm", "pthread_sigmask", "setitimer")
 
 
 def take_away() -> None:

@@ -17,17 +17,7 @@ SEED = "GARK_NOISE"
 """The variable of the environment that chooses the noise."""
 EXACT = ("inf", "isfinite", "sqrt")
 """Of what programs for floats call: numbers, and what IEEE 754 rounds correctly."""
-LAPACK = (
-    "eig",
-    "eigh",
-    "eigvals",
-    "inv",
-    "lstsq",
-    "pinv",
-    "qr",
-    "solve",
-    "svd",
-)
+LAPACK = ("eig", "eigh", "eigvals", "inv", "lstsq", "pinv", "qr", "solve", "svd")
 UNITS = 2
 """As far as results are off, in units of the last place; for LAPACK twice that."""
 

@@ -47,13 +47,7 @@ def run(circumstance: Circumstance) -> Outcome:
         return Outcome(name, note=f"not to be had: {reason}")
     record, report = CACHE / f"{name}.txt", CACHE / f"{name}.xml"
     report.unlink(missing_ok=True)
-    pytest = [
-        str(python),
-        "-m",
-        "pytest",
-        f"--junitxml={report}",
-        *circumstance.tests,
-    ]
+    pytest = [str(python), "-m", "pytest", f"--junitxml={report}", *circumstance.tests]
     start = time.monotonic()
     with record.open("wb") as out:
         subprocess.run(
@@ -68,14 +62,10 @@ def run(circumstance: Circumstance) -> Outcome:
     seconds = time.monotonic() - start
     where = record.relative_to(ROOT)
     if not report.exists():
-        return Outcome(
-            name, failed=1, seconds=seconds, note=f"did not run: {where}"
-        )
+        return Outcome(name, failed=1, seconds=seconds, note=f"did not run: {where}")
     passed, failed, skipped = counted(report.read_text(encoding="utf-8"))
     bad = failed or not passed
-    return Outcome(
-        name, passed, failed, skipped, seconds, f"see {where}" if bad else ""
-    )
+    return Outcome(name, passed, failed, skipped, seconds, f"see {where}" if bad else "")
 
 
 def counted(report: str) -> tuple[int, int, int]:
@@ -87,8 +77,7 @@ def counted(report: str) -> tuple[int, int, int]:
     """
     (suite,) = ET.fromstring(report).iter("testsuite")
     tests, failures, errors, skipped = (
-        int(suite.attrib[key])
-        for key in ("tests", "failures", "errors", "skipped")
+        int(suite.attrib[key]) for key in ("tests", "failures", "errors", "skipped")
     )
     failed = failures + errors
     return tests - failed - skipped, failed, skipped
@@ -102,18 +91,11 @@ def table(outcomes: Sequence[Outcome]) -> str:
     floors             9       0        1        7
     locale             –       –        –        –  not to be had: x
     """
-    width = max(
-        len("circumstance"), *(len(outcome.name) for outcome in outcomes)
-    )
+    width = max(len("circumstance"), *(len(outcome.name) for outcome in outcomes))
     lines = [f"{'circumstance':{width}}  passed  failed  skipped  seconds"]
     for outcome in outcomes:
         ran = outcome.passed is not None or outcome.failed
-        numbers = (
-            outcome.passed or 0,
-            outcome.failed,
-            outcome.skipped,
-            round(outcome.seconds),
-        )
+        numbers = (outcome.passed or 0, outcome.failed, outcome.skipped, round(outcome.seconds))
         cells = [str(number) if ran else "–" for number in numbers]
         passed, failed, skipped, seconds = cells
         line = f"{outcome.name:{width}}  {passed:>6}  {failed:>6}  {skipped:>7}  {seconds:>7}"
@@ -130,27 +112,17 @@ def chosen(only: str) -> list[Circumstance]:
     found = list(circumstances())
     words = [word for word in only.split(",") if word]
     for word in words:
-        if not any(
-            circumstance.name.startswith(word) for circumstance in found
-        ):
+        if not any(circumstance.name.startswith(word) for circumstance in found):
             names = ", ".join(circumstance.name for circumstance in found)
-            raise SystemExit(
-                f"no circumstance begins with {word!r}; there are {names}"
-            )
+            raise SystemExit(f"no circumstance begins with {word!r}; there are {names}")
     return [x for x in found if not words or x.name.startswith(tuple(words))]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what was asked for; the number of circumstances under which something failed, 0 or 1."""
-    parser = argparse.ArgumentParser(
-        description="the suite under other circumstances"
-    )
-    parser.add_argument(
-        "--only", default="", help="names, or their beginnings, with commas"
-    )
-    parser.add_argument(
-        "--list", action="store_true", help="what there is on this machine"
-    )
+    parser = argparse.ArgumentParser(description="the suite under other circumstances")
+    parser.add_argument("--only", default="", help="names, or their beginnings, with commas")
+    parser.add_argument("--list", action="store_true", help="what there is on this machine")
     options = parser.parse_args(arguments)
     wanted = chosen(options.only)
     if options.list:

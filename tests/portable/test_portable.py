@@ -19,16 +19,7 @@ from tests.portable.circumstances import circumstances, other_pythons
 from tests.portable.no_unix import put_into
 from tests.portable.noise import UNITS, arrays_off, off
 from tests.portable.run import Outcome, chosen, table
-from tests.portable.venvs import (
-    BARE,
-    EXTRAS,
-    MSOLVE,
-    ROOT,
-    NotHad,
-    Venv,
-    floors,
-    version_of,
-)
+from tests.portable.venvs import BARE, EXTRAS, MSOLVE, ROOT, NotHad, Venv, floors, version_of
 
 NEWEST = Venv(sys.executable, "newest")
 
@@ -36,20 +27,10 @@ NEWEST = Venv(sys.executable, "newest")
 def test_every_dependency_has_a_floor() -> None:
     """Those of the program and of its tests, each once."""
     names = [re.split("[=;]", line)[0].lower() for line in floors()]
-    assert {
-        "click",
-        "matplotlib",
-        "numpy",
-        "python-flint",
-        "pyyaml",
-        "rich",
-        "sympy",
-    } < {*names}
+    assert {"click", "matplotlib", "numpy", "python-flint", "pyyaml", "rich", "sympy"} < {*names}
     assert {"hypothesis", "jsonschema", "pytest", "pytest-xdist"} < {*names}
     assert len(names) == len({*names})
-    declared = tomllib.loads(
-        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    )["project"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     groups = declared["optional-dependencies"]
     lines = [line for name in (*EXTRAS, "test") for line in groups[name]]
     assert len(names) == len({*declared["dependencies"], *lines})
@@ -57,22 +38,18 @@ def test_every_dependency_has_a_floor() -> None:
 
 def test_every_extra_of_users_is_tried() -> None:
     """In one circumstance at least: what a page or an error names is installed by pip."""
-    declared = tomllib.loads(
-        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    )["project"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     ours = {"bench", "browser", "dev", "docs", "fuzz", "test"}
     assert {*declared["optional-dependencies"]} - ours == {*EXTRAS, MSOLVE}
 
 
 def test_tools_of_the_bare_circumstance_are_declared() -> None:
     """They are some of the test tools, and none is what an extra brings."""
-    declared = tomllib.loads(
-        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    )["project"]["optional-dependencies"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"][
+        "optional-dependencies"
+    ]
     tools = {line.partition(">=")[0] for line in declared["test"]}
-    brought = {
-        line.partition(">=")[0] for name in EXTRAS for line in declared[name]
-    }
+    brought = {line.partition(">=")[0] for name in EXTRAS for line in declared[name]}
     assert {*BARE} <= tools - brought
 
 
@@ -109,9 +86,7 @@ def test_pythons_that_do_not_run_are_left_out(
     broken.write_text("#!/bin/sh\nexit 127\n")
     for path in (old, broken):
         path.chmod(0o755)
-    asked = ":".join(
-        [sys.executable, str(old), str(broken), str(tmp_path / "none")]
-    )
+    asked = ":".join([sys.executable, str(old), str(broken), str(tmp_path / "none")])
     monkeypatch.setenv("GARK_PYTHONS", asked)
     assert other_pythons() == []
     with pytest.raises(NotHad, match="does not run"):
@@ -123,9 +98,7 @@ def test_pythons_that_do_not_run_are_left_out(
     assert other_pythons() == [str(newer)]
 
 
-def test_a_circumstance_that_does_not_hold_is_not_had(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_circumstance_that_does_not_hold_is_not_had(monkeypatch: pytest.MonkeyPatch) -> None:
     """A kernel that numpy does not take, features that stay, a locale that nobody has: said."""
     python = Path(sys.executable)
     monkeypatch.setattr(module, "_asked", lambda *_: "Haswell")
@@ -145,17 +118,9 @@ def test_a_circumstance_that_does_not_hold_is_not_had(
 
 def test_what_could_not_be_had_is_no_failure() -> None:
     """But no test at all is one, and so is one that fails; the table has a line for each."""
-    runs = [
-        Outcome("a", 5),
-        Outcome("b", 0),
-        Outcome("c", 4, 1),
-        Outcome("d", note="not"),
-    ]
+    runs = [Outcome("a", 5), Outcome("b", 0), Outcome("c", 4, 1), Outcome("d", note="not")]
     assert [x.is_good for x in runs] == [True, False, False, True]
-    assert [line.split()[0] for line in table(runs).splitlines()] == [
-        "circumstance",
-        *"abcd",
-    ]
+    assert [line.split()[0] for line in table(runs).splitlines()] == ["circumstance", *"abcd"]
 
 
 def test_what_windows_lacks_is_taken_away(tmp_path: Path) -> None:

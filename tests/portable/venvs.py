@@ -26,9 +26,7 @@ MSOLVE = "design"
 BARE = ("hypothesis", "jsonschema", "pytest", "pytest-xdist")
 """What runs the tests of commands that need nothing but the program."""
 
-Versions = Literal[
-    "newest", "floors", "tested", "no-libyaml", "no-unix", "wheel"
-]
+Versions = Literal["newest", "floors", "tested", "no-libyaml", "no-unix", "wheel"]
 """``newest`` and ``floors`` have the extras too, which not every Python has; all but ``floors`` are
 of the newest of each.
 ``wheel`` has what a user has: a wheel of gark, not the checkout, and what the program needs.
@@ -56,16 +54,12 @@ def floors() -> list[str]:
     """The declared minimum versions as pip's constraints, each once: those of the program, of what
     users may have beside it, and of the tests.
     """
-    declared = tomllib.loads(
-        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    )["project"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     groups = declared["optional-dependencies"]
     extra = [line for name in (*EXTRAS, "test") for line in groups[name]]
     lines = [*declared["dependencies"], *extra]
     found = [FLOOR.match(line) for line in lines]
-    return sorted(
-        {f"{x[1]}=={x[2]}{x[3] or ''}" for x in found if x}, key=str.lower
-    )
+    return sorted({f"{x[1]}=={x[2]}{x[3] or ''}" for x in found if x}, key=str.lower)
 
 
 @cache
@@ -77,9 +71,7 @@ def version_of(python: str) -> str:
     """
     program = "import sys; print('{}.{}'.format(*sys.version_info))"
     try:
-        done = subprocess.run(
-            [python, "-c", program], capture_output=True, text=True, check=True
-        )
+        done = subprocess.run([python, "-c", program], capture_output=True, text=True, check=True)
     except (OSError, subprocess.CalledProcessError) as error:
         raise NotHad(f"{python} does not run") from error
     return done.stdout.strip()
@@ -93,9 +85,7 @@ def python_of(venv: Venv) -> Path:
         NotHad: an environment cannot be made, or some package is not to be had for it.
     """
     folder = venv.folder
-    python = folder / (
-        "Scripts/python.exe" if sys.platform == "win32" else "bin/python"
-    )
+    python = folder / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     if not python.exists():
         done([venv.python, "-m", "venv", str(folder)])
     wanted = [*_wanted(venv.versions), "build", "threadpoolctl"]
@@ -119,10 +109,7 @@ def _wanted(versions: Versions) -> list[str]:
     if versions == "wheel":
         return [".", *BARE]
     extras = {"newest": (*EXTRAS, MSOLVE), "floors": EXTRAS}
-    return [
-        "--editable",
-        f".[{','.join(['test', *extras.get(versions, ())])}]",
-    ]
+    return ["--editable", f".[{','.join(['test', *extras.get(versions, ())])}]"]
 
 
 def _without_libyaml(folder: Path) -> None:
@@ -137,17 +124,13 @@ def _without_libyaml(folder: Path) -> None:
 def _without_unix(python: Path) -> None:
     """What is run at the start of each process takes away what Windows lacks."""
     program = "import sysconfig; print(sysconfig.get_path('purelib'))"
-    packages = subprocess.run(
-        [python, "-c", program], capture_output=True, text=True, check=True
-    )
+    packages = subprocess.run([python, "-c", program], capture_output=True, text=True, check=True)
     put_into(Path(packages.stdout.strip()))
 
 
 def done(command: list[str]) -> None:
     """Run, in the root of the project."""
-    done = subprocess.run(
-        command, cwd=ROOT, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode:
         said = done.stderr.strip().splitlines() or ["without a word"]
         raise NotHad(f"{' '.join(command[1:4])} fails: {said[-1]}")

@@ -71,9 +71,7 @@ def walk(page: Path, commands: Path, folder: Path, shell: str) -> list[str]:
     return wrong + list(_wrong_examples(page, env, folder))
 
 
-def _wrong_examples(
-    page: Path, env: dict[str, str], folder: Path
-) -> Iterator[str]:
+def _wrong_examples(page: Path, env: dict[str, str], folder: Path) -> Iterator[str]:
     """Examples of Python on a page that do not print what it shows."""
     examples = [x.text for x in blocks(page) if x.language == "python"]
     text = "\n".join(x for x in examples if x.startswith(">>> "))

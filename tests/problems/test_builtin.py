@@ -9,13 +9,7 @@ from typing import Any
 import pytest
 
 from garkcli.errors import UsageProblem
-from garkcli.problems.builtin import (
-    PROBLEMS,
-    BuiltIn,
-    built_in,
-    check_seed,
-    hamiltonian,
-)
+from garkcli.problems.builtin import PROBLEMS, BuiltIn, built_in, check_seed, hamiltonian
 from garkcli.problems.builtin import problem as made
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem
@@ -62,19 +56,13 @@ def test_entries_are_whole(entry: BuiltIn, terms: int) -> None:
     assert entry.make(terms, 1) == problem
     assert (entry.make(terms, 2) != problem) is entry.takes_seed
     if not entry.takes_seed:
-        for whole, alone in zip(
-            total(problem), total(made(entry.name, 1)), strict=True
-        ):
+        for whole, alone in zip(total(problem), total(made(entry.name, 1)), strict=True):
             assert (whole - alone).expand() == 0
 
 
 def total(problem: Problem) -> tuple[Any, ...]:
     """H, or the sum of the right-hand sides."""
-    return (
-        (problem.energy,)
-        if isinstance(problem, Hamiltonian)
-        else problem.total
-    )
+    return (problem.energy,) if isinstance(problem, Hamiltonian) else problem.total
 
 
 def test_seeds_are_for_random_coefficients() -> None:
@@ -84,9 +72,7 @@ def test_seeds_are_for_random_coefficients() -> None:
         if entry.takes_seed:
             check_seed(entry.name, 3)
         else:
-            with pytest.raises(
-                UsageProblem, match=f"generic.*not for {entry.name}"
-            ):
+            with pytest.raises(UsageProblem, match=f"generic.*not for {entry.name}"):
                 check_seed(entry.name, 3)
     with pytest.raises(UsageProblem, match=r"not for a\.yaml"):
         check_seed("a.yaml", 3)

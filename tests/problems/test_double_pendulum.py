@@ -33,9 +33,7 @@ def euler_lagrange(t: Any, y: Any) -> list[Any]:  # noqa: ARG001 -- mpmath's sig
     a, b, u, w = y
     c, s = mpmath.cos(a - b), mpmath.sin(a - b)
     # 2α'' + cβ'' + sβ'² + 2 sin α = 0 and cα'' + β'' − sα'² + sin β = 0
-    right = mpmath.matrix(
-        [-s * w**2 - 2 * mpmath.sin(a), s * u**2 - mpmath.sin(b)]
-    )
+    right = mpmath.matrix([-s * w**2 - 2 * mpmath.sin(a), s * u**2 - mpmath.sin(b)])
     determinant = 2 - c * c
     return [
         u,
@@ -54,21 +52,16 @@ def test_it_is_the_solution_of_the_euler_lagrange_equations() -> None:
         a, b, p, r = (mpmath.mpf(int(x.p)) / int(x.q) for x in problem.initial)
         c = mpmath.cos(a - b)
         u, w = (p - c * r) / (2 - c * c), (2 * r - c * p) / (2 - c * c)
-        end = mpmath.odefun(
-            euler_lagrange, 0, [a, b, u, w], tol=mpmath.mpf(10) ** -22
-        )(mpmath.mpf(1) / 2)
+        end = mpmath.odefun(euler_lagrange, 0, [a, b, u, w], tol=mpmath.mpf(10) ** -22)(
+            mpmath.mpf(1) / 2
+        )
         c = mpmath.cos(end[0] - end[1])
         wanted = [end[0], end[1], 2 * end[2] + c * end[3], c * end[2] + end[3]]
         texts = [mpmath.nstr(x, 22) for x in wanted]
     gauss = gark([diagonal_method("gauss", 10)], {})
-    found = integrate(
-        bind(gauss, hamiltonian("double-pendulum", 1)).at(25), fmpq(1, 20), 10
-    )
+    found = integrate(bind(gauss, hamiltonian("double-pendulum", 1)).at(25), fmpq(1, 20), 10)
     with ctx.workprec(100):
-        assert all(
-            abs(x - arb(text)) < 1e-18
-            for x, text in zip(found, texts, strict=True)
-        )
+        assert all(abs(x - arb(text)) < 1e-18 for x, text in zip(found, texts, strict=True))
 
 
 @pytest.mark.parametrize("terms", [1, 2, 3, 4, 5])
@@ -98,9 +91,7 @@ def test_observed_orders() -> None:
     """Four by the semi-separable method of the paper, and by a general pair."""
     for tableau in (load(SEMI_SEPARABLE).tableau, pair(coupled(2, 3))):
         steps = [fmpq(1, 2**k) for k in (4, 5, 6)]
-        result = converge(
-            tableau, hamiltonian("double-pendulum", 2), steps=steps
-        )
+        result = converge(tableau, hamiltonian("double-pendulum", 2), steps=steps)
         assert result.agrees
         assert result.observed_order == pytest.approx(4, abs=0.05)
 
@@ -110,17 +101,10 @@ def test_natural_splits() -> None:
     splits.
     """
     whole = hamiltonian("double-pendulum", 1)
-    assert (
-        split_into(whole, 2).terms == hamiltonian("double-pendulum", 2).terms
-    )
-    assert (
-        split_into(whole, 4).terms == hamiltonian("double-pendulum", 4).terms
-    )
+    assert split_into(whole, 2).terms == hamiltonian("double-pendulum", 2).terms
+    assert split_into(whole, 4).terms == hamiltonian("double-pendulum", 4).terms
     assert split_into(whole, 1) is whole
-    assert (
-        split_into(hamiltonian("kepler", 2), 1).terms
-        == hamiltonian("kepler", 1).terms
-    )
+    assert split_into(hamiltonian("kepler", 2), 1).terms == hamiltonian("kepler", 1).terms
     with pytest.raises(UsageProblem, match="has 2 terms, the method is for 3"):
         split_into(hamiltonian("kepler", 2), 3)
     with pytest.raises(UsageProblem, match="has 1 term, the method is for 2"):

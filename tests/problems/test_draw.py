@@ -28,9 +28,7 @@ def test_published_numbers() -> None:
 
 
 @given(st.integers(), st.integers(-1000, 1000), st.integers(0, 1000))
-def test_numbers_are_within_their_bounds(
-    seed: int, low: int, width: int
-) -> None:
+def test_numbers_are_within_their_bounds(seed: int, low: int, width: int) -> None:
     """``between`` includes both ends and nothing beyond; one seed gives one sequence."""
     draw, again = Draw(seed), Draw(seed)
     for _ in range(20):
@@ -58,12 +56,7 @@ def test_generic_is_the_same_everywhere() -> None:
     library changes them unseen.
     """
     problem = hamiltonian("generic", 2)
-    assert problem.initial == (
-        fmpq(1, 50),
-        fmpq(-9, 50),
-        fmpq(1, 10),
-        fmpq(1, 50),
-    )
+    assert problem.initial == (fmpq(1, 50), fmpq(-9, 50), fmpq(1, 10), fmpq(1, 50))
     y = (*symbols(problem.variables, "q"), *symbols(problem.variables, "p"))
     powers = (
         ((10, 7, -10, 8), Rational(-17, 3200)),
@@ -72,17 +65,7 @@ def test_generic_is_the_same_everywhere() -> None:
     )
     term = Add(
         *(
-            factor
-            * (
-                1
-                + Add(
-                    *(
-                        Rational(a, 20) * x
-                        for a, x in zip(slopes, y, strict=True)
-                    )
-                )
-            )
-            ** 8
+            factor * (1 + Add(*(Rational(a, 20) * x for a, x in zip(slopes, y, strict=True)))) ** 8
             for slopes, factor in powers
         )
     )

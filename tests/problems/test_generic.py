@@ -29,13 +29,9 @@ def trees(order: int) -> tuple[Tree, ...]:
     forests: list[tuple[Tree, ...]] = [()] if order == 1 else []
     for parts in partitions(order - 1, order - 1):
         choices = [
-            combinations_with_replacement(trees(n), parts.count(n))
-            for n in sorted(set(parts))
+            combinations_with_replacement(trees(n), parts.count(n)) for n in sorted(set(parts))
         ]
-        forests += [
-            tuple(u for group in groups for u in group)
-            for groups in product(*choices)
-        ]
+        forests += [tuple(u for group in groups for u in group) for groups in product(*choices)]
     return tuple(Tree(root, forest) for root in range(4) for forest in forests)
 
 
@@ -58,11 +54,7 @@ def as_polynomial(expression: Any) -> Poly:
 def derived(polynomial: Any, where: tuple[int, ...]) -> Any:
     """A derivative of a polynomial by the variables of these numbers."""
     whole = as_polynomial(polynomial)
-    return (
-        whole.diff(*((Y[k], where.count(k)) for k in set(where)))
-        if where
-        else whole
-    )
+    return whole.diff(*((Y[k], where.count(k)) for k in set(where))) if where else whole
 
 
 @cache
@@ -74,13 +66,7 @@ def derivative(colour: int, count: int) -> Any:
     field = vector_field(PROBLEM, colour % 2, group)
     places = list(combinations_with_replacement(range(4), count))
     at = [Rational(int(x.p), int(x.q)) for x in PROBLEM.initial]
-    values = iter(
-        [
-            float(derived(f, where)(*at))
-            for f in field.components
-            for where in places
-        ]
-    )
+    values = iter([float(derived(f, where)(*at)) for f in field.components for where in places])
     tensor = np.zeros((4,) * (count + 1))
     for i in range(2):
         for where in places:
@@ -110,9 +96,7 @@ def test_no_elementary_differential_vanishes() -> None:
         assert min(sizes) > 0.02**order * max(sizes) > 0
 
 
-@pytest.mark.parametrize(
-    ("terms", "seed"), [(1, 44), (1, 55), (1, 86), (1, 107), (2, 78), (2, 1)]
-)
+@pytest.mark.parametrize(("terms", "seed"), [(1, 44), (1, 55), (1, 86), (1, 107), (2, 78), (2, 1)])
 def test_solutions_stay_small(terms: int, seed: int) -> None:
     """To the final time: these seeds have the largest solutions of the first 120 for one, two and
     three terms.

@@ -25,12 +25,7 @@ from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
-from garkcli.tableau.forms import (
-    gark,
-    spelled_out,
-    symplectic_pair,
-    with_linear,
-)
+from garkcli.tableau.forms import gark, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.tree import Tree
@@ -61,10 +56,7 @@ def spelled(terms: int, seed: int) -> Tableau:
 
     first = [fmpq(1 + int(draw.random() * 4), 5) for _ in range(terms)]
     A: list[list[Any]] = [
-        [
-            tuple(tuple(number() for _ in range(2)) for _ in range(2))
-            for _ in range(terms)
-        ]
+        [tuple(tuple(number() for _ in range(2)) for _ in range(2)) for _ in range(terms)]
         for _ in range(terms)
     ]
     return spelled_out(A, [(b, 1 - b) for b in first], [None] * terms)
@@ -77,12 +69,8 @@ class Differentials:
         bound = bind(tableau, problem)
         seen = visible_tableau(bound.tableau, bound.fields)
         self.problem = bound.problem
-        self.keys = [
-            (bound.tableau.colours[m].term, group) for m, group in bound.fields
-        ]
-        self.branches = {
-            l: [m for k, m in seen.edges() if k == l] for l in range(seen.size)
-        }
+        self.keys = [(bound.tableau.colours[m].term, group) for m, group in bound.fields]
+        self.branches = {l: [m for k, m in seen.edges() if k == l] for l in range(seen.size)}
         self.is_linear = [colour.is_linear for colour in seen.colours]
         self.derivative = cache(self._derivative)
         self.of = cache(self._of)
@@ -96,9 +84,7 @@ class Differentials:
                     found.append(Tree(root, forest))  # noqa: PERF401 -- a step a line
         return found
 
-    def _forests(
-        self, n: int, largest: int, colours: list[int]
-    ) -> list[tuple[Tree, ...]]:
+    def _forests(self, n: int, largest: int, colours: list[int]) -> list[tuple[Tree, ...]]:
         if n == 0:
             return [()]
         found = []
@@ -106,9 +92,7 @@ class Differentials:
             choices = [u for u in self.trees(size) if u.root in colours]
             for count in range(1, n // size + 1):
                 for group in combinations_with_replacement(choices, count):
-                    for rest in self._forests(
-                        n - count * size, size - 1, colours
-                    ):
+                    for rest in self._forests(n - count * size, size - 1, colours):
                         found.append((*group, *rest))  # noqa: PERF401
         return found
 
@@ -116,19 +100,12 @@ class Differentials:
         """The tensor of ``count``-th derivatives of one field, shape (4, 4, …)."""
         term, group = self.keys[colour]
         field = vector_field(self.problem, term, group)
-        names = [
-            x for g in ("q", "p") for x in symbols(self.problem.variables, g)
-        ]  # type: ignore[arg-type]
+        names = [x for g in ("q", "p") for x in symbols(self.problem.variables, g)]  # type: ignore[arg-type]
         tensor = np.full((4,) * (count + 1), arb(0), dtype=object)
         places = list(combinations_with_replacement(range(4), count))
         for i, f in enumerate(field.components):
-            made = tuple(
-                f.diff(*(names[k] for k in where)) if where else f
-                for where in places
-            )
-            values = function(made, tuple(names), True)(
-                *map(arb, self.problem.initial)
-            )
+            made = tuple(f.diff(*(names[k] for k in where)) if where else f for where in places)
+            values = function(made, tuple(names), True)(*map(arb, self.problem.initial))
             for where, value in zip(places, values, strict=True):
                 for k in permutations(where):
                     tensor[(i + 2 * (group == "p"), *k)] = arb(value)
@@ -145,24 +122,17 @@ class Differentials:
     ("name", "counts"),
     [
         ("generic-semi-separable", [3, 7, 30, 139]),
-        (
-            "generic-separable",
-            [3, 4, 11, 30],
-        ),  # the last one by hand: 14 for V, 8 for each F
+        ("generic-separable", [3, 4, 11, 30]),  # the last one by hand: 14 for V, 8 for each F
         ("generic-nystrom", [3, 4, 8, 16]),
     ],
 )
-def test_no_elementary_differential_vanishes(
-    name: str, counts: list[int]
-) -> None:
+def test_no_elementary_differential_vanishes(name: str, counts: list[int]) -> None:
     """Of all trees of the structure up to order 4, by ball arithmetic; they are as many as the
     coupling graph of the method has.
     """
     terms = len(set().union(*VELOCITIES_AND_FORCES[name]))
     gauss = diagonal_method("gauss", 2)
-    blocks = {
-        (l, m): gauss.A for l in range(terms) for m in range(terms) if l != m
-    }
+    blocks = {(l, m): gauss.A for l in range(terms) for m in range(terms) if l != m}
     tableau = of_structure(name, gark([gauss] * terms, blocks))
     found = Differentials(tableau, hamiltonian(name, terms))
     assert [len(found.trees(n)) for n in range(1, 5)] == counts
@@ -171,16 +141,12 @@ def test_no_elementary_differential_vanishes(
     with ctx.workprec(200):
         for order in range(1, 5):
             for tree in found.trees(order):
-                assert any(not arb(x).contains(0) for x in found.of(tree)), (
-                    tree
-                )
+                assert any(not arb(x).contains(0) for x in found.of(tree)), tree
 
 
 @pytest.mark.parametrize("name", GENERIC)
 @pytest.mark.parametrize("seed", range(4))
-def test_methods_of_the_structure_show_their_order(
-    name: str, seed: int
-) -> None:
+def test_methods_of_the_structure_show_their_order(name: str, seed: int) -> None:
     """Random methods fail at some trees of order 2 or 3: the slope is their order, never more; and
     the problem is the one that a test without a problem takes.
     """
@@ -206,12 +172,7 @@ def test_methods_of_the_structure_show_their_order(
 )
 def test_problem_of_a_file(file: str, name: str) -> None:
     """The methods of the paper have the problem of their structure."""
-    assert (
-        seeing_problem(
-            [load(str(ROOT / "methods" / f"{file}.gark.yaml")).tableau]
-        )
-        == name
-    )
+    assert seeing_problem([load(str(ROOT / "methods" / f"{file}.gark.yaml")).tableau]) == name
 
 
 def test_one_problem_for_several_structures() -> None:
@@ -230,7 +191,5 @@ def test_one_problem_for_several_structures() -> None:
 def test_structures_without_a_problem_are_told() -> None:
     """A method whose colours see nothing, not even themselves, is for no problem at all."""
     none = spelled_out([[None]], [(fmpq(1),)], [(fmpq(0),)])
-    with pytest.raises(
-        UsageProblem, match="no problem with random coefficients"
-    ):
+    with pytest.raises(UsageProblem, match="no problem with random coefficients"):
         seeing_problem([none])

@@ -27,12 +27,7 @@ SMALL = st.integers(-3, 3)
 def names(d: int) -> tuple[tuple[str, ...], Any, Any, Any]:
     """The first d variables and their symbols q, v, p."""
     variables = LETTERS[:d]
-    return (
-        variables,
-        symbols(variables, "q"),
-        velocities(variables),
-        symbols(variables, "p"),
-    )
+    return (variables, symbols(variables, "q"), velocities(variables), symbols(variables, "p"))
 
 
 def balls(values: dict[Any, Any]) -> dict[Any, arb]:
@@ -42,9 +37,7 @@ def balls(values: dict[Any, Any]) -> dict[Any, arb]:
 
 
 @st.composite
-def lagrangians(
-    draw: st.DrawFn,
-) -> tuple[int, Any, dict[Any, Any], dict[Any, Any]]:
+def lagrangians(draw: st.DrawFn) -> tuple[int, Any, dict[Any, Any], dict[Any, Any]]:
     """L = ½ v·M(q)v + b(q)·v − V(q) with polynomials of q, and rational q and v."""
     d = draw(st.integers(1, 3))
     _, q, v, _ = names(d)
@@ -54,32 +47,13 @@ def lagrangians(
         return sum(draw(SMALL) * term for term in (1, *q, square)) / 4
 
     M = [
-        [
-            polynomial() if draw(st.booleans()) else sympy.Integer(draw(SMALL))
-            for _ in v
-        ]
-        for _ in v
+        [polynomial() if draw(st.booleans()) else sympy.Integer(draw(SMALL)) for _ in v] for _ in v
     ]
-    T = (
-        sum(
-            (M[min(i, j)][max(i, j)]) * v[i] * v[j]
-            for i in range(d)
-            for j in range(d)
-        )
-        / 2
-    )
+    T = sum((M[min(i, j)][max(i, j)]) * v[i] * v[j] for i in range(d) for j in range(d)) / 2
     T += sum(draw(st.integers(1, 5)) * x**2 for x in v)
     L = T + sum(polynomial() * x for x in v) - polynomial()
-    values = [
-        Rational(draw(st.integers(-20, 20)), draw(st.integers(1, 9)))
-        for _ in range(2 * d)
-    ]
-    return (
-        d,
-        L,
-        dict(zip(q, values[:d], strict=True)),
-        dict(zip(v, values[d:], strict=True)),
-    )
+    values = [Rational(draw(st.integers(-20, 20)), draw(st.integers(1, 9))) for _ in range(2 * d)]
+    return (d, L, dict(zip(q, values[:d], strict=True)), dict(zip(v, values[d:], strict=True)))
 
 
 @settings(max_examples=10)
@@ -100,45 +74,31 @@ def test_quadratic_lagrangians_are_transformed_exactly(
             legendre_transform(L, variables, balls(q))
         return
     H = legendre_transform(L, variables, balls(q))
-    p = {
-        x: L.diff(y).xreplace({**q, **v})
-        for x, y in zip(p_symbols, v, strict=True)
-    }
+    p = {x: L.diff(y).xreplace({**q, **v}) for x, y in zip(p_symbols, v, strict=True)}
     at = {**q, **p}
     assert [H.diff(x).xreplace(at) for x in p] == list(v.values())
     assert H.xreplace(at) + L.xreplace({**q, **v}) == sum(
         a * b for a, b in zip(p.values(), v.values(), strict=True)
     )
-    assert all(
-        H.diff(x).xreplace(at) == -L.diff(x).xreplace({**q, **v}) for x in q
-    )
+    assert all(H.diff(x).xreplace(at) == -L.diff(x).xreplace({**q, **v}) for x in q)
 
 
 @pytest.mark.parametrize("coupled", [3, 4])
 def test_chains_of_pendulums(coupled: int) -> None:
     """Mass matrices with cosines of differences: the identities hold in balls of 80 digits."""
     variables = tuple("abcde"[:coupled])
-    q, v, p = (
-        symbols(variables, "q"),
-        velocities(variables),
-        symbols(variables, "p"),
-    )
+    q, v, p = (symbols(variables, "q"), velocities(variables), symbols(variables, "p"))
     L = sum(
         (coupled - max(i, j)) * cos(q[i] - q[j]) * v[i] * v[j] / 2
         for i in range(coupled)
         for j in range(coupled)
     ) + sum(cos(x) for x in q)
     start = {x: Rational(k, 7) for k, x in enumerate((*q, *v), 1)}
-    H = legendre_transform(
-        L, variables, {x: y for x, y in balls(start).items() if x in q}
-    )
+    H = legendre_transform(L, variables, {x: y for x, y in balls(start).items() if x in q})
     at = balls(start)
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], at), strict=True))
     back = enclosed([H.diff(x) for x in p], {**at, **momenta})
-    assert all(
-        x.overlaps(at[y]) and x.rad() < 1e-60
-        for x, y in zip(back, v, strict=True)
-    )
+    assert all(x.overlaps(at[y]) and x.rad() < 1e-60 for x, y in zip(back, v, strict=True))
 
 
 (X, Y), (VX, VY), (PX, PY) = (names(2)[k] for k in (1, 2, 3))
@@ -168,32 +128,19 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
     values |= dict(zip(v, (Rational(1, 2), Rational(1, 5)), strict=False))
     at = balls(values)
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], at), strict=True))
-    start = (
-        at
-        if knows_velocities
-        else {x: y for x, y in (at | momenta).items() if x not in v}
-    )
+    start = at if knows_velocities else {x: y for x, y in (at | momenta).items() if x not in v}
     if not knows_velocities and L.has(VX**3):
         with pytest.raises(NoLegendreTransform, match="several velocities"):
             legendre_transform(L, variables, start)
         return
     H = legendre_transform(L, variables, start)
     assert not H.free_symbols & set(v)
-    elsewhere = balls(
-        {x: y + Rational(k, 17) for k, (x, y) in enumerate(values.items(), 1)}
-    )
-    momenta = dict(
-        zip(p, enclosed([L.diff(x) for x in v], elsewhere), strict=True)
-    )
+    elsewhere = balls({x: y + Rational(k, 17) for k, (x, y) in enumerate(values.items(), 1)})
+    momenta = dict(zip(p, enclosed([L.diff(x) for x in v], elsewhere), strict=True))
     there = {**elsewhere, **momenta}
     back = enclosed([H.diff(x) for x in p], there)
-    assert all(
-        x.overlaps(elsewhere[y]) and x.rad() < 1e-60
-        for x, y in zip(back, v, strict=True)
-    )
-    sides = enclosed(
-        [H + L - sum(a * b for a, b in zip(p, v, strict=True))], there
-    )
+    assert all(x.overlaps(elsewhere[y]) and x.rad() < 1e-60 for x, y in zip(back, v, strict=True))
+    sides = enclosed([H + L - sum(a * b for a, b in zip(p, v, strict=True))], there)
     assert sides[0].contains(0)
     assert sides[0].rad() < 1e-60
 
@@ -204,14 +151,8 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
         (VX**2 / 2 + cos(X), "vy does not occur beside vx"),
         ((VX + VY) ** 2, "the mass matrix of vx, vy is singular"),
         (VX * X + VY, "the mass matrix of vx is singular"),
-        (
-            VX**2 * (sin(X) ** 2 + cos(X) ** 2 - 1) + VY**2,
-            "the mass matrix of vx is singular",
-        ),
-        (
-            X**2 * VX**2 - Rational(9, 100) * VX**2 + VY**2,
-            "the mass matrix of vx is singular",
-        ),
+        (VX**2 * (sin(X) ** 2 + cos(X) ** 2 - 1) + VY**2, "the mass matrix of vx is singular"),
+        (X**2 * VX**2 - Rational(9, 100) * VX**2 + VY**2, "the mass matrix of vx is singular"),
         (VX**4 + VX**2 + VY**2, "not solved for vx"),
         (VX**2 * VY**2, "not solved for vx, vy"),
         (VX**6 + VX + VX**5 + VY**2, "not solved for vx"),
@@ -219,14 +160,7 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
 )
 def test_what_has_no_transform_is_refused(L: Any, message: str) -> None:
     """Degenerate mass matrices, and what is not solved in closed form."""
-    start = balls(
-        {
-            X: Rational(3, 10),
-            Y: Rational(7, 10),
-            VX: Rational(1, 2),
-            VY: Rational(1, 5),
-        }
-    )
+    start = balls({X: Rational(3, 10), Y: Rational(7, 10), VX: Rational(1, 2), VY: Rational(1, 5)})
     with pytest.raises(NoLegendreTransform) as caught:
         legendre_transform(L, ("x", "y"), start)
     assert message in caught.value.message
@@ -254,9 +188,7 @@ def test_terms_have_velocities_of_their_own() -> None:
     """
     variables, (x,), (v,), (p,) = names(1)
     start = {x: arb(0)}
-    one, other = (
-        legendre_transform(v**2 / 2, variables, start) for _ in range(2)
-    )
+    one, other = (legendre_transform(v**2 / 2, variables, start) for _ in range(2))
     assert (one + other).diff(p) == 2 * p
     assert legendre_transform(v**2, variables, start).diff(p) == p / 2
     assert legendre_transform(-cos(x), variables, start) == cos(x)
@@ -267,9 +199,7 @@ def test_momenta_of_velocities() -> None:
     variables, (x,), (v,), (p,) = names(1)
     at = balls({x: Rational(1, 2), v: Rational(3)})
     terms = [v**2 / 2, -cos(x)]
-    assert initial_momenta(terms, [p**2 / 2, cos(x)], variables, at)[
-        0
-    ].overlaps(arb(3))
+    assert initial_momenta(terms, [p**2 / 2, cos(x)], variables, at)[0].overlaps(arb(3))
     terms = [(1 + x**2) * v**2 / 2 + x * v, v**2]
     H = [legendre_transform(L, variables, at) for L in terms]
     (found,) = initial_momenta(terms, H, variables, at)
@@ -278,10 +208,7 @@ def test_momenta_of_velocities() -> None:
     assert rate.rad() < 1e-60
     with pytest.raises(NoLegendreTransform) as caught:
         initial_momenta(
-            [v**2, cosh(v)],
-            [p**2 / 4, legendre_transform(cosh(v), variables, at)],
-            variables,
-            at,
+            [v**2, cosh(v)], [p**2 / 4, legendre_transform(cosh(v), variables, at)], variables, at
         )
     assert "momenta" in caught.value.help
 
@@ -290,9 +217,7 @@ def test_derivatives_at_the_start() -> None:
     """The variable by which there is none."""
     _, (x, y), _, (px, py) = names(2)
     by = (x, y, px, py)
-    at = balls(
-        {x: Rational(0), y: Rational(1), px: Rational(1), py: Rational(1)}
-    )
+    at = balls({x: Rational(0), y: Rational(1), px: Rational(1), py: Rational(1)})
     assert missing_derivative(y**2 + px**2, by, at) is None
     assert missing_derivative(y**2 + x ** Rational(1, 2), by, at) == (
         "no derivative by x",
@@ -324,19 +249,11 @@ def test_derivatives_at_the_start() -> None:
             log,
             sqrt,
         ),
-        *(
-            lambda u: u**2,
-            lambda u: 1 / u,
-            lambda u: u**3,
-            lambda u: 2**u,
-            lambda u: u + 1 / u,
-        ),
+        *(lambda u: u**2, lambda u: 1 / u, lambda u: u**3, lambda u: 2**u, lambda u: u + 1 / u),
         *(lambda u: u / sqrt(1 + u**2), lambda u: u + sqrt(1 + u)),
     ],
 )
-@pytest.mark.parametrize(
-    ("a", "b"), [(Rational(1, 2), 1), (0, 2), (-1, Rational(7, 2))]
-)
+@pytest.mark.parametrize(("a", "b"), [(Rational(1, 2), 1), (0, 2), (-1, Rational(7, 2))])
 def test_scalar_equations(a: Any, b: Any, outer: Any) -> None:
     """One of the candidates for outer(a + b u) = c is 1/3, for the c that 1/3 gives."""
     u = sympy.Symbol("u", real=True)

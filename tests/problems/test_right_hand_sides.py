@@ -34,9 +34,7 @@ def test_the_solution_of_prothero_and_robinson() -> None:
     (phi,) = made.exact
     assert sympy.simplify(made.total[0].subs(y, phi) - phi.diff(t)) == 0
     assert phi.subs(t, 0) == made.initial[0] == 1
-    assert float(solution(made, arb(1) / 2)[0]) == pytest.approx(
-        0.8775825618903728
-    )
+    assert float(solution(made, arb(1) / 2)[0]) == pytest.approx(0.8775825618903728)
 
 
 @pytest.mark.parametrize("name", ["prothero-robinson", "van-der-pol"])
@@ -46,9 +44,7 @@ def test_files_are_the_built_in_problems(name: str) -> None:
     built_in = rhs(name, 2, 10**6)
     assert isinstance(own, RightHandSide)
     for a, b in zip(own.terms, built_in.terms, strict=True):
-        assert [sympy.expand(x - y) for x, y in zip(a, b, strict=True)] == [
-            0
-        ] * len(a)
+        assert [sympy.expand(x - y) for x, y in zip(a, b, strict=True)] == [0] * len(a)
     assert own.initial == built_in.initial
     assert own.exact == built_in.exact
     assert own.stiffness == built_in.stiffness == 10**6
@@ -62,9 +58,7 @@ def test_the_start_of_van_der_pol_is_smooth() -> None:
     for k in range(3):
         total = sum(z[i].diff(v) * z[k - i] for i in range(k + 1))
         z.append(sympy.together(total / (1 - v**2)))
-    start = sum(
-        x.subs(v, 2) * sympy.Rational(1, 1000) ** k for k, x in enumerate(z)
-    )
+    start = sum(x.subs(v, 2) * sympy.Rational(1, 1000) ** k for k, x in enumerate(z))
     y, found = rhs("van-der-pol", 1, 1000).initial
     assert y == 2
     assert sympy.Rational(int(found.p), int(found.q)) == start
@@ -77,10 +71,7 @@ def test_the_line_of_cells() -> None:
     assert sympy.expand(sum(diffusion)) == 0
     u = symbols(made.variables, "y")
     at = {x: sympy.Rational(1, 4) for x in u}
-    start = {
-        x: sympy.Rational(int(y.p), int(y.q))
-        for x, y in zip(u, made.initial, strict=True)
-    }
+    start = {x: sympy.Rational(int(y.p), int(y.q)) for x, y in zip(u, made.initial, strict=True)}
     growth = [x.subs(at) for x in reaction]
     mean = sum(growth) / len(growth)
     for grows, flows in zip(growth, diffusion, strict=True):
@@ -100,9 +91,7 @@ def test_shares() -> None:
 def test_steepness() -> None:
     """λ of Prothero and Robinson; 4 k and a bit for a line with diffusion k."""
     assert float(steepness(rhs("prothero-robinson", 2, 1000))) == 1000
-    assert float(
-        steepness(rhs("reaction-diffusion", 2, 1000))
-    ) == pytest.approx(4000, rel=1e-2)
+    assert float(steepness(rhs("reaction-diffusion", 2, 1000))) == pytest.approx(4000, rel=1e-2)
 
 
 def test_stiffness_is_for_those_that_have_one() -> None:
@@ -111,9 +100,7 @@ def test_stiffness_is_for_those_that_have_one() -> None:
         if entry.takes_stiffness:
             assert rhs(entry.name, 2, 7).stiffness == 7
         else:
-            with pytest.raises(
-                UsageProblem, match="for the problems prothero-robinson"
-            ):
+            with pytest.raises(UsageProblem, match="for the problems prothero-robinson"):
                 problem(entry.name, 2, stiffness=fmpq(7))
 
 
@@ -139,12 +126,7 @@ def test_one_block_that_fails_is_seen(l: int, m: int) -> None:
     """RK4 for two colours with one entry of A^{l,m} moved so that nodes stay: only the trees of
     order 3 with a vertex m above l fail, and the slope is 2.
     """
-    rows = [
-        ["0"] * 4,
-        ["1/2", "0", "0", "0"],
-        ["0", "1/2", "0", "0"],
-        ["0", "0", "1", "0"],
-    ]
+    rows = [["0"] * 4, ["1/2", "0", "0", "0"], ["0", "1/2", "0", "0"], ["0", "0", "1", "0"]]
     blocks = [[[list(x) for x in rows] for _ in range(2)] for _ in range(2)]
     moved = blocks[l][m]
     moved[2][0], moved[2][1] = "1/4", "1/4"
@@ -167,19 +149,14 @@ def test_every_elementary_differential_is_there() -> None:
     H = [[[[x.diff(b) for b in y] for x in row] for row in term] for term in J]
     rows: list[list[fmpq]] = [[] for _ in range(20)]
     for k in range(7):
-        place = {
-            x: sympy.Rational(3 * i + 2 * k - 4, 20) for i, x in enumerate(y)
-        }
-        for row, values in zip(
-            rows, _differentials((made.terms, J, H), place), strict=True
-        ):
+        place = {x: sympy.Rational(3 * i + 2 * k - 4, 20) for i, x in enumerate(y)}
+        for row, values in zip(rows, _differentials((made.terms, J, H), place), strict=True):
             row += values
     assert fmpq_mat(rows).rank() == 20
 
 
 def _differentials(
-    derivatives: tuple[Any, Any, Any],
-    place: dict[sympy.Symbol, sympy.Rational],
+    derivatives: tuple[Any, Any, Any], place: dict[sympy.Symbol, sympy.Rational]
 ) -> list[list[fmpq]]:
     """f^l, f^l' f^m, f^l' f^m' f^n and f^l''(f^m, f^n) for all colours, by the definition."""
     n = range(len(place))
@@ -203,12 +180,7 @@ def _differentials(
     for l in colours:
         for m, k in ((0, 0), (0, 1), (1, 1)):
             products = [(a, b, f[m][a] * f[k][b]) for a in n for b in n]
-            found.append(
-                [
-                    sum((H[l][i][a][b] * x for a, b, x in products), fmpq(0))
-                    for i in n
-                ]
-            )
+            found.append([sum((H[l][i][a][b] * x for a, b, x in products), fmpq(0)) for i in n])
     return found
 
 
@@ -217,9 +189,7 @@ def test_the_default_for_linear_colours() -> None:
     generic-rhs, linear there, and shows the order. All other methods have a Hamiltonian one.
     """
     A, B = [["0", "0"], ["1", "0"]], [["0", "0"], ["1/2", "1/2"]]
-    text = f"tableau: {{A: {[[A, B], [A, B]]}, b: {[['1/2', '1/2']] * 2}}}".replace(
-        "'", '"'
-    )
+    text = f"tableau: {{A: {[[A, B], [A, B]]}, b: {[['1/2', '1/2']] * 2}}}".replace("'", '"')
     plain = loads(text).tableau
     linear = loads(f"{text}\nlinear: [2]").tableau
     assert seeing_problem([plain]) == "generic"

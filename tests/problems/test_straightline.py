@@ -20,25 +20,13 @@ DIGITS = 40
 
 def numbers() -> st.SearchStrategy[Any]:
     """Small rational numbers as sympy has them."""
-    return fractions(-3, 3, 7).map(
-        lambda x: sympy.Rational(x.numerator, x.denominator)
-    )
+    return fractions(-3, 3, 7).map(lambda x: sympy.Rational(x.numerator, x.denominator))
 
 
 def combined(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     """Sums, products, powers and functions of what there is."""
     powers = st.sampled_from(
-        [
-            -3,
-            -2,
-            -1,
-            2,
-            3,
-            5,
-            sympy.Rational(1, 2),
-            sympy.Rational(-3, 2),
-            sympy.Rational(2, 3),
-        ]
+        [-3, -2, -1, 2, 3, 5, sympy.Rational(1, 2), sympy.Rational(-3, 2), sympy.Rational(2, 3)]
     )
     names = st.sampled_from(["sin", "cos", "exp", "atan", "tanh"])
     return st.one_of(
@@ -50,44 +38,27 @@ def combined(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 EXPRESSIONS = st.recursive(
-    st.one_of(st.sampled_from(X), numbers(), st.just(sympy.pi)),
-    combined,
-    max_leaves=8,
+    st.one_of(st.sampled_from(X), numbers(), st.just(sympy.pi)), combined, max_leaves=8
 )
 POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(EXPRESSIONS, min_size=1, max_size=4), POINTS)
-def test_values_are_those_of_sympy(
-    expressions: list[Any], point: tuple[fmpq, ...]
-) -> None:
+def test_values_are_those_of_sympy(expressions: list[Any], point: tuple[fmpq, ...]) -> None:
     """Several expressions at once, in 40 digits, and in floats where no part of one is large."""
-    at = {
-        x: sympy.Rational(int(a.p), int(a.q))
-        for x, a in zip(X, point, strict=True)
-    }
-    expected = [
-        sympy.sympify(f).subs(at).evalf(DIGITS + 10) for f in expressions
-    ]
+    at = {x: sympy.Rational(int(a.p), int(a.q)) for x, a in zip(X, point, strict=True)}
+    expected = [sympy.sympify(f).subs(at).evalf(DIGITS + 10) for f in expressions]
     assume(all(abs(x) < 1e12 for x in expected))
     size = max(1.0, *(float(abs(x)) for x in expected))
-    parts = {
-        x
-        for f in expressions
-        for x in sympy.preorder_traversal(sympy.sympify(f))
-    }
+    parts = {x for f in expressions for x in sympy.preorder_traversal(sympy.sympify(f))}
     # the sine of a number of nine digits has half the digits of a float
     if all(abs(x.subs(at).evalf()) < 1e3 for x in parts):
         code = function(tuple(map(sympy.sympify, expressions)), X, False)
         floats = code(*(int(a.p) / int(a.q) for a in point))
-        assert floats == pytest.approx(
-            [float(x) for x in expected], rel=1e-9, abs=1e-9 * size
-        )
+        assert floats == pytest.approx([float(x) for x in expected], rel=1e-9, abs=1e-9 * size)
     with ctx.workprec(200):
-        balls = function(tuple(map(sympy.sympify, expressions)), X, True)(
-            *map(arb, point)
-        )
+        balls = function(tuple(map(sympy.sympify, expressions)), X, True)(*map(arb, point))
         for ball, value in zip(balls, expected, strict=True):
             assert abs(arb(ball) - arb(str(value))) < size * 1e-35
 
@@ -105,9 +76,7 @@ def test_common_parts_are_computed_once() -> None:
     """Kepler's force: one square root, one division, four products."""
     x, y, _ = X
     r3 = sympy.Pow(x**2 + y**2, sympy.Rational(3, 2))
-    lines, results = code_of((-x / r3, -y / r3), (x, y), False).lines(
-        ("q0", "q1"), "f_"
-    )
+    lines, results = code_of((-x / r3, -y / r3), (x, y), False).lines(("q0", "q1"), "f_")
     text = "\n".join(lines)
     assert (text.count("sqrt"), text.count("/"), text.count("*")) == (1, 1, 5)
     assert results == ["f_0", "f_1"]
@@ -115,9 +84,9 @@ def test_common_parts_are_computed_once() -> None:
 
 def test_what_is_there_needs_no_line() -> None:
     """An argument is its own result, and zero is no code at all."""
-    lines, results = code_of(
-        (X[1], sympy.Integer(0), sympy.Integer(2)), X[:2], False
-    ).lines(("p0", "p1"), "f_")
+    lines, results = code_of((X[1], sympy.Integer(0), sympy.Integer(2)), X[:2], False).lines(
+        ("p0", "p1"), "f_"
+    )
     assert (lines, results) == ([], ["p1", "0", "2.0"])
 
 
@@ -147,9 +116,7 @@ def test_deep_expressions_are_cut() -> None:
     f, value = X[0], 0.5
     for _ in range(70):
         f, value = sympy.sin(1 + f / 2), math.sin(1 + value / 2)
-    assert function((f,), X[:1], False)(0.5) == pytest.approx(
-        [value], rel=1e-14
-    )
+    assert function((f,), X[:1], False)(0.5) == pytest.approx([value], rel=1e-14)
 
 
 def test_constants_beyond_the_floats_are_infinite() -> None:
@@ -157,13 +124,8 @@ def test_constants_beyond_the_floats_are_infinite() -> None:
     it.
     """
     huge = sympy.Integer(10) ** 400
-    assert function((huge * X[0], -huge * X[0]), X[:1], False)(2.0) == [
-        math.inf,
-        -math.inf,
-    ]
-    assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(
-        arb(10) ** 400 / 2
-    )
+    assert function((huge * X[0], -huge * X[0]), X[:1], False)(2.0) == [math.inf, -math.inf]
+    assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(arb(10) ** 400 / 2)
     longest = sympy.Integer(10) ** 6000  # more digits than Python writes
     (found,) = function((longest * X[0],), X[:1], True)(arb(0.5))
     assert found.overlaps(arb(10) ** 6000 / 2)

@@ -38,9 +38,7 @@ def test_values_stay(expression: Expression) -> None:
         assume(False)
         return
     with ctx.workprec(300):
-        run = function(
-            (sympy.sympify(made),), (SYMBOLS["x"], SYMBOLS["px"]), True
-        )
+        run = function((sympy.sympify(made),), (SYMBOLS["x"], SYMBOLS["px"]), True)
         (found,) = run(arb(NAMES["x"]), arb(NAMES["px"]))
     assert arb(found).overlaps(wanted)
 
@@ -80,9 +78,7 @@ def test_what_is_made(text: str, wanted: str) -> None:
         ("sqrt(-x**2)", "this has |x|", 0),
     ],
 )
-def test_what_is_not_smooth_or_real_is_refused(
-    text: str, message: str, start: int
-) -> None:
+def test_what_is_not_smooth_or_real_is_refused(text: str, message: str, start: int) -> None:
     """What, and where in the text."""
     with pytest.raises(UndefinedValue) as caught:
         translated(text)
@@ -110,9 +106,7 @@ def test_parameters_stand_for_their_expressions() -> None:
     """Exact ones as numbers; exponents may be made of them."""
     third = sympy.Rational(1, 3)
     translator = Translator({**SYMBOLS, "a": third}, {"a": fmpq(1, 3)})
-    assert (
-        str(translator.translate(parse_formula("a*x**(3*a/2)"))) == "sqrt(x)/3"
-    )
+    assert str(translator.translate(parse_formula("a*x**(3*a/2)"))) == "sqrt(x)/3"
 
 
 @pytest.mark.parametrize(
@@ -144,9 +138,7 @@ def test_long_products_have_longer_derivatives() -> None:
     derivatives.
     """
     sizes = [
-        size_of_derivatives(
-            translated("*".join(f"(x + {i})" for i in range(n)))
-        )
+        size_of_derivatives(translated("*".join(f"(x + {i})" for i in range(n))))
         for n in (50, 100, 200)
     ]
     assert 7 < sizes[1] / sizes[0] < 9

@@ -30,139 +30,69 @@ FSAL = ("stiffly-accurate: true", "fsal: true")
 KNOWN = {
     "methods: {family: gauss, stages: 3}": (
         *("symmetric: true", "algebraically-stable: true", "a-stable: true"),
-        *(
-            "l-stable: false",
-            "p-stable: true",
-            "stage-order: 3",
-            "implicit-stages: 3",
-        ),
-        *(
-            "stiffly-accurate: false",
-            "real-stability: infinity",
-            "ssp-coefficient: 0",
-        ),
-        *(
-            "nodes-in-unit-interval: true",
-            "positive-weights: true",
-            "reducible: false",
-        ),
+        *("l-stable: false", "p-stable: true", "stage-order: 3", "implicit-stages: 3"),
+        *("stiffly-accurate: false", "real-stability: infinity", "ssp-coefficient: 0"),
+        *("nodes-in-unit-interval: true", "positive-weights: true", "reducible: false"),
     ),
     "methods: {family: lobatto-iiia, stages: 3}": (
         *("symmetric: true", "a-stable: true", "algebraically-stable: false"),
-        *(
-            "fully-implicit: true",
-            "implicit-stages: 2",
-            "stage-order: 3",
-            *FSAL,
-        ),
+        *("fully-implicit: true", "implicit-stages: 2", "stage-order: 3", *FSAL),
     ),
     "methods: {family: lobatto-iiib, stages: 3}": (
         *("symmetric: true", "a-stable: true", "stiffly-accurate: false"),
-        *(
-            "implicit-stages: 2",
-            "stage-order: 1",
-            "algebraically-stable: false",
-        ),
+        *("implicit-stages: 2", "stage-order: 1", "algebraically-stable: false"),
     ),
     "methods: {family: lobatto-iiic, stages: 3}": (
         *("symmetric: false", "l-stable: true", "algebraically-stable: true"),
         *("stiffly-accurate: true", "fsal: false", "stage-order: 2"),
     ),
     "methods: {family: radau-ia, stages: 2}": (
-        *(
-            "l-stable: true",
-            "algebraically-stable: true",
-            "stiffly-accurate: false",
-        ),
+        *("l-stable: true", "algebraically-stable: true", "stiffly-accurate: false"),
         "stage-order: 1",
     ),
     "methods: {family: radau-iia, stages: 3}": (
-        *(
-            "l-stable: true",
-            "algebraically-stable: true",
-            "stiffly-accurate: true",
-        ),
+        *("l-stable: true", "algebraically-stable: true", "stiffly-accurate: true"),
         *("fsal: false", "stage-order: 3", "implicit-stages: 3"),
     ),
     "methods: {family: rk4}": (
-        *(
-            "explicit: true",
-            "implicit-stages: 0",
-            "stage-order: 1",
-            "fsal: false",
-        ),
+        *("explicit: true", "implicit-stages: 0", "stage-order: 1", "fsal: false"),
         *("imaginary-stability: 2*sqrt(2)", "real-stability: 2.785"),
         *("ssp-coefficient: 0", "a-stable: false", "positive-weights: true"),
     ),
     # implicit Euler, midpoint rule, trapezoidal rule
     "{A: [[1]], b: [1]}": (
-        *(
-            "sdirk: true",
-            "gamma: 1",
-            "ssp-coefficient: infinity",
-            "l-stable: true",
-        ),
-        *(
-            "stiffly-accurate: true",
-            "fsal: false",
-            "algebraically-stable: true",
-        ),
+        *("sdirk: true", "gamma: 1", "ssp-coefficient: infinity", "l-stable: true"),
+        *("stiffly-accurate: true", "fsal: false", "algebraically-stable: true"),
     ),
     "{A: [[1/2]], b: [1]}": (
         *("ssp-coefficient: 2", "symmetric: true", "p-stable: true"),
         "algebraically-stable: true",
     ),
     "{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}": (
-        *(
-            "ssp-coefficient: 2",
-            "esdirk: true",
-            "gamma: 0.5",
-            "symmetric: true",
-            *FSAL,
-        ),
+        *("ssp-coefficient: 2", "esdirk: true", "gamma: 0.5", "symmetric: true", *FSAL),
         *("a-stable: true", "l-stable: false", "algebraically-stable: false"),
     ),
     # TR-BDF2
     "{parameters: {g: 1 - sqrt(2)/2, w: sqrt(2)/4},"
     " A: [[0, 0, 0], [g, g, 0], [w, w, g]], b: [w, w, g]}": (
         *("esdirk: true", "gamma: 1 - sqrt(2)/2", "l-stable: true", *FSAL),
-        *(
-            "implicit-stages: 2",
-            "stage-order: 2",
-            "ssp-coefficient: 1 + sqrt(2)",
-        ),
+        *("implicit-stages: 2", "stage-order: 2", "ssp-coefficient: 1 + sqrt(2)"),
     ),
     # Alexander's SDIRK of order 2, Crouzeix's of order 3
     "{parameters: {g: 1 - sqrt(2)/2}, A: [[g, 0], [1 - g, g]], b: [1 - g, g]}": (
-        *(
-            "sdirk: true",
-            "l-stable: true",
-            "stiffly-accurate: true",
-            "gamma: 0.2929",
-        ),
+        *("sdirk: true", "l-stable: true", "stiffly-accurate: true", "gamma: 0.2929"),
     ),
     "{parameters: {g: 1/2 + sqrt(3)/6}, A: [[g, 0], [1 - 2*g, g]], b: [1/2, 1/2]}": (
         *("sdirk: true", "a-stable: true", "l-stable: false"),
-        *(
-            "algebraically-stable: true",
-            "stiffly-accurate: false",
-            "gamma: '>= 1/2'",
-        ),
+        *("algebraically-stable: true", "stiffly-accurate: false", "gamma: '>= 1/2'"),
     ),
     # SSPRK(2,2), (3,3), (4,3), (10,4)
-    "{A: [[], [1]], b: [1/2, 1/2]}": (
-        "ssp-coefficient: 1",
-        "real-stability: 2",
-    ),
+    "{A: [[], [1]], b: [1/2, 1/2]}": ("ssp-coefficient: 1", "real-stability: 2"),
     "{A: [[], [1], [1/4, 1/4]], b: [1/6, 1/6, 2/3]}": (
         *("ssp-coefficient: 1", "imaginary-stability: sqrt(3)"),
     ),
     "{A: [[], [1/2], [1/2, 1/2], [1/6, 1/6, 1/6]], b: [1/6, 1/6, 1/6, 1/2]}": (
-        *(
-            "ssp-coefficient: 2",
-            "explicit: true",
-            "nodes-in-unit-interval: true",
-        ),
+        *("ssp-coefficient: 2", "explicit: true", "nodes-in-unit-interval: true"),
     ),
     "{parameters: {u: 1/6, v: 1/15}, A: [[], [u], [u, u], [u, u, u], [u, u, u, u],"
     " [v, v, v, v, v], [v, v, v, v, v, u], [v, v, v, v, v, u, u],"
@@ -207,12 +137,7 @@ def test_what_is_known_of_classical_methods(text: str) -> None:
             "false",
             "R(z) is not bounded: its numerator has the larger degree",
         ),
-        (
-            "{A: [[-1]], b: [1]}",
-            "a-stable: true",
-            "false",
-            "R has a pole at z = -1",
-        ),
+        ("{A: [[-1]], b: [1]}", "a-stable: true", "false", "R has a pole at z = -1"),
         (
             "{A: [[1/4]], b: [1]}",
             "a-stable: true",
@@ -288,9 +213,7 @@ def test_what_is_known_of_classical_methods(text: str) -> None:
         ),
     ],
 )
-def test_a_claim_that_fails_says_why(
-    method: str, claim: str, found: str, why: str
-) -> None:
+def test_a_claim_that_fails_says_why(method: str, claim: str, found: str, why: str) -> None:
     """The entry, the pole, the polynomial or the interval that decides."""
     (result,) = held(with_claims(method, (claim,)))
     assert not result.holds
@@ -314,9 +237,7 @@ def test_a_claim_that_fails_says_why(
 )
 def test_claims_on_real_numbers(claim: str, holds: bool) -> None:
     """Exact numbers are exact, decimals claim their digits; of rk4 |R(iy)| ≤ 1 to y = 2√2."""
-    (result,) = held(
-        f"methods: {{family: rk4}}\nexpect: {{imaginary-stability: {claim}}}"
-    )
+    (result,) = held(f"methods: {{family: rk4}}\nexpect: {{imaginary-stability: {claim}}}")
     assert result.holds is holds
 
 
@@ -327,22 +248,12 @@ def test_a_number_agrees_with_its_decimals(value: object, places: int) -> None:
     shifted = number * 10**places + fmpq(1, 2)
     whole = int(shifted.floor())
     digits = str(whole).rjust(places + 1, "0")
-    decimal = (
-        f"{digits[: len(digits) - places]}.{digits[len(digits) - places :]}"
-    )
-    (result,) = held(
-        f"{{A: [[{number}]], b: [1], expect: {{gamma: {decimal}}}}}"
-    )
+    decimal = f"{digits[: len(digits) - places]}.{digits[len(digits) - places :]}"
+    (result,) = held(f"{{A: [[{number}]], b: [1], expect: {{gamma: {decimal}}}}}")
     assert result.holds
-    other = (
-        f"{digits[: len(digits) - places]}.{digits[len(digits) - places :]}1"
-    )
-    (result,) = held(
-        f"{{A: [[{number}]], b: [1], expect: {{gamma: {other}}}}}"
-    )
-    assert result.holds is (
-        abs(number * 10 ** (places + 1) - whole * 10 - 1) * 2 <= 1
-    )
+    other = f"{digits[: len(digits) - places]}.{digits[len(digits) - places :]}1"
+    (result,) = held(f"{{A: [[{number}]], b: [1], expect: {{gamma: {other}}}}}")
+    assert result.holds is (abs(number * 10 ** (places + 1) - whole * 10 - 1) * 2 <= 1)
 
 
 @pytest.mark.parametrize(
@@ -408,9 +319,7 @@ def test_rounded_coefficients() -> None:
     }
     lines = "".join(f"\n  {key}: {value}" for key, value in claims.items())
     assert all(claim.holds for claim in held(f"{SDIRK_ROUNDED}expect:{lines}"))
-    open_ones = (
-        "{real-stability: infinity, p-stable: true, ssp-coefficient: 2}"
-    )
+    open_ones = "{real-stability: infinity, p-stable: true, ssp-coefficient: 2}"
     found = held(f"{SDIRK_ROUNDED}expect: {open_ones}")
     assert {claim.found for claim in found} == {"not decided"}
     assert not any(claim.holds for claim in found)
@@ -449,10 +358,7 @@ def test_an_imex_method() -> None:
     assert str(subject.verdict("gamma").value) == "1 - sqrt(2)/2"
     assert subject.verdict("stiffly-accurate").value is True
     assert subject.verdict("implicit-stages").value == 2
-    assert (
-        subject.verdict("positive-weights").why
-        == "b{1}, entry 1, is -sqrt(2)/2"
-    )
+    assert subject.verdict("positive-weights").why == "b{1}, entry 1, is -sqrt(2)/2"
 
 
 def test_stages_of_several_methods_that_are_solved_together() -> None:
@@ -470,9 +376,7 @@ def subject_of(method: object) -> Subject:
     """A method as its properties are decided."""
     tableau = method.tableau  # type: ignore[attr-defined]
     tolerance = method.tolerance or ZERO  # type: ignore[attr-defined]
-    return Subject(
-        tableau, 1, simplifying(tableau, 5, tolerance), 5, tolerance
-    )
+    return Subject(tableau, 1, simplifying(tableau, 5, tolerance), 5, tolerance)
 
 
 # -- the catalogue
@@ -487,15 +391,7 @@ def kind_by_name(name: str, entry: Entry) -> str:
     short = name.removeprefix("sundials_")
     if entry["kind"] in {"ark", "gark"} or short in IMEX:
         return "diagonally implicit"
-    words = (
-        "ESDIRK",
-        "SDIRK",
-        "KVAERNO",
-        "CASH_5",
-        "BILLINGTON",
-        "TRBDF2",
-        "IMPLICIT",
-    )
+    words = ("ESDIRK", "SDIRK", "KVAERNO", "CASH_5", "BILLINGTON", "TRBDF2", "IMPLICIT")
     is_implicit = any(word in short for word in (*words, "BACKWARD"))
     return "diagonally implicit" if is_implicit else "explicit"
 
@@ -515,9 +411,7 @@ def test_published_methods_are_what_they_are_called(name: str) -> None:
         assert subject.verdict("stage-order").value == 2
     if "DORMAND_PRINCE" in name or "BOGACKI" in name or "TSITOURAS" in name:
         assert subject.verdict("fsal").value is True
-        assert (
-            subject.verdict("reducible").value is True
-        )  # without embedded weights
+        assert subject.verdict("reducible").value is True  # without embedded weights
 
 
 @pytest.mark.parametrize(
@@ -530,15 +424,10 @@ def test_published_methods_are_what_they_are_called(name: str) -> None:
         ("ZONNEVELD_5_3_4", 2.7853, 2.8284),
     ],
 )
-def test_stability_intervals_of_published_methods(
-    name: str, real: float, imaginary: float
-) -> None:
+def test_stability_intervals_of_published_methods(name: str, real: float, imaginary: float) -> None:
     """The ends of the real and imaginary intervals satisfy |R| = 1, by a scan in floats."""
     subject = subject_of(loads(method_file(CATALOGUE[f"sundials_{name}"])))
-    for key, wanted in (
-        ("real-stability", real),
-        ("imaginary-stability", imaginary),
-    ):
+    for key, wanted in (("real-stability", real), ("imaginary-stability", imaginary)):
         value = subject.verdict(key).value
         assert isinstance(value, Size)
         assert value.root is not None
@@ -547,9 +436,7 @@ def test_stability_intervals_of_published_methods(
         along = -1.0 if key == "real-stability" else 1j
         if wanted:
             inside = [wanted * k / 40 for k in range(1, 40)]
-            assert all(
-                abs(_value(subject, along * x)) < 1 + 1e-9 for x in inside
-            )
+            assert all(abs(_value(subject, along * x)) < 1 + 1e-9 for x in inside)
             assert abs(_value(subject, along * (wanted + 1e-2))) > 1
 
 

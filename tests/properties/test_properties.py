@@ -19,16 +19,8 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.algebra_shape import shape_of_families
-from garkcli.properties.last_stage import (
-    is_first_same_as_last,
-    is_stiffly_accurate,
-)
-from garkcli.properties.reduction import (
-    are_positive,
-    is_plainly_irreducible,
-    is_reducible,
-    reduced,
-)
+from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
+from garkcli.properties.reduction import are_positive, is_plainly_irreducible, is_reducible, reduced
 from garkcli.properties.shape import shape
 from garkcli.properties.symmetry import is_symmetric, symmetry
 from garkcli.stability.algebraic import negative_pivot
@@ -61,28 +53,19 @@ def family(name: str, stages: int | None) -> Tableau:
     return gark([diagonal_method(name, stages)], {})
 
 
-def followed_by_adjoint(
-    A: Rows, b: list[Fraction]
-) -> tuple[Rows, list[Fraction]]:
+def followed_by_adjoint(A: Rows, b: list[Fraction]) -> tuple[Rows, list[Fraction]]:
     """Half a step of the method, then half a step of its adjoint."""
     s = len(b)
     half = Fraction(1, 2)
-    adjoint = [
-        [b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)]
-        for i in range(s)
-    ]
+    adjoint = [[b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)] for i in range(s)]
     weights = b[::-1]
     first = [[half * x for x in row] + [Fraction(0)] * s for row in A]
-    second = [
-        [half * x for x in b] + [half * x for x in row] for row in adjoint
-    ]
+    second = [[half * x for x in b] + [half * x for x in row] for row in adjoint]
     return first + second, [half * x for x in b] + [half * x for x in weights]
 
 
 @given(methods())
-def test_a_step_and_its_adjoint_are_symmetric(
-    method: tuple[Rows, list[Fraction]],
-) -> None:
+def test_a_step_and_its_adjoint_are_symmetric(method: tuple[Rows, list[Fraction]]) -> None:
     """Φ*_{h/2} ∘ Φ_{h/2} is symmetric, and so R(z) R(−z) = 1, found without stages."""
     tableau = tableau_of(*followed_by_adjoint(*method))
     assert is_symmetric(tableau)
@@ -93,9 +76,7 @@ def test_a_step_and_its_adjoint_are_symmetric(
 
 
 @given(methods())
-def test_symmetry_is_seen_by_the_stability_function(
-    method: tuple[Rows, list[Fraction]],
-) -> None:
+def test_symmetry_is_seen_by_the_stability_function(method: tuple[Rows, list[Fraction]]) -> None:
     """What is symmetric has R(z) R(−z) = 1, and an even order."""
     tableau = tableau_of(*method)
     if is_symmetric(tableau):
@@ -128,9 +109,7 @@ def test_families(name: str, stages: int, expected: bool) -> None:
 def test_equal_nodes_are_renumbered_too() -> None:
     """Stages in another order, and twins of one node, do not hide the symmetry."""
     text = "methods: [{A: [[1/2, 0], [1/2, 1/2]], b: [1, 1]}]"  # implicit midpoint of weights 1, 1
-    assert is_symmetric(loads(text).tableau) is (
-        stability_symmetric(loads(text).tableau)
-    )
+    assert is_symmetric(loads(text).tableau) is (stability_symmetric(loads(text).tableau))
     verlet = load("methods/stoermer-verlet.gark.yaml").tableau
     assert is_symmetric(verlet)
 
@@ -167,15 +146,11 @@ def test_a_stage_written_twice_is_found(
     assert is_reducible(double)
     assert smaller.spaces[0].stages <= s
     assert is_reducible(smaller) is False
-    assert (
-        find_order(smaller, 8).order == find_order(tableau_of(A, b), 8).order
-    )
+    assert find_order(smaller, 8).order == find_order(tableau_of(A, b), 8).order
     assert stability_function(smaller) == stability_function(tableau_of(A, b))
 
 
-@pytest.mark.parametrize(
-    "name", ["rk4", "kutta", "heun", "explicit-euler", "explicit-midpoint"]
-)
+@pytest.mark.parametrize("name", ["rk4", "kutta", "heun", "explicit-euler", "explicit-midpoint"])
 def test_explicit_methods(name: str) -> None:
     """No stage is solved for; the matrix is nilpotent."""
     found = shape(family(name, None))
@@ -189,9 +164,7 @@ def test_explicit_means_nilpotent(method: tuple[Rows, list[Fraction]]) -> None:
     found = shape(tableau)
     if found.kind == "explicit":
         assert stability_function(tableau).denominator == Polynomial([1])
-    strictly_lower = all(
-        x == 0 for i, row in enumerate(method[0]) for x in row[i:]
-    )
+    strictly_lower = all(x == 0 for i, row in enumerate(method[0]) for x in row[i:])
     if strictly_lower:
         assert found.kind == "explicit"
 
@@ -204,13 +177,9 @@ def test_diagonally_implicit_methods() -> None:
     found = shape(two.tableau)
     assert (found.name, found.implicit_stages) == ("SDIRK", 2)
     assert str(found.gamma) == "1 - sqrt(2)/2"
-    trapezoidal = shape(
-        loads("methods: [{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}]").tableau
-    )
+    trapezoidal = shape(loads("methods: [{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}]").tableau)
     assert (trapezoidal.name, trapezoidal.gamma) == ("ESDIRK", fmpq(1, 2))
-    other = shape(
-        loads("methods: [{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}]").tableau
-    )
+    other = shape(loads("methods: [{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}]").tableau)
     assert (other.name, other.gamma) == ("diagonally implicit", None)
 
 
@@ -242,9 +211,7 @@ def test_stages_that_are_solved_together() -> None:
         ("rk4", None, False, False),
     ],
 )
-def test_last_stages(
-    name: str, stages: int | None, stiff: bool, fsal: bool
-) -> None:
+def test_last_stages(name: str, stages: int | None, stiff: bool, fsal: bool) -> None:
     """Stiffly accurate, and first same as last."""
     tableau = family(name, stages)
     assert is_stiffly_accurate(tableau) is stiff
@@ -252,9 +219,7 @@ def test_last_stages(
 
 
 @given(methods())
-def test_a_stiffly_accurate_regular_method_is_damped(
-    method: tuple[Rows, list[Fraction]],
-) -> None:
+def test_a_stiffly_accurate_regular_method_is_damped(method: tuple[Rows, list[Fraction]]) -> None:
     """With the weights as its last row and a regular matrix, R(∞) = 0."""
     A, _ = method
     tableau = tableau_of(A, A[-1])
@@ -287,9 +252,7 @@ def test_what_has_no_simple_nodes_is_decided_too(
     assert (found.kind, found.implicit_stages) == ("fully implicit", implicit)
 
 
-@pytest.mark.parametrize(
-    "name", ["gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib"]
-)
+@pytest.mark.parametrize("name", ["gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib"])
 def test_stage_algebras_agree_with_points(name: str) -> None:
     """Without the nodes, and with them, the same is found."""
     algebra = family(name, 3)
@@ -303,9 +266,7 @@ def test_stage_algebras_agree_with_points(name: str) -> None:
 
 
 @given(methods())
-def test_what_is_plainly_irreducible_is_not_reduced(
-    method: tuple[Rows, list[Fraction]],
-) -> None:
+def test_what_is_plainly_irreducible_is_not_reduced(method: tuple[Rows, list[Fraction]]) -> None:
     """The short way and the long one do not contradict each other."""
     tableau = tableau_of(*method)
     if is_plainly_irreducible(tableau):
@@ -335,21 +296,12 @@ b: [1/2, 1/2]
 
 # -- families without their nodes
 
-FAMILIES = (
-    "gauss",
-    "radau-ia",
-    "radau-iia",
-    "lobatto-iiia",
-    "lobatto-iiib",
-    "lobatto-iiic",
-)
+FAMILIES = ("gauss", "radau-ia", "radau-iia", "lobatto-iiia", "lobatto-iiib", "lobatto-iiic")
 
 
 @pytest.mark.parametrize("stages", [2, 3, 5])
 @pytest.mark.parametrize("name", FAMILIES)
-def test_systems_of_families_are_those_of_their_entries(
-    name: str, stages: int
-) -> None:
+def test_systems_of_families_are_those_of_their_entries(name: str, stages: int) -> None:
     """Common divisors and a stage modulo a prime find the same systems as the entries, looked at
     one by one in enclosures.
     """
@@ -377,9 +329,7 @@ def test_a_zero_between_irrational_nodes_is_no_proof() -> None:
     """
     tableau = family("gauss", 4)
     space = tableau.spaces[0]
-    columns = [
-        space.product(space.of_polynomial((ONE, ONE)), e) for e in identity(4)
-    ]
+    columns = [space.product(space.of_polynomial((ONE, ONE)), e) for e in identity(4)]
     block = tuple(zip(*columns, strict=True))
     diagonal = replace(tableau, blocks={(0, 0): block})
     assert shape_of_families(diagonal, [0]) is None
@@ -434,17 +384,12 @@ def test_a_stage_without_influence_does_not_hide_the_symmetry(
 
 
 @pytest.mark.parametrize(
-    ("A", "b"),
-    [([[1]], [0]), ([[1, 0], [0, 3]], [0, 0]), ([[1, 2], [0, 1]], [0, 0])],
+    ("A", "b"), [([[1]], [0]), ([[1, 0], [0, 3]], [0, 0]), ([[1, 2], [0, 1]], [0, 0])]
 )
-def test_a_step_that_does_nothing_is_symmetric(
-    A: list[list[int]], b: list[int]
-) -> None:
+def test_a_step_that_does_nothing_is_symmetric(A: list[list[int]], b: list[int]) -> None:
     """Without weights the step is the identity, whatever the rows."""
     rows = [[Fraction(x) for x in row] for row in A]
-    assert (
-        symmetric_verdict(tableau_of(rows, [Fraction(x) for x in b])) is True
-    )
+    assert symmetric_verdict(tableau_of(rows, [Fraction(x) for x in b])) is True
 
 
 def symmetric_verdict(tableau: Tableau) -> object:
@@ -461,9 +406,7 @@ def symmetric_verdict(tableau: Tableau) -> object:
         ("[[0, 0], [1, 0]]", "[1/2, 1/2]", False),
     ],
 )
-def test_reducible_methods_are_symmetric_as_what_they_do(
-    A: str, b: str, expected: bool
-) -> None:
+def test_reducible_methods_are_symmetric_as_what_they_do(A: str, b: str, expected: bool) -> None:
     """The implicit midpoint rule with a stage too many, in two ways; others are not symmetric."""
     tableau = loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
     assert symmetric_verdict(tableau) is expected
@@ -473,9 +416,7 @@ def test_reducible_methods_are_symmetric_as_what_they_do(
 
 
 @pytest.mark.parametrize("between", ["[[1]]", "[[0]]"])
-def test_stages_that_no_step_depends_on_leave_the_symmetry(
-    between: str,
-) -> None:
+def test_stages_that_no_step_depends_on_leave_the_symmetry(between: str) -> None:
     """The midpoint rule beside two methods without weights, which may see each other."""
     tableau = loads(
         f"""
@@ -491,11 +432,7 @@ def test_stages_that_no_step_depends_on_leave_the_symmetry(
 
 
 @pytest.mark.parametrize(
-    ("A", "pole"),
-    [
-        ("[[-1, 0], [0, -1 - 1/10**40]]", "-1"),
-        ("[[-1, 1], [-1, -1]]", "-0.5 ± 0.5i"),
-    ],
+    ("A", "pole"), [("[[-1, 0], [0, -1 - 1/10**40]]", "-1"), ("[[-1, 1], [-1, -1]]", "-0.5 ± 0.5i")]
 )
 def test_the_pole_that_is_told(A: str, pole: str) -> None:
     """Poles that 128 bits do not tell apart are found, and one of a pair is shown."""

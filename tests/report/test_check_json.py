@@ -19,29 +19,19 @@ ROOT = Path(__file__).parents[2]
 SCHEMA = check_report_schema()
 VALIDATOR = Draft7Validator(SCHEMA)
 READABLE = sorted(
-    [
-        *ROOT.glob("methods/*.gark.yaml"),
-        *ROOT.glob("tests/examples/valid/*.gark.yaml"),
-    ]
+    [*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]
 )
 FAILING = sorted(ROOT.glob("tests/examples/failing/*.gark.yaml"))
 INVALID = ROOT / "tests/examples/invalid"
-FREE = [
-    INVALID / "parameter-free.gark.yaml",
-    INVALID / "unknown-entries.gark.yaml",
-]
+FREE = [INVALID / "parameter-free.gark.yaml", INVALID / "unknown-entries.gark.yaml"]
 """No methods to step with, but families, of which is told what holds for every value."""
 REFUSED = sorted({*INVALID.glob("*.gark.yaml")} - {*FREE})
 MISPRINTED = ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 
-def report(
-    *paths: Path, limit: int = 60, constants: bool = False
-) -> dict[str, Any]:
+def report(*paths: Path, limit: int = 60, constants: bool = False) -> dict[str, Any]:
     """The report on some files, as JSON read back."""
-    found = json.loads(
-        render([check_file(str(path), limit, constants) for path in paths])
-    )
+    found = json.loads(render([check_file(str(path), limit, constants) for path in paths]))
     assert isinstance(found, dict)
     return found
 
@@ -52,12 +42,7 @@ def every_file() -> dict[str, Any]:
     directory without files.
     """
     return report(
-        *READABLE,
-        *FAILING,
-        *FREE,
-        *REFUSED,
-        Path("nowhere.gark.yaml"),
-        Path("tests/report"),
+        *READABLE, *FAILING, *FREE, *REFUSED, Path("nowhere.gark.yaml"), Path("tests/report")
     )
 
 
@@ -92,28 +77,13 @@ def test_reports_keep_to_the_schema() -> None:
     assert complaints(found) == []
     refused = len(REFUSED) + 2
     total = len(READABLE) + len(FAILING) + len(FREE) + refused
-    silent = sum(
-        "claims" in file and not file["claims"] for file in found["files"]
-    )
-    counts = {
-        "files": total,
-        "failed": len(FAILING) + refused,
-        "without_claims": silent,
-    }
+    silent = sum("claims" in file and not file["claims"] for file in found["files"])
+    counts = {"files": total, "failed": len(FAILING) + refused, "without_claims": silent}
     assert found["summary"] == counts
 
 
 @pytest.mark.parametrize(
-    "key",
-    [
-        "order",
-        "witness",
-        "simplifying",
-        "claims",
-        "tolerance",
-        "symplectic",
-        "colours",
-    ],
+    "key", ["order", "witness", "simplifying", "claims", "tolerance", "symplectic", "colours"]
 )
 def test_the_schema_needs_every_field(key: str) -> None:
     """A report that lacks a field, or has it with another type, is refused."""
@@ -139,11 +109,7 @@ def test_each_table_has_a_row_a_colour() -> None:
     files = every_file()["files"]
     families = [found for found in files if "every_value" in found]
     assert len(families) == len(FREE)
-    checked = [
-        found
-        for found in files
-        if "errors" not in found and found not in families
-    ]
+    checked = [found for found in files if "errors" not in found and found not in families]
     assert len(checked) == len(READABLE) + len(FAILING)
     for found in checked:
         N = len(found["colours"])
@@ -160,9 +126,7 @@ def test_lower_bounds_and_error_constants() -> None:
     assert complaints(found) == []
     bounded = [x for x in found["files"] if x.get("order_is_lower_bound")]
     assert bounded
-    assert all(
-        x["witness"] is None and "error_constants" not in x for x in bounded
-    )
+    assert all(x["witness"] is None and "error_constants" not in x for x in bounded)
     assert any("error_constants" in x for x in found["files"])
 
 
@@ -183,32 +147,19 @@ def test_numbers_beyond_floats(tmp_path: Path) -> None:
     big = "A: [[0, 0], [1e400, 0]]\nb: [1/2, 1/2]\n"
     norms = one(tmp_path, big, constants=True)["error_constants"]["all"]
     assert (norms["two_norm"], norms["inf_norm"]) == (None, None)
-    assert (norms["worst"], norms["worst_value"]) == (
-        "[[]_1]_1",
-        f"{10**400 - 1}/2",
-    )
+    assert (norms["worst"], norms["worst_value"]) == ("[[]_1]_1", f"{10**400 - 1}/2")
     small = "A: [[1/2 + 1e-400]]\nb: [1]\n"
     norms = one(tmp_path, small, constants=True)["error_constants"]["all"]
     assert (norms["two_norm"], norms["inf_norm"]) == (0.0, 0.0)
-    assert (norms["worst"], norms["worst_value"]) == (
-        "[[]_1]_1",
-        f"1/{10**400}",
-    )
+    assert (norms["worst"], norms["worst_value"]) == ("[[]_1]_1", f"1/{10**400}")
 
 
 def test_a_rounded_method_says_so(tmp_path: Path) -> None:
     """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the
     tolerance.
     """
-    found = one(
-        tmp_path,
-        "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n",
-    )
-    assert (found["exact"], found["tolerance"], found["order"]) == (
-        False,
-        "1e-14",
-        2,
-    )
+    found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n")
+    assert (found["exact"], found["tolerance"], found["order"]) == (False, "1e-14", 2)
     assert 0 < found["order_largest_residual"] <= 1e-14
     assert "suggestion" not in found
 
@@ -219,11 +170,7 @@ def test_a_method_that_looks_rounded_gets_a_suggestion(tmp_path: Path) -> None:
     assert (found["exact"], found["order"]) == (True, 1)
     assert found["suggestion"]["line"].startswith("tolerance: ")
     assert found["suggestion"]["order"] == 2
-    assert (
-        found["suggestion"]["rounding"]
-        < 1e-14
-        < found["suggestion"]["genuine"]
-    )
+    assert found["suggestion"]["rounding"] < 1e-14 < found["suggestion"]["genuine"]
 
 
 def test_a_failing_method_is_blamed() -> None:
@@ -239,32 +186,20 @@ def test_a_failing_method_is_blamed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "key"),
-    [("A: [[1/3]], b: [1]", "A"), ("A: [[1/2]], b: [2]", "b")],
+    ("place", "key"), [("A: [[1/3]], b: [1]", "A"), ("A: [[1/2]], b: [2]", "b")]
 )
-def test_a_repair_names_its_place(
-    tmp_path: Path, place: str, key: str
-) -> None:
+def test_a_repair_names_its_place(tmp_path: Path, place: str, key: str) -> None:
     """A single wrong entry is found again, in A or in b, with what it was and what it should be."""
-    found = one(
-        tmp_path,
-        f"methods: [{{{place}}}]\nexpect: {{order: {2 if key == 'A' else 1}}}\n",
-    )
+    found = one(tmp_path, f"methods: [{{{place}}}]\nexpect: {{order: {2 if key == 'A' else 1}}}\n")
     (repair,) = found["blame"]["repairs"]
-    assert (repair["old"], repair["new"]) == {
-        "A": ("1/3", "1/2"),
-        "b": ("2", "1"),
-    }[key]
+    assert (repair["old"], repair["new"]) == {"A": ("1/3", "1/2"), "b": ("2", "1")}[key]
     assert key in repair
     assert repair["entry"] == 1
 
 
 def test_a_file_that_cannot_be_read_has_its_errors() -> None:
     """Faults are in file order with places from 1, null for a file that is not there."""
-    found = report(
-        ROOT / "tests/examples/invalid/many-faults.gark.yaml",
-        Path("nowhere.gark.yaml"),
-    )
+    found = report(ROOT / "tests/examples/invalid/many-faults.gark.yaml", Path("nowhere.gark.yaml"))
     assert complaints(found) == []
     many, missing = (file["errors"] for file in found["files"])
     places = [(x["line"], x["column"]) for x in many]

@@ -24,12 +24,7 @@ def outcome(text: str, file: str = "m.gark.yaml") -> Outcome:
     method = loads(text, file)
     analysis = analyse(method.tableau)
     return Outcome(
-        file,
-        method.name,
-        method.structure,
-        analysis,
-        verify(method.claims, analysis),
-        text=text,
+        file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text
     )
 
 
@@ -48,19 +43,10 @@ def tableau(entry: str, weight: str = "1") -> str:
     [
         (tableau("-1/2"), "-1/2 instead of 1/2, off by -1"),
         (tableau("0"), "0 instead of 1/2, off by -1/2"),
-        (
-            tableau("sqrt(2)/2"),
-            "sqrt(2)/2 instead of 1/2, off by -1/2 + sqrt(2)/2",
-        ),
+        (tableau("sqrt(2)/2"), "sqrt(2)/2 instead of 1/2, off by -1/2 + sqrt(2)/2"),
         (tableau("1/2", "0"), "0 instead of 1, off by -1"),
-        (
-            tableau("1/2", "-sqrt(3)"),
-            "-sqrt(3) instead of 1, off by -1 - sqrt(3)",
-        ),
-        (
-            tableau("1/2", "cbrt(2)"),
-            "cbrt(2) instead of 1, off by -1 + cbrt(2)",
-        ),
+        (tableau("1/2", "-sqrt(3)"), "-sqrt(3) instead of 1, off by -1 - sqrt(3)"),
+        (tableau("1/2", "cbrt(2)"), "cbrt(2) instead of 1, off by -1 + cbrt(2)"),
     ],
 )
 def test_a_residual_is_written_exactly(text: str, line: str) -> None:
@@ -104,22 +90,17 @@ def test_an_absent_block_is_a_dash() -> None:
 
 def test_inconsistent_blocks_are_named() -> None:
     """A block whose rows do not sum to the nodes is named, in the paper's terms."""
-    assert "no: A{1,1}𝟙 differs from c" in report(
-        "tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}"
-    )
+    assert "no: A{1,1}𝟙 differs from c" in report("tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}")
 
 
 def test_claims_are_listed_with_their_place() -> None:
     """A claim that holds and one that fails are told apart by words, the failing one with its
     place.
     """
-    found = report(
-        "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4, symplectic: false}\n"
-    )
+    found = report("methods: [{family: gauss, stages: 2}]\nexpect: {order: 4, symplectic: false}\n")
     assert re.search(r"claim holds +order: 4", found)
     assert re.search(
-        r"CLAIM FAILS +symplectic: expected false, found true +\(m\.gark\.yaml:2:32\)",
-        found,
+        r"CLAIM FAILS +symplectic: expected false, found true +\(m\.gark\.yaml:2:32\)", found
     )
 
 
@@ -129,9 +110,7 @@ def test_the_summary_counts_files_and_claims() -> None:
         "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}",
         tableau("0") + "\nexpect: {order: 2}",
     )
-    assert "2 files, 1 claim: all hold" in render(
-        [outcome(good), outcome(tableau("0"))], Paint()
-    )
+    assert "2 files, 1 claim: all hold" in render([outcome(good), outcome(tableau("0"))], Paint())
     found = render([outcome(good), outcome(bad)], Paint())
     assert "2 files, 2 claims: 1 file failed" in found
     assert found.startswith("ok   m.gark.yaml: order 4")
@@ -145,9 +124,7 @@ def test_colour_adds_nothing_but_colour(verbosity: int) -> None:
         outcome("methods: [{family: gauss, stages: 2}]\nexpect: {order: 5}"),
         outcome(tableau("0")),
     ]
-    plain, painted = (
-        render(outcomes, Paint(color), verbosity) for color in (False, True)
-    )
+    plain, painted = (render(outcomes, Paint(color), verbosity) for color in (False, True))
     assert "\x1b" not in plain
     assert "\x1b[" in painted
     assert ESCAPE.sub("", painted) == plain
@@ -157,11 +134,7 @@ def test_paint_off_is_the_text_itself() -> None:
     """Every style leaves the text alone when colour is off, and marks it when colour is on."""
     for style in ("good", "bad", "strong", "faint", "note"):
         assert Paint()(style, "text") == "text"
-        assert (
-            ESCAPE.sub("", Paint(True)(style, "text"))
-            == "text"
-            != Paint(True)(style, "text")
-        )
+        assert ESCAPE.sub("", Paint(True)(style, "text")) == "text" != Paint(True)(style, "text")
     assert Paint(True)("good", "") == ""
 
 
@@ -169,10 +142,7 @@ def test_columns_line_up() -> None:
     """Cells of a column are equally wide; a shorter block beside a longer one is filled with
     nothing.
     """
-    assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == [
-        "1/2  -1",
-        "0    1/36",
-    ]
+    assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == ["1/2  -1", "0    1/36"]
     assert aligned([]) == []
     assert beside(["a", "bcd"], ["x"]) == ["a     x", "bcd"]
 
@@ -181,32 +151,19 @@ def test_long_requirements_are_shortened() -> None:
     """Where the value is shown in decimals, a required value of many digits is too."""
     found = report("methods: [{family: gauss, stages: 24}]")
     assert re.search(
-        r"about [0-9.]+e-63 instead of about [0-9.]+e-63, off by -?[0-9.]+e-[0-9]+\n",
-        found,
+        r"about [0-9.]+e-63 instead of about [0-9.]+e-63, off by -?[0-9.]+e-[0-9]+\n", found
     )
 
 
 def test_hints_and_constants_of_one_colour() -> None:
     """One failing condition is one condition; the trees of one colour show none and no coupling."""
-    text = (
-        "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
-    )
+    text = "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
     method = loads(text)
     analysis = analyse(method.tableau)
-    lines = blame_lines(
-        find_blame(method.tableau, 2, 2), method.tableau, Paint()
-    )
+    lines = blame_lines(find_blame(method.tableau, 2, 2), method.tableau, Paint())
     assert lines[0] == "  hint: the one condition of order 2 fails"
-    assert any(
-        line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3")
-        for line in lines
-    )
-    found = Outcome(
-        "m",
-        "m",
-        analysis=analysis,
-        constants=error_constants(method.tableau, 2),
-    )
+    assert any(line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3") for line in lines)
+    found = Outcome("m", "m", analysis=analysis, constants=error_constants(method.tableau, 2))
     shown = render([found], Paint())
     assert "largest 0.166667 at [[]]\n" in shown
     assert "coupling" not in shown
@@ -235,18 +192,10 @@ def test_long_places_have_a_line_of_their_own() -> None:
     """
     text = "name: {}\nmethods: [{{family: gauss, stages: 2}}]\nexpect: {{symplectic: false}}\n"
     folder = "a-folder-with-a-long-name/long/"
-    long = outcome(
-        text.format("Gauss with two stages, copied by hand"),
-        f"{folder}m.gark.yaml",
-    )
+    long = outcome(text.format("Gauss with two stages, copied by hand"), f"{folder}m.gark.yaml")
     found = render([long], Paint()).splitlines()
-    assert found[:2] == [
-        f"{folder}m.gark.yaml:",
-        "  Gauss with two stages, copied by hand",
-    ]
-    claim = found.index(
-        "  CLAIM FAILS      symplectic: expected false, found true"
-    )
+    assert found[:2] == [f"{folder}m.gark.yaml:", "  Gauss with two stages, copied by hand"]
+    claim = found.index("  CLAIM FAILS      symplectic: expected false, found true")
     assert found[claim + 1] == " " * 19 + f"({folder}m.gark.yaml:3:22)"
     assert max(map(len, found)) <= 80
     short = outcome(text.format("Gauss"))
@@ -265,9 +214,7 @@ expect: {order: 4}
 """
 
 
-def test_long_decimals_fit_a_screen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Entries are shown with the digits that a file would have, and no line is wider than 80
     columns, of a misprint and of a tolerance that is too tight.
     """
@@ -293,7 +240,5 @@ expect: {order: 4}
 """
     lines = report(text).splitlines()
     place = lines.index("        the coefficients look rounded;")
-    assert (
-        "with the line  tolerance: 1e-13  the order is 4" in lines[place + 1]
-    )
+    assert "with the line  tolerance: 1e-13  the order is 4" in lines[place + 1]
     assert max(map(len, lines)) <= 80

@@ -74,10 +74,7 @@ def test_an_article_is_an_entry(tmp_path: Path) -> None:
         ({"publisher": "P"}, "book"),
         ({"institution": "I"}, "techreport"),
         ({"type": "thesis", "institution": "I"}, "phdthesis"),
-        (
-            {"type": "thesis", "institution": "I", "note": "Master's thesis"},
-            "mastersthesis",
-        ),
+        ({"type": "thesis", "institution": "I", "note": "Master's thesis"}, "mastersthesis"),
         ({"type": "software", "publisher": "P"}, "misc"),
         ({}, "misc"),
     ],
@@ -97,9 +94,7 @@ def test_keys_are_of_ascii_and_tell_publications_apart() -> None:
     second = cited(authors=("S. P. Nørsett",), year="1974", journal="B")
     assert keys([first, second]) == ["Norsett1974a", "Norsett1974b"]
     assert keys([second, first]) == ["Norsett1974b", "Norsett1974a"]
-    assert keys([cited(authors=("The NodePy developers",))]) == [
-        "TheNodePydevelopers"
-    ]
+    assert keys([cited(authors=("The NodePy developers",))]) == ["TheNodePydevelopers"]
     plain = Cited(("dir.d/my method.gark.yaml",), "somewhere", None)
     assert keys([plain]) == ["mymethod"]
 
@@ -107,9 +102,7 @@ def test_keys_are_of_ascii_and_tell_publications_apart() -> None:
 def test_methods_of_one_publication_are_together() -> None:
     """Another table of it makes no other publication; another year does. None is told twice."""
     one = cited(authors=("A. B",), year="1999", where="table 1")
-    two = replace(
-        cited(authors=("A. B",), year="1999", where="table 2"), methods=("n",)
-    )
+    two = replace(cited(authors=("A. B",), year="1999", where="table 2"), methods=("n",))
     three = cited(authors=("A. B",), year="2000", where="table 1")
     found = together([one, two, one, three, Cited(("x",), "", None)])
     assert [x.methods for x in found] == [("m", "n"), ("m",), ("x",)]

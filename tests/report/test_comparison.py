@@ -52,10 +52,7 @@ def on_kepler(name: str, with_work: bool = False) -> Convergence:
 def on_oscillator(name: str) -> Convergence:
     """Its test on the oscillator."""
     return converge(
-        method(name),
-        Oscillator.default(1, fmpq(1)),
-        fmpq(4),
-        [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)],
+        method(name), Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
     )
 
 
@@ -63,19 +60,13 @@ def entries(count: int) -> list[Entry]:
     """As many methods on the oscillator."""
     made = [on_oscillator(NAMES[k % len(NAMES)]) for k in range(count)]
     return [
-        Entry(
-            f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees)
-        )
+        Entry(f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees))
         for k, result in enumerate(made)
     ]
 
 
 FAILED = Entry(
-    "bad.gark.yaml",
-    "bad.gark.yaml",
-    None,
-    (Fault("no such file", "look elsewhere", 3, 4),),
-    2,
+    "bad.gark.yaml", "bad.gark.yaml", None, (Fault("no such file", "look elsewhere", 3, 4),), 2
 )
 
 
@@ -92,10 +83,7 @@ def test_text_fits_the_terminal(count: int) -> None:
         assert f"  {letter}  {entry.name}" in lines
         assert entry.result is not None
         assert scientific(entry.result.rows[-1].error) in found
-    assert (
-        sum(line.endswith(("they agree", "THEY DISAGREE")) for line in lines)
-        == count
-    )
+    assert sum(line.endswith(("they agree", "THEY DISAGREE")) for line in lines) == count
 
 
 def test_methods_keep_their_step_sizes() -> None:
@@ -104,9 +92,7 @@ def test_methods_keep_their_step_sizes() -> None:
     """
     first, second = entries(2)
     assert isinstance(second.result, Convergence)
-    second = replace(
-        second, result=replace(second.result, rows=second.result.rows[1:])
-    )
+    second = replace(second, result=replace(second.result, rows=second.result.rows[1:]))
     lines = render([first, second], "text", PLAIN).splitlines()
     quarter = next(line for line in lines if line.split()[:1] == ["1/4"])
     eighth = next(line for line in lines if line.split()[:1] == ["1/8"])
@@ -134,9 +120,7 @@ def test_failures_are_told_among_the_others() -> None:
     ]
     assert {
         row["file"]
-        for row in csv.DictReader(
-            io.StringIO(render([*entries(1), FAILED], "csv", PLAIN))
-        )
+        for row in csv.DictReader(io.StringIO(render([*entries(1), FAILED], "csv", PLAIN)))
     } == {"0.gark.yaml"}
     assert render([FAILED], "csv", PLAIN).count("\n") == 1
     assert "FAILED" in render([FAILED], "text", PLAIN)
@@ -145,9 +129,7 @@ def test_failures_are_told_among_the_others() -> None:
 def test_same_names_are_told_apart() -> None:
     """Two methods of one name are shown with their files, others without."""
     first, second = (replace(entry, name="twin") for entry in entries(2))
-    text = render(
-        [first, second, replace(entries(3)[2], name="other")], "text", PLAIN
-    )
+    text = render([first, second, replace(entries(3)[2], name="other")], "text", PLAIN)
     assert "A  twin (0.gark.yaml)" in text
     assert "C  other\n" in text
 
@@ -166,11 +148,7 @@ def test_csv_has_every_column() -> None:
     """
     name = 'say "rk4", the classical one'
     entry = Entry("a,b.gark.yaml", name, on_kepler("rk4", True), (), 0)
-    rows = list(
-        csv.DictReader(
-            io.StringIO(render([entry], "csv", PLAIN, with_work=True))
-        )
-    )
+    rows = list(csv.DictReader(io.StringIO(render([entry], "csv", PLAIN, with_work=True))))
     assert list(rows[0]) == [
         *(
             "file",
@@ -188,60 +166,35 @@ def test_csv_has_every_column() -> None:
     assert [row["method"] for row in rows] == [name] * 2
     assert rows[0]["file"] == "a,b.gark.yaml"
     for row, known in zip(rows, on_kepler("rk4", True).rows, strict=True):
-        assert float(row["h"]) == float(
-            arb(fmpq(*map(int, row["h_exact"].split("/"))))
-        )
-        assert float(row["error"]) == pytest.approx(
-            float(known.error), rel=1e-5
-        )
+        assert float(row["h"]) == float(arb(fmpq(*map(int, row["h_exact"].split("/")))))
+        assert float(row["error"]) == pytest.approx(float(known.error), rel=1e-5)
         assert float(row["angular_momentum_error"]) == pytest.approx(
             float(known.invariant_errors[0]), rel=1e-5
         )
         assert known.cost is not None
-        assert (
-            int(row["evaluations"])
-            == known.cost.evaluations
-            == 8 * known.cost.steps
-        )
+        assert int(row["evaluations"]) == known.cost.evaluations == 8 * known.cost.steps
         assert float(row["seconds"]) > 0
-    alone = list(
-        csv.DictReader(
-            io.StringIO(render_one(on_kepler("rk4"), "rk4", "csv", PLAIN))
-        )
-    )
+    alone = list(csv.DictReader(io.StringIO(render_one(on_kepler("rk4"), "rk4", "csv", PLAIN))))
     assert alone == [{k: row[k] for k in alone[0]} for row in rows]
 
 
-def with_costs(
-    name: str, costs: list[Cost | None], errors: list[float]
-) -> Entry:
+def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> Entry:
     """A method with these errors and costs."""
     rows = tuple(
         Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
         for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
-    return Entry(
-        f"{name}.gark.yaml",
-        name,
-        replace(on_oscillator("rk4"), rows=rows),
-        (),
-        0,
-    )
+    return Entry(f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0)
 
 
 def test_costs_of_equal_errors() -> None:
     """10^2.5 times the evaluations for 5 decades make 10^0.5 for one; nothing is said beyond the
     rows.
     """
-    costs: list[Cost | None] = [
-        Cost(1, 100, 0, 0, 1e-3),
-        Cost(2, round(10**4.5), 0, 0, 1e-1),
-    ]
+    costs: list[Cost | None] = [Cost(1, 100, 0, 0, 1e-3), Cost(2, round(10**4.5), 0, 0, 1e-1)]
     steep = with_costs("steep", costs, [10**-1.5, 10**-6.5])
     other = with_costs("other", [Cost(1, 50, 0, 0), None], [1e-1, 1e-3])
-    text = render(
-        [steep, other], "text", PLAIN, with_work=True, against="evaluations"
-    )
+    text = render([steep, other], "text", PLAIN, with_work=True, against="evaluations")
     block = text[text.index("evaluations for an error of") :].splitlines()
     heads, first = block[0].split()[5:], block[1].split()[1:]
     assert dict(zip(heads, first, strict=True)) == {
@@ -258,11 +211,7 @@ def test_costs_of_equal_errors() -> None:
 
 def test_points_of_a_plot() -> None:
     """Only rows whose cost is known can be plotted against it."""
-    entry = with_costs(
-        "one",
-        [Cost(1, 50, 0, 0), None, Cost(4, 200, 0, 0, 0.5)],
-        [1e-1, 1e-2, 0.0],
-    )
+    entry = with_costs("one", [Cost(1, 50, 0, 0), None, Cost(4, 200, 0, 0, 0.5)], [1e-1, 1e-2, 0.0])
     assert entry.result is not None
     assert [float(x) for x, _ in curve(entry.result, "evaluations")] == [50]
     assert list(curve(entry.result, "seconds")) == []
@@ -271,13 +220,9 @@ def test_points_of_a_plot() -> None:
 
 def test_work_of_one_method_in_text() -> None:
     """A table of costs below the errors, and the plot against evaluations."""
-    text = render_one(
-        on_kepler("rk4", True), "rk4", "text", PLAIN, with_work=True
-    )
+    text = render_one(on_kepler("rk4", True), "rk4", "text", PLAIN, with_work=True)
     (line,) = [
-        line
-        for line in text.splitlines()
-        if line.split()[:1] == ["1/64"] and " 128 " in line
+        line for line in text.splitlines() if line.split()[:1] == ["1/64"] and " 128 " in line
     ]
     assert line.split()[2:6] == ["128", "1024", "0", "0"]
     assert text.splitlines()[-1].endswith("evaluations")
@@ -291,30 +236,17 @@ def test_oscillator_has_costs_too() -> None:
     steps = [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
     problem = Oscillator.default(1, fmpq(1))
     result = converge(method("rk4"), problem, steps=steps, is_timed=True)
-    assert [
-        row.cost.evaluations for row in result.rows if row.cost is not None
-    ] == [
-        128,
-        256,
-        512,
-    ]
-    assert all(
-        row.cost is not None and row.cost.seconds is not None
-        for row in result.rows
-    )
+    assert [row.cost.evaluations for row in result.rows if row.cost is not None] == [128, 256, 512]
+    assert all(row.cost is not None and row.cost.seconds is not None for row in result.rows)
     plain = on_oscillator("rk4").rows
-    assert [float(x.error) for x in result.rows] == [
-        float(x.error) for x in plain
-    ]
+    assert [float(x.error) for x in result.rows] == [float(x.error) for x in plain]
 
 
 def test_oscillator_beyond_floats_is_counted_without_time() -> None:
     """Gauss 8 with h = 1/4 has an error of 1e-26: more digits, more iterations, no time."""
     tableau = gark([diagonal_method("gauss", 8)], {})
     steps = [fmpq(2), fmpq(1, 4)]
-    result = converge(
-        tableau, Oscillator.default(1, fmpq(1)), steps=steps, is_timed=True
-    )
+    result = converge(tableau, Oscillator.default(1, fmpq(1)), steps=steps, is_timed=True)
     coarse, fine = (row.cost for row in result.rows)
     assert coarse is not None
     assert fine is not None

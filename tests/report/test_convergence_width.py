@@ -24,27 +24,16 @@ STEPS = [fmpq(2, 12345678), fmpq(1, 12345678)]
 
 
 @cache
-def result_with(
-    invariants: int, name: str = "angular momentum about the centre"
-) -> Convergence:
+def result_with(invariants: int, name: str = "angular momentum about the centre") -> Convergence:
     """A test whose problem has so many invariants, and rows with long numbers."""
-    found = converge(
-        gark([diagonal_method("rk4")], {}),
-        hamiltonian("kepler", 1),
-        steps=[fmpq(1)],
-    )
+    found = converge(gark([diagonal_method("rk4")], {}), hamiltonian("kepler", 1), steps=[fmpq(1)])
     expression = found.problem.invariants[0][1]  # type: ignore[union-attr]
     named = tuple((f"{name} {k}", expression) for k in range(invariants))
-    problem = replace(
-        found.problem, name="Kepler's problem " * 9, invariants=named
-    )  # type: ignore[type-var]
+    problem = replace(found.problem, name="Kepler's problem " * 9, invariants=named)  # type: ignore[type-var]
     cost = Cost(1_000_000, 987_654_321, 123_456_789, 12_345_678, 1.5e-3)
     errors = (arb(1) / 3,) * invariants
     rows = [
-        replace(
-            found.rows[0], h=h, digits=1000, cost=cost, invariant_errors=errors
-        )
-        for h in STEPS
+        replace(found.rows[0], h=h, digits=1000, cost=cost, invariant_errors=errors) for h in STEPS
     ]
     visible = Visible(12, False, "it sees " + "trees of many kinds, " * 12)
     return replace(
@@ -76,9 +65,7 @@ def test_one_method(name: str, invariants: int, with_work: bool) -> None:
 
 def test_long_names_of_invariants() -> None:
     """They are cut, not the table."""
-    assert (
-        width(render(result_with(2, "x" * 200), "rk4", "text", Paint())) <= 80
-    )
+    assert width(render(result_with(2, "x" * 200), "rk4", "text", Paint())) <= 80
 
 
 @pytest.mark.parametrize("with_work", [False, True])
@@ -90,36 +77,22 @@ def test_several_methods(count: int, with_work: bool) -> None:
         file = f"folder/{'deep/' * 30}{k}.gark.yaml"
         name = NAMES[k % len(NAMES)]
         if k == 1:
-            made.append(
-                Entry(file, name, None, (Fault("no such thing " * 20),), 2)
-            )
+            made.append(Entry(file, name, None, (Fault("no such thing " * 20),), 2))
         else:
             made.append(Entry(file, name, result_with(1), (), 0))
-    text = render_several(
-        made, "text", Paint(), with_work, "evaluations" if with_work else "h"
-    )
+    text = render_several(made, "text", Paint(), with_work, "evaluations" if with_work else "h")
     assert width(text) <= 80
 
 
 def test_plots_fit_narrow_terminals() -> None:
     """60 columns, with costs too."""
-    result = converge(
-        gark([diagonal_method("rk4")], {}),
-        hamiltonian("pendulum", 1),
-        is_timed=True,
-    )
+    result = converge(gark([diagonal_method("rk4")], {}), hamiltonian("pendulum", 1), is_timed=True)
     for with_work in (False, True):
         lines = render(result, "rk4", "text", Paint(), with_work).splitlines()
-        start = next(
-            k for k, line in enumerate(lines) if line.strip() == "error"
-        )
+        start = next(k for k, line in enumerate(lines) if line.strip() == "error")
         assert max(map(len, lines[start:])) <= 60
     entries = [Entry("a", "a", result, (), 0), Entry("b", "b", result, (), 0)]
     for against in ("h", "evaluations", "seconds"):
-        lines = render_several(
-            entries, "text", Paint(), True, against
-        ).splitlines()
-        start = next(
-            k for k, line in enumerate(lines) if line.strip() == "error"
-        )
+        lines = render_several(entries, "text", Paint(), True, against).splitlines()
+        start = next(k for k, line in enumerate(lines) if line.strip() == "error")
         assert max(map(len, lines[start:])) <= 60

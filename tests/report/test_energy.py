@@ -28,10 +28,7 @@ from garkcli.report.energy_text import Claim, Report
 from garkcli.stepping.fields import with_joined_terms
 
 ROOT = Path(__file__).parents[2]
-RECTANGULAR, RK4 = (
-    str(ROOT / "methods" / f"{name}.gark.yaml")
-    for name in ("rectangular", "rk4")
-)
+RECTANGULAR, RK4 = (str(ROOT / "methods" / f"{name}.gark.yaml") for name in ("rectangular", "rk4"))
 GAUSS = str(ROOT / "tests" / "examples" / "valid" / "smallest.gark.yaml")
 
 
@@ -42,16 +39,11 @@ def oscillator(path: str, t_end: int = 100) -> LongRun:
     return long_run(tableau, problem, fmpq(t_end), fmpq(1, 2))
 
 
-def nonlinear(
-    path: str, name: str, t_end: int, inverse_step: int = 20
-) -> LongRun:
+def nonlinear(path: str, name: str, t_end: int, inverse_step: int = 20) -> LongRun:
     """Another problem."""
     tableau = with_joined_terms(load(path).tableau)
     return long_run(
-        tableau,
-        hamiltonian(name, terms_of(tableau)),
-        fmpq(t_end),
-        fmpq(1, inverse_step),
+        tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), fmpq(1, inverse_step)
     )
 
 
@@ -68,16 +60,10 @@ def falling() -> LongRun:
 
 
 def text(
-    run: LongRun,
-    symplecticity: Symplecticity | None = None,
-    claims: tuple[Claim, ...] = (),
+    run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple[Claim, ...] = ()
 ) -> str:
     """The report for people."""
-    return render(
-        Report("m", run, symplecticity or Symplecticity(True), claims),
-        "text",
-        Paint(),
-    )
+    return render(Report("m", run, symplecticity or Symplecticity(True), claims), "text", Paint())
 
 
 def test_noise_is_not_drawn() -> None:
@@ -91,22 +77,13 @@ def test_noise_is_not_drawn() -> None:
 @pytest.mark.parametrize(
     ("run", "said"),
     [
-        (
-            lambda: oscillator(RECTANGULAR),
-            "bounded for all time: det R(h) = 1 and |tr R(h)| < 2,",
-        ),
-        (
-            lambda: oscillator(RK4),
-            "DRIFTS: det R(h) − 1 = -0.0002102, the energy decays for",
-        ),
+        (lambda: oscillator(RECTANGULAR), "bounded for all time: det R(h) = 1 and |tr R(h)| < 2,"),
+        (lambda: oscillator(RK4), "DRIFTS: det R(h) − 1 = -0.0002102, the energy decays for"),
         (lambda: oscillator(GAUSS), "conserved by every step, exactly"),
         (kepler, "bounded: no drift beyond its uncertainty"),
         (kepler, "no error above round-off, at most"),
         (falling, "DRIFTS: the slope is"),
-        (
-            lambda: nonlinear(RECTANGULAR, "kepler", 2),
-            "undecided: fewer than 64 steps",
-        ),
+        (lambda: nonlinear(RECTANGULAR, "kepler", 2), "undecided: fewer than 64 steps"),
         (
             lambda: nonlinear(RECTANGULAR, "kepler", 10),
             "undecided: the motion turns back 3 times only;",
@@ -124,11 +101,7 @@ def test_verdicts(run: Callable[[], LongRun], said: str) -> None:
 def test_what_is_said_of_blow_ups() -> None:
     """When it happened; no drift, no oscillation."""
     history = replace(
-        kepler().invariants[0],
-        verdict="unstable",
-        drift=None,
-        uncertainty=None,
-        max_error=1e30,
+        kepler().invariants[0], verdict="unstable", drift=None, uncertainty=None, max_error=1e30
     )
     found = text(replace(kepler(), invariants=(history,), steps=7))
     assert "UNSTABLE: blown up after 7 steps, at t = 0.35" in found
@@ -140,10 +113,7 @@ def test_what_is_said_of_blow_ups() -> None:
     ("symplecticity", "said"),
     [
         (Symplecticity(True), "yes, by its coefficients"),
-        (
-            Symplecticity(False),
-            "not proved by its coefficients; --symplecticity measures\n",
-        ),
+        (Symplecticity(False), "not proved by its coefficients; --symplecticity measures\n"),
         (
             Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55),)),
             "not proved by its coefficients\n",
@@ -154,17 +124,11 @@ def test_what_is_said_of_blow_ups() -> None:
             "has entries up to 2.500e-01, good to 1e-55",
         ),
         (
-            Symplecticity(
-                False,
-                (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55)),
-            ),
+            Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55))),
             "is below 1e-54",
         ),
         (
-            Symplecticity(
-                False,
-                (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55)),
-            ),
+            Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55))),
             "t = 0, 5",
         ),
     ],
@@ -178,10 +142,7 @@ def test_claims() -> None:
     """Each with its verdict, and what was found where it fails."""
     found = text(
         falling(),
-        claims=(
-            Claim("bounded", "energy drifts", False),
-            Claim("max-error: 1", "", True),
-        ),
+        claims=(Claim("bounded", "energy drifts", False), Claim("max-error: 1", "", True)),
     )
     assert "CLAIM FAILS      bounded, found: energy drifts" in found
     assert "claim holds      max-error: 1\n" in found
@@ -195,41 +156,27 @@ def test_quiet_reports_have_no_plot() -> None:
 
 
 @pytest.mark.parametrize(
-    "make",
-    [
-        kepler,
-        falling,
-        lambda: oscillator(RECTANGULAR),
-        lambda: oscillator(GAUSS),
-    ],
+    "make", [kepler, falling, lambda: oscillator(RECTANGULAR), lambda: oscillator(GAUSS)]
 )
 def test_json(make: Callable[[], LongRun]) -> None:
     """The same numbers, under names that stay."""
     run = make()
     claims = (Claim("bounded", "bounded", True),)
     measured = Symplecticity(False, (Defect(fmpq(1, 2), 0.25, 1e-55),))
-    data = json.loads(
-        render(Report("m", run, measured, claims), "json", Paint())
-    )
+    data = json.loads(render(Report("m", run, measured, claims), "json", Paint()))
     assert data["schema"] == "gark/energy/1"
     assert (data["step_exact"], data["steps"], data["drifts"]) == (
         str(run.step),
         run.steps,
         run.drifts,
     )
-    assert (
-        ("hamiltonian" in data)
-        == (data["problem"] == "kepler")
-        == (data["digits"] is not None)
-    )
+    assert ("hamiltonian" in data) == (data["problem"] == "kepler") == (data["digits"] is not None)
     assert (
         ("omega" in data)
         == ("determinant_minus_1" in data["symplectic"])
         == (data["problem"] == "oscillator")
     )
-    assert [x["name"] for x in data["quantities"]] == [
-        x.name for x in run.invariants
-    ]
+    assert [x["name"] for x in data["quantities"]] == [x.name for x in run.invariants]
     for found, history in zip(data["quantities"], run.invariants, strict=True):
         assert (found["max_error"], found["drift"], found["verdict"]) == (
             history.max_error,
@@ -237,56 +184,29 @@ def test_json(make: Callable[[], LongRun]) -> None:
             history.verdict,
         )
         assert found["drift_in_all"] == pytest.approx(history.drift * run.end)
-    assert data["symplectic"]["defects"] == [
-        {"t": 0.5, "size": 0.25, "good_to": 1e-55}
-    ]
-    assert data["claims"] == [
-        {"claim": "bounded", "found": "bounded", "holds": True}
-    ]
+    assert data["symplectic"]["defects"] == [{"t": 0.5, "size": 0.25, "good_to": 1e-55}]
+    assert data["claims"] == [{"claim": "bounded", "found": "bounded", "holds": True}]
 
 
 def test_json_of_blow_ups_has_no_infinities() -> None:
     """What is not known is null."""
-    history = replace(
-        kepler().invariants[0],
-        verdict="unstable",
-        drift=None,
-        uncertainty=None,
-    )
+    history = replace(kepler().invariants[0], verdict="unstable", drift=None, uncertainty=None)
     data = json.loads(
         render(
-            Report(
-                "m",
-                replace(kepler(), invariants=(history,)),
-                Symplecticity(True),
-            ),
+            Report("m", replace(kepler(), invariants=(history,)), Symplecticity(True)),
             "json",
             Paint(),
         )
     )
     found = data["quantities"][0]
-    assert (
-        found["drift"],
-        found["drift_uncertainty"],
-        found["drift_in_all"],
-    ) == (
-        None,
-        None,
-        None,
-    )
+    assert (found["drift"], found["drift_uncertainty"], found["drift_in_all"]) == (None, None, None)
     assert data["blew_up"]
 
 
 def test_csv() -> None:
     """Every time kept, with the errors of all quantities, to the last digit."""
     rows = list(
-        csv.reader(
-            io.StringIO(
-                render(
-                    Report("m", kepler(), Symplecticity(True)), "csv", Paint()
-                )
-            )
-        )
+        csv.reader(io.StringIO(render(Report("m", kepler(), Symplecticity(True)), "csv", Paint())))
     )
     assert rows[0] == ["t", "energy_error", "angular_momentum_error"]
     assert [float(row[0]) for row in rows[1:]] == list(kepler().times)
@@ -301,11 +221,7 @@ def test_csv_of_awkward_names() -> None:
         csv.reader(
             io.StringIO(
                 render(
-                    Report(
-                        "m",
-                        replace(kepler(), invariants=(history,)),
-                        Symplecticity(True),
-                    ),
+                    Report("m", replace(kepler(), invariants=(history,)), Symplecticity(True)),
                     "csv",
                     Paint(),
                 )
@@ -324,9 +240,7 @@ def test_figures_are_the_same_each_time(tmp_path: Path) -> None:
     suffix = ".svg"
     for name in ("one", "two"):
         save(energy_figure(falling()), tmp_path / f"{name}{suffix}")
-    one, two = (
-        (tmp_path / f"{name}{suffix}").read_bytes() for name in ("one", "two")
-    )
+    one, two = ((tmp_path / f"{name}{suffix}").read_bytes() for name in ("one", "two"))
     assert one == two
     assert len(one) > 5000
 
@@ -353,49 +267,29 @@ def test_names_are_no_formulas(tmp_path: Path) -> None:
     run = kepler()
     assert not isinstance(run.problem, Oscillator)
     history = replace(run.invariants[0], name=r"$\frac{ _^ $")
-    named = replace(
-        run, problem=replace(run.problem, name="$x^{ $"), invariants=(history,)
-    )
+    named = replace(run, problem=replace(run.problem, name="$x^{ $"), invariants=(history,))
     save(energy_figure(named), tmp_path / "a.svg")
     assert (tmp_path / "a.svg").stat().st_size > 5000
 
 
 def test_band_joins_its_points() -> None:
     """Every column is drawn on, every value is within its column's band."""
-    lines = terminal_band(
-        [0, 1, 10], [0.0, 5.0, -5.0], "f", columns=39, height=9
-    ).splitlines()[1:10]
+    lines = terminal_band([0, 1, 10], [0.0, 5.0, -5.0], "f", columns=39, height=9).splitlines()[
+        1:10
+    ]
     for column in range(30):
         drawn = [
-            line.ljust(40)[
-                line.index("┤" if "┤" in line else "│") + 1 + column
-            ]
-            for line in lines
+            line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column] for line in lines
         ]
         assert any(x in (INSIDE, SINGLE) for x in drawn)
 
 
 @pytest.mark.parametrize(
-    "values",
-    [
-        [0.0],
-        [1.0],
-        [-1.0],
-        [0.0, 0.0],
-        [1e-300, 2e-300],
-        [-1e300, 1e300],
-        [5.0, 5.0],
-    ],
+    "values", [[0.0], [1.0], [-1.0], [0.0, 0.0], [1e-300, 2e-300], [-1e300, 1e300], [5.0, 5.0]]
 )
 def test_band_of_little(values: list[float]) -> None:
     """One point, no height, and the ends of the floats."""
-    found = terminal_band(
-        [float(k) for k in range(len(values))],
-        values,
-        "f",
-        columns=27,
-        height=5,
-    )
+    found = terminal_band([float(k) for k in range(len(values))], values, "f", columns=27, height=5)
     assert len(found.splitlines()) == 8
     assert "nan" not in found
     assert "inf" not in found

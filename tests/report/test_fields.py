@@ -17,11 +17,7 @@ from garkcli.report.schemas import REPORTS, report_schema
 @pytest.fixture(scope="module")
 def paths() -> set[tuple[str, ...]]:
     """The path of every field of every report."""
-    return {
-        path
-        for report in REPORTS
-        for path, _ in fields_of(report_schema(report), (report,))
-    }
+    return {path for report in REPORTS for path, _ in fields_of(report_schema(report), (report,))}
 
 
 def _described(node: Any) -> Iterator[tuple[str, Any]]:

@@ -28,13 +28,7 @@ from garkcli.cli.main import gark as commands
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
-from garkcli.report import (
-    check_github,
-    check_junit,
-    check_markdown,
-    check_sarif,
-    check_text,
-)
+from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_json import as_data
 from tests.cli.harness import ROOT, gark
@@ -45,9 +39,7 @@ GOOD = "methods/stoermer-verlet.gark.yaml"
 FILES = (GOOD, FAILING, INVALID)
 MIDPOINT = "methods: [{A: [[1/2]], b: [1]}]\n"
 HEUN = "methods: [{family: heun}]\n"
-WRONG = (
-    f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
-)
+WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
 AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
 
 _TEXT = {
@@ -69,9 +61,7 @@ _PLACE = {
         "artifactLocation": {
             "type": "object",
             "required": ["uri"],
-            "properties": {
-                "uri": {"type": "string", "pattern": "^[A-Za-z0-9._~/%-]+$"}
-            },
+            "properties": {"uri": {"type": "string", "pattern": "^[A-Za-z0-9._~/%-]+$"}},
             "additionalProperties": False,
         },
         "region": _REGION,
@@ -86,13 +76,7 @@ _LOCATION = {
 }
 _RESULT = {
     "type": "object",
-    "required": [
-        "message",
-        "ruleId",
-        "ruleIndex",
-        "locations",
-        "partialFingerprints",
-    ],
+    "required": ["message", "ruleId", "ruleIndex", "locations", "partialFingerprints"],
     "properties": {
         "ruleId": {"enum": list(KINDS)},
         "ruleIndex": {"type": "integer", "minimum": 0},
@@ -111,11 +95,7 @@ _RESULT = {
 _RULE = {
     "type": "object",
     "required": ["id"],
-    "properties": {
-        "id": {"type": "string"},
-        "shortDescription": _TEXT,
-        "help": _TEXT,
-    },
+    "properties": {"id": {"type": "string"}, "shortDescription": _TEXT, "help": _TEXT},
     "additionalProperties": False,
 }
 _DRIVER = {
@@ -132,11 +112,7 @@ _RUN = {
     "type": "object",
     "required": ["tool", "results"],
     "properties": {
-        "tool": {
-            "type": "object",
-            "required": ["driver"],
-            "properties": {"driver": _DRIVER},
-        },
+        "tool": {"type": "object", "required": ["driver"], "properties": {"driver": _DRIVER}},
         "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
         "results": {"type": "array", "items": _RESULT},
     },
@@ -165,12 +141,7 @@ def outcome(text: str, file: str = "m.gark.yaml", limit: int = 60) -> Outcome:
         return Outcome(file, file, faults=error.faults, text=text)
     analysis = analyse(method.tableau, limit)
     return Outcome(
-        file,
-        method.name,
-        method.structure,
-        analysis,
-        verify(method.claims, analysis),
-        text=text,
+        file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text
     )
 
 
@@ -178,9 +149,7 @@ def sarif(*outcomes: Outcome) -> dict[str, Any]:
     """The one run of a SARIF report that has the structure of the standard."""
     log = json.loads(check_sarif.render(outcomes))
     Draft7Validator.check_schema(SARIF)
-    assert [
-        error.message for error in Draft7Validator(SARIF).iter_errors(log)
-    ] == []
+    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
     (run,) = log["runs"]
     assert isinstance(run, dict)
     return run
@@ -188,10 +157,7 @@ def sarif(*outcomes: Outcome) -> dict[str, Any]:
 
 def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
     """The fingerprints of all findings about a text."""
-    return [
-        x["partialFingerprints"]["gark/v1"]
-        for x in sarif(outcome(text, file))["results"]
-    ]
+    return [x["partialFingerprints"]["gark/v1"] for x in sarif(outcome(text, file))["results"]]
 
 
 # -- SARIF
@@ -598,13 +564,10 @@ def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
 def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     """A good, a failing and an unreadable file give a log with every required property, one result a finding."""
     log = json.loads(gark("check", *FILES, "--format", "sarif").out)
-    assert [
-        error.message for error in Draft7Validator(SARIF).iter_errors(log)
-    ] == []
+    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
     (run,) = log["runs"]
     files = [
-        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
-        for x in run["results"]
+        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
     ]
     assert files.count(FAILING) == 1
     assert files.count(INVALID) > 3
@@ -616,24 +579,15 @@ def test_sarif_names_its_rules() -> None:
     silent = replace(outcome(MIDPOINT), needs_claims=True)
     run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent)
     rules = run["tool"]["driver"]["rules"]
-    assert (
-        {x["ruleId"] for x in run["results"]}
-        == set(KINDS)
-        == {x["id"] for x in rules}
-    )
-    assert all(
-        rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"]
-    )
+    assert {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
+    assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
 
 
 def test_sarif_has_the_codes_of_faults() -> None:
     """What is wrong with a file that cannot be read has its code, other results have none."""
     run = sarif(outcome(WRONG), outcome("methods: 1\n"))
     codes = {x["ruleId"]: x.get("properties") for x in run["results"]}
-    assert codes == {
-        "claim": None,
-        "unreadable": {"code": "list-expected"},
-    }
+    assert codes == {"claim": None, "unreadable": {"code": "list-expected"}}
 
 
 def test_sarif_points_at_the_claim() -> None:
@@ -645,18 +599,13 @@ def test_sarif_points_at_the_claim() -> None:
     found = sarif(outcome(text))["results"]
     regions = [x["locations"][0]["physicalLocation"]["region"] for x in found]
     lines = text.splitlines()
-    values = [
-        lines[region["startLine"] - 1][region["startColumn"] - 1 :]
-        for region in regions
-    ]
+    values = [lines[region["startLine"] - 1][region["startColumn"] - 1 :] for region in regions]
     assert [value[:4] for value in values] == ["'>= ", "[[9]", "3} #"]
 
 
 def test_a_region_starts_at_one_where_no_place_is_known() -> None:
     """A file that is not there has no line; the region is still one of the standard."""
-    fault = Outcome(
-        "nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),)
-    )
+    fault = Outcome("nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),))
     (result,) = sarif(fault)["results"]
     assert result["locations"][0]["physicalLocation"]["region"] == {
         "startLine": 1,
@@ -666,9 +615,7 @@ def test_a_region_starts_at_one_where_no_place_is_known() -> None:
 
 def test_fingerprints_do_not_move() -> None:
     """Lines inserted above and other blanks leave every fingerprint as it was."""
-    moved = "# a comment\n\nname: later named\n" + WRONG.replace(
-        "{order", "{   order"
-    )
+    moved = "# a comment\n\nname: later named\n" + WRONG.replace("{order", "{   order")
     assert len(fingerprints(WRONG)) == 3
     assert fingerprints(moved) == fingerprints(WRONG)
     bad = "methods: [{family: gaus, stages: 2}]\ncolour: red\n"
@@ -679,12 +626,8 @@ def test_fingerprints_do_not_move() -> None:
 def test_fingerprints_tell_findings_apart() -> None:
     """Two claims, two files, and two faults with the same words have different fingerprints."""
     assert len(set(fingerprints(WRONG))) == 3
-    assert not set(fingerprints(WRONG)) & set(
-        fingerprints(WRONG, "n.gark.yaml")
-    )
-    same = Outcome(
-        "m", "m", faults=(Fault("no", "", 1, 1), Fault("no", "", 2, 1))
-    )
+    assert not set(fingerprints(WRONG)) & set(fingerprints(WRONG, "n.gark.yaml"))
+    same = Outcome("m", "m", faults=(Fault("no", "", 1, 1), Fault("no", "", 2, 1)))
     assert len({x.fingerprint for x in findings(same)}) == 2
 
 
@@ -696,21 +639,13 @@ def test_a_claim_that_still_fails_keeps_its_fingerprint() -> None:
 
 
 @pytest.mark.parametrize(
-    "file",
-    [
-        AWKWARD,
-        "späße/m.gark.yaml",
-        "C:m.gark.yaml",
-        "a b.gark.yaml",
-        "#1?.gark.yaml",
-    ],
+    "file", [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"]
 )
 def test_a_file_name_is_a_uri(file: str) -> None:
     """Any file name becomes a URI reference that gives the name back."""
     run = sarif(outcome(WRONG, file))
     uris = {
-        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
-        for x in run["results"]
+        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
     }
     assert {unquote(uri) for uri in uris} == {file}
 
@@ -721,10 +656,7 @@ def test_a_file_name_is_a_uri(file: str) -> None:
 def junit(*outcomes: Outcome) -> ET.Element:
     """A JUnit report whose counts are those of its cases."""
     root = ET.fromstring(check_junit.render(outcomes))
-    assert (root.tag, {suite.tag for suite in root}) == (
-        "testsuites",
-        {"testsuite"},
-    )
+    assert (root.tag, {suite.tag for suite in root}) == ("testsuites", {"testsuite"})
     for part in (root, *root):
         for count, path in (
             ("tests", ".//testcase"),
@@ -732,10 +664,7 @@ def junit(*outcomes: Outcome) -> ET.Element:
             ("errors", ".//error"),
         ):
             assert part.get(count) == str(len(part.findall(path)))
-    assert all(
-        case.get("name") and case.get("classname")
-        for case in root.iter("testcase")
-    )
+    assert all(case.get("name") and case.get("classname") for case in root.iter("testcase"))
     return root
 
 
@@ -743,16 +672,8 @@ def test_junit_has_a_case_a_claim() -> None:
     """Each claim of a file is a case beside the one that says the file is a method; the failed ones fail."""
     suite, other = junit(outcome(WRONG), outcome(MIDPOINT, "n.gark.yaml"))
     names = [case.get("name") for case in suite]
-    assert names == [
-        "is a method",
-        "order: 3",
-        "symplectic: false",
-        "bound: 2",
-        "B: [5]",
-    ]
-    failed = [
-        case.get("name") for case in suite if case.find("failure") is not None
-    ]
+    assert names == ["is a method", "order: 3", "symplectic: false", "bound: 2", "B: [5]"]
+    failed = [case.get("name") for case in suite if case.find("failure") is not None]
     assert failed == ["order: 3", "symplectic: false", "B: [5]"]
     assert [case.get("name") for case in other] == ["is a method"]
     assert {case.get("line") for case in suite[1:]} == {"2"}
@@ -760,9 +681,7 @@ def test_junit_has_a_case_a_claim() -> None:
 
 def test_junit_of_an_unreadable_file_is_one_error() -> None:
     """A file that is no method is one case in error with every fault in its text."""
-    (suite,) = junit(
-        outcome("methods: [{family: gauss, stages: x}]\ncolour: red\n")
-    )
+    (suite,) = junit(outcome("methods: [{family: gauss, stages: x}]\ncolour: red\n"))
     (case,) = suite
     (error,) = case
     assert (case.get("name"), error.tag) == ("is a method", "error")
@@ -779,45 +698,24 @@ def test_junit_of_real_files() -> None:
 
 
 @pytest.mark.parametrize(
-    "sign",
-    [
-        "\0",
-        "\x07",
-        "\x1b",
-        "\ud800",
-        "\uffff",
-        "\x7f",
-        "<",
-        "&",
-        '"',
-        "\n",
-        "]]>",
-    ],
+    "sign", ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"]
 )
 def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
     """What XML cannot write is replaced, other control characters are written out, all else stays."""
     file = f"a{sign}b.gark.yaml"
-    faulty = Outcome(
-        file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),)
-    )
+    faulty = Outcome(file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),))
     (suite, broken) = junit(outcome(WRONG, file), faulty)
     allowed = sign not in {"\0", "\x07", "\x1b", "\ud800", "\uffff"}
     assert (
         suite.get("name")
         == broken.get("name")
-        == (
-            file.replace("\x7f", "\\x7f")
-            if allowed
-            else "a\N{REPLACEMENT CHARACTER}b.gark.yaml"
-        )
+        == (file.replace("\x7f", "\\x7f") if allowed else "a\N{REPLACEMENT CHARACTER}b.gark.yaml")
     )
 
 
 # -- GitHub -------------------------------------------------------------------------------------------------------
 
-_COMMAND = re.compile(
-    r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)"
-)
+_COMMAND = re.compile(r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)")
 
 
 def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
@@ -827,15 +725,10 @@ def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
         if line.startswith("::error"):
             match = _COMMAND.fullmatch(line)
             assert match, line
-            properties = dict(
-                part.split("=", 1) for part in match[1].split(",")
-            )
+            properties = dict(part.split("=", 1) for part in match[1].split(","))
             found.append(
                 (
-                    {
-                        key: _unescaped(value)
-                        for key, value in properties.items()
-                    },
+                    {key: _unescaped(value) for key, value in properties.items()},
                     _unescaped(match[2]),
                 )
             )
@@ -843,13 +736,7 @@ def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
 
 
 def _unescaped(text: str) -> str:
-    for code, sign in (
-        ("%0D", "\r"),
-        ("%0A", "\n"),
-        ("%3A", ":"),
-        ("%2C", ","),
-        ("%25", "%"),
-    ):
+    for code, sign in (("%0D", "\r"), ("%0A", "\n"), ("%3A", ":"), ("%2C", ","), ("%25", "%")):
         text = text.replace(code, sign)
     return text
 
@@ -870,12 +757,8 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
     """One wrong entry of Gauss 2 fails its orders and symplecticity: each finding names that entry,
     which restores them; a claim that stays wrong is not among them.
     """
-    claims = (
-        "order: 4, conjugate-order: 4, pair-order: 5, symplectic: true, B: [4]"
-    )
-    rows = (
-        "A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/3]]\nb: [1/2, 1/2]\n"
-    )
+    claims = "order: 4, conjugate-order: 4, pair-order: 5, symplectic: true, B: [4]"
+    rows = "A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/3]]\nb: [1/2, 1/2]\n"
     file = tmp_path / "gauss.gark.yaml"
     file.write_text(f"{rows}expect: {{{claims}}}\n")
     found = check_file(str(file))
@@ -883,9 +766,7 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
     assert found.blame.restores == ("conjugate-order", "symplectic")
     repair = "A{1,1}, row 2, entry 2, = 1/4 instead of 1/3"
     consequence = f"it fails with order, and would hold with {repair}"
-    assert [
-        (x.message.partition(":")[0], x.help) for x in findings(found)
-    ] == [
+    assert [(x.message.partition(":")[0], x.help) for x in findings(found)] == [
         ("order", f"the claimed order would hold with {repair}"),
         ("conjugate-order", consequence),
         ("pair-order", ""),
@@ -905,10 +786,7 @@ def test_a_failed_claim_on_a_bound_says_what_it_is_made_of() -> None:
     claims = "bound: 3, sharp-bound: 3, pair-sharp-bound: 3"
     found = annotations(outcome(f"{HEUN}expect: {{{claims}}}\n"))
     numbers = "r = 2, η = 1, ζ = 1, ξ = 2, χ = 2"
-    printed, sharper = (
-        "min{r, 2η+2, ξ+1, η+ζ+1}",
-        "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}",
-    )
+    printed, sharper = ("min{r, 2η+2, ξ+1, η+ζ+1}", "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}")
     assert [text for _, text in found] == [
         f"bound: expected 3, found 2; 2 = {printed} with {numbers}",
         f"sharp-bound: expected 3, found 2; 2 = {sharper} with {numbers}",
@@ -920,22 +798,13 @@ def test_a_failed_claim_on_a_bound_says_what_it_is_made_of() -> None:
 
 
 @pytest.mark.parametrize(
-    "file",
-    [
-        AWKWARD,
-        "%0A.gark.yaml",
-        "::error ::.gark.yaml",
-        "a\r\nb",
-        "x,line=9.gark.yaml",
-    ],
+    "file", [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"]
 )
 def test_annotations_escape_file_names(file: str) -> None:
     """Percent, newline, comma and colon in a file name come back as they were and add no property."""
     found = annotations(outcome(WRONG, file))
     assert [x["file"] for x, _ in found] == [file] * 3
-    assert {frozenset(x) for x, _ in found} == {
-        frozenset({"file", "line", "col", "title"})
-    }
+    assert {frozenset(x) for x, _ in found} == {frozenset({"file", "line", "col", "title"})}
 
 
 def test_annotations_escape_messages() -> None:
@@ -951,18 +820,12 @@ def test_the_format_auto_knows_where_it_runs() -> None:
     outcomes = {}
     for value in ("true", "false", ""):
         with patch.dict("os.environ", {"GITHUB_ACTIONS": value}):
-            outcomes[value] = (
-                CliRunner()
-                .invoke(commands, ["check", str(ROOT / FAILING)])
-                .output
-            )
+            outcomes[value] = CliRunner().invoke(commands, ["check", str(ROOT / FAILING)]).output
     assert outcomes["true"].startswith("::error file=")
     assert outcomes["false"] == outcomes[""]
     assert "::error" not in outcomes[""]
     asked = CliRunner().invoke(
-        commands,
-        ["check", str(ROOT / FAILING), "--format", "text"],
-        env={"GITHUB_ACTIONS": "true"},
+        commands, ["check", str(ROOT / FAILING), "--format", "text"], env={"GITHUB_ACTIONS": "true"}
     )
     assert asked.output == outcomes[""]
 
@@ -974,45 +837,22 @@ def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The cells of the table, where a pipe after a backslash belongs to a cell."""
     lines = check_markdown.render(outcomes).split("\n")
     table = [line for line in lines if line.startswith("|")]
-    return [
-        [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        for line in table
-    ]
+    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table]
 
 
 def test_markdown_has_a_row_a_file() -> None:
     """Orders, bound and claims stand under their heads; what fails is set off."""
-    head, rule, wrong, right, bad = rows(
-        [outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")]
-    )
-    assert head == [
-        "file",
-        "order",
-        "conjugate",
-        "pair",
-        "bound",
-        "symplectic",
-        "claims",
-    ]
+    head, rule, wrong, right, bad = rows([outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")])
+    assert head == ["file", "order", "conjugate", "pair", "bound", "symplectic", "claims"]
     assert set(rule) == {"---"}
-    assert wrong == [
-        "`m.gark.yaml`",
-        "2",
-        "2",
-        "2",
-        "2",
-        "yes",
-        "**3 of 4 fail**",
-    ]
+    assert wrong == ["`m.gark.yaml`", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
     assert right[-1] == "none"
     assert bad == ["`m.gark.yaml`", "unreadable", "", "", "", "", ""]
 
 
 def test_markdown_says_what_is_a_lower_bound() -> None:
     """An order at which the search stopped is not shown as the order."""
-    _, _, row = rows(
-        [outcome("methods: [{family: gauss, stages: 3}]", limit=2)]
-    )
+    _, _, row = rows([outcome("methods: [{family: gauss, stages: 3}]", limit=2)])
     assert row[1:4] == ["at least 2"] * 3
 
 
@@ -1023,16 +863,12 @@ def test_markdown_cells_hold_any_file_name(file: str) -> None:
     _, _, row = rows([outcome(WRONG, file)])
     assert len(row) == 7
     assert row[0].count("`") == 2
-    assert (
-        len([line for line in text.split("\n") if line.startswith("- `")]) == 3
-    )
+    assert len([line for line in text.split("\n") if line.startswith("- `")]) == 3
 
 
 def test_markdown_escapes_messages() -> None:
     """A message cannot start a tag or a column, and is one line."""
-    text = check_markdown.render(
-        [Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))]
-    )
+    text = check_markdown.render([Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))])
     assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
 
 
@@ -1040,31 +876,19 @@ def test_no_format_forgets_a_finding() -> None:
     """Text, annotations, SARIF, JUnit and Markdown of one run have the same findings."""
     outcomes = [
         outcome(WRONG),
-        outcome(
-            "methods: [{family: gaus, stages: 2}]\ncolour: red\n",
-            "n.gark.yaml",
-        ),
+        outcome("methods: [{family: gaus, stages: 2}]\ncolour: red\n", "n.gark.yaml"),
     ]
     messages = [x.message for each in outcomes for x in findings(each)]
     assert len(messages) >= 4
-    cases = [
-        x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}
-    ]
+    cases = [x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}]
     in_junit = " ".join(f"{case.get('message')} {case.text}" for case in cases)
     # JUnit has the parts of a message in places of their own
-    parts = [
-        x
-        for message in messages
-        for x in message.partition(": ")[2].split("; ")
-    ]
+    parts = [x for message in messages for x in message.partition(": ")[2].split("; ")]
     assert all(part in in_junit for part in parts)
     results = [x["message"]["text"] for x in sarif(*outcomes)["results"]]
     shown = [text for _, text in annotations(*outcomes)]
     for said in (results, shown):
-        assert all(
-            x.startswith(message)
-            for x, message in zip(said, messages, strict=True)
-        )
+        assert all(x.startswith(message) for x, message in zip(said, messages, strict=True))
     markdown = check_markdown.render(outcomes)
     assert all(message in markdown for message in messages)
     text = check_text.render(outcomes, Paint(False))
@@ -1083,18 +907,14 @@ def blamed(tmp_path: Path) -> Outcome:
     return check_file(str(file))
 
 
-def test_every_format_for_machines_has_witness_and_hint(
-    tmp_path: Path,
-) -> None:
+def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
     """The tree whose condition fails, by how much, and the entry that would mend it."""
     found = blamed(tmp_path)
     texts = {
-        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][
-            0
-        ]["message"]["text"],
-        "junit": ET.fromstring(check_junit.render([found]))
-        .find(".//failure")
-        .text,  # type: ignore[union-attr]
+        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][0]["message"][
+            "text"
+        ],
+        "junit": ET.fromstring(check_junit.render([found])).find(".//failure").text,  # type: ignore[union-attr]
         "github": check_github.render([found]).splitlines()[0],
         "markdown": check_markdown.render([found]),
         "json": json.dumps(as_data([found])),
@@ -1113,30 +933,16 @@ def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:
         (tmp_path / f"{name}.gark.yaml").write_text(MIDPOINT)
     (tmp_path / "c.gark.yaml").write_text(f"{MIDPOINT}expect: {{order: 2}}\n")
     run = gark("check", ".", cwd=tmp_path)
-    assert (
-        run.code,
-        run.out.rstrip().endswith("all hold; 2 files make no claim"),
-    ) == (
-        0,
-        True,
-    )
+    assert (run.code, run.out.rstrip().endswith("all hold; 2 files make no claim")) == (0, True)
     run = gark("check", ".", "--require-claims", cwd=tmp_path)
     assert (run.code, run.out.count("NO CLAIM")) == (1, 2)
-    data = json.loads(
-        gark(
-            "check", ".", "--require-claims", "--format", "json", cwd=tmp_path
-        ).out
-    )
+    data = json.loads(gark("check", ".", "--require-claims", "--format", "json", cwd=tmp_path).out)
     assert data["summary"] == {"files": 3, "failed": 2, "without_claims": 2}
     assert [file["ok"] for file in data["files"]] == [False, False, True]
-    junit_report = gark(
-        "check", ".", "--require-claims", "--format", "junit", cwd=tmp_path
-    ).out
+    junit_report = gark("check", ".", "--require-claims", "--format", "junit", cwd=tmp_path).out
     assert ET.fromstring(junit_report).get("failures") == "2"
     for name in ("github", "sarif", "markdown"):
-        shown = gark(
-            "check", ".", "--require-claims", "--format", name, cwd=tmp_path
-        ).out
+        shown = gark("check", ".", "--require-claims", "--format", name, cwd=tmp_path).out
         assert shown.count("the file makes no claim") >= 2, name
 
 

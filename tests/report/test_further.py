@@ -58,9 +58,7 @@ def test_no_line_is_wide_and_json_keeps_its_schema(path: Path) -> None:
     outcome = check_file(str(path))
     text = render([outcome], Paint())
     assert max(map(len, text.splitlines())) <= 80 + len(str(path))
-    assert all(
-        len(line) <= 80 for line in text.splitlines() if path.name not in line
-    )
+    assert all(len(line) <= 80 for line in text.splitlines() if path.name not in line)
     data = json.loads(check_json.render([outcome]))
     jsonschema.validate(data, check_json.check_report_schema())
     (file,) = data["files"]
@@ -77,9 +75,7 @@ def test_markdown_has_a_column_where_there_is_one() -> None:
     paired = check_file(str(FILE))
     head = check_markdown.render([plain]).splitlines()[0]
     assert "embedded" not in head
-    head, rule, first, second = check_markdown.render(
-        [plain, paired]
-    ).splitlines()[:4]
+    head, rule, first, second = check_markdown.render([plain, paired]).splitlines()[:4]
     assert head.startswith("| file | order | embedded | conjugate |")
     assert rule.count("|") == head.count("|") == first.count("|")
     assert second.split(" | ")[1:3] == ["3", "2"]
@@ -93,9 +89,7 @@ def test_failing_claims_have_witness_and_repair(tmp_path: Path) -> None:
     value that it had.
     """
     wrong = PAIR.replace("7/24", "5/24")
-    outcome = checked(
-        tmp_path, f"{wrong}expect: {{order: 3, embedded-order: 2}}"
-    )
+    outcome = checked(tmp_path, f"{wrong}expect: {{order: 3, embedded-order: 2}}")
     (failed,) = outcome.failed_claims
     assert (failed.claim, failed.found) == ("embedded-order", "0")
     text = render([outcome], Paint())
@@ -127,10 +121,7 @@ def test_a_wrong_node_shows_in_both_orders_with_time(tmp_path: Path) -> None:
     claims = "nonautonomous-order: 3, embedded-nonautonomous-order: 2"
     outcome = checked(tmp_path, f"{PAIR}{nodes}expect: {{order: 3, {claims}}}")
     found = {x.claim: x.found for x in outcome.failed_claims}
-    assert found == {
-        "nonautonomous-order": "1",
-        "embedded-nonautonomous-order": "1",
-    }
+    assert found == {"nonautonomous-order": "1", "embedded-nonautonomous-order": "1"}
     text = render([outcome], Paint())
     assert "  non-autonomous   1\n" in text
     assert "  embedded, time   1" in text
@@ -153,9 +144,7 @@ embedded: [1 - w, w]
 """
 
 
-def test_a_family_has_the_embedded_order_of_every_value(
-    tmp_path: Path,
-) -> None:
+def test_a_family_has_the_embedded_order_of_every_value(tmp_path: Path) -> None:
     """With a free parameter the embedded order is that of every value, with those that have a
     higher one; the methods at these values agree.
     """

@@ -30,9 +30,7 @@ def latex(*arguments: str) -> str:
     """A LaTeX report, its comments left out."""
     run = gark(*arguments, "--format", "latex")
     assert run.code == 0, run.err
-    return "\n".join(
-        line for line in run.out.splitlines() if not line.startswith("%")
-    )
+    return "\n".join(line for line in run.out.splitlines() if not line.startswith("%"))
 
 
 def unbalanced(text: str) -> Iterator[str]:
@@ -52,9 +50,7 @@ def unbalanced(text: str) -> Iterator[str]:
     yield from stack
     if len(re.findall(r"(?<!\\)\$", text)) % 2:
         yield "$"
-    if text.count(r"\[") - len(re.findall(r"\\\\\[", text)) != text.count(
-        r"\]"
-    ):
+    if text.count(r"\[") - len(re.findall(r"\\\\\[", text)) != text.count(r"\]"):
         yield "["
 
 
@@ -72,14 +68,7 @@ def test_latex_is_balanced(arguments: tuple[str, ...]) -> None:
 
 def test_the_check_for_balance_can_fail() -> None:
     """The helper of these tests notices what is not closed."""
-    for text in (
-        "{",
-        "}",
-        r"\begin{array}",
-        r"\begin{a}\end{b}",
-        "$x",
-        r"\[x",
-    ):
+    for text in ("{", "}", r"\begin{array}", r"\begin{a}\end{b}", "$x", r"\[x"):
         assert list(unbalanced(text)), text
 
 
@@ -110,16 +99,7 @@ def test_conditions_carry_the_signs_of_the_paper() -> None:
 
 
 numbers = st.sampled_from(
-    [
-        "0",
-        "-1",
-        "1/3",
-        "-7/12",
-        "sqrt(3)/6",
-        "-sqrt(3)",
-        "1/2 - sqrt(3)/6",
-        "-1/2 + 5*sqrt(3)/4",
-    ]
+    ["0", "-1", "1/3", "-7/12", "sqrt(3)/6", "-sqrt(3)", "1/2 - sqrt(3)/6", "-1/2 + 5*sqrt(3)/4"]
 )
 
 

@@ -28,17 +28,13 @@ TWO = loads(
     "methods: [{family: gauss, stages: 1},"
     " {family: lobatto-iiia, stages: 2}]\ntransfer: collocation"
 )
-EMBEDDED = from_arrays(
-    [[0, 0], [1, 0]], ["1/2", "1/2"], embedded=[1, 0], name="Heun"
-)
+EMBEDDED = from_arrays([[0, 0], [1, 0]], ["1/2", "1/2"], embedded=[1, 0], name="Heun")
 
 
 def cells(html: str) -> list[list[str]]:
     """The texts of the cells of a table, row by row; it has to be well-formed."""
     root = ET.fromstring(f"<div>{html}</div>")
-    return [
-        ["".join(cell.itertext()) for cell in row] for row in root.iter("tr")
-    ]
+    return [["".join(cell.itertext()) for cell in row] for row in root.iter("tr")]
 
 
 def test_a_method_is_its_tableau() -> None:
@@ -104,11 +100,7 @@ def test_text_of_a_file_is_escaped(tmp_path: Path) -> None:
     path.write_text(text, encoding="utf-8")
     bad = tmp_path / "b.gark.yaml"
     bad.write_text(f"A: [[{name}]]\nb: [1]\n", encoding="utf-8")
-    for shown in (
-        load(str(path)),
-        check_file(str(path)),
-        check_file(str(bad)),
-    ):
+    for shown in (load(str(path)), check_file(str(path)), check_file(str(bad))):
         html = shown._repr_html_()
         cells(html)
         assert "<script" not in html
@@ -145,10 +137,7 @@ def test_an_analysis_is_a_table(method: GarkMethod) -> None:
 def test_claims_and_faults_have_rows(tmp_path: Path) -> None:
     """Which claims hold, which fail and what is found; where a file is at fault."""
     path = tmp_path / "a.gark.yaml"
-    path.write_text(
-        "A: [[1/2]]\nb: [1]\nexpect: {order: 3, symplectic: true}\n",
-        encoding="utf-8",
-    )
+    path.write_text("A: [[1/2]]\nb: [1]\nexpect: {order: 3, symplectic: true}\n", encoding="utf-8")
     found = check_file(str(path))
     rows = {row[0]: row[1] for row in cells(found._repr_html_())}
     assert rows["claim order: 3"].startswith("fails: found 2")
@@ -163,16 +152,13 @@ def test_claims_and_faults_have_rows(tmp_path: Path) -> None:
     assert repr(found).endswith(": 1 fault>")
 
 
-def test_a_file_with_free_parameters_says_what_holds_for_all(
-    tmp_path: Path,
-) -> None:
+def test_a_file_with_free_parameters_says_what_holds_for_all(tmp_path: Path) -> None:
     """There is no analysis of one method, but an order for every value; a claim is one of
     every value too.
     """
     path = tmp_path / "a.gark.yaml"
     path.write_text(
-        "parameters: {t: free}\nA: [[0, 0], [t, 0]]\n"
-        "b: [1/2, 1/2]\nexpect: {order: 1}\n",
+        "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1/2, 1/2]\nexpect: {order: 1}\n",
         encoding="utf-8",
     )
     found = check_file(str(path))

@@ -13,9 +13,7 @@ from garkcli import loads_problem
 from tests.cli.harness import gark
 from tests.report.test_notebook import cells
 
-FAMILY = (
-    "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
-)
+FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
 VERLET = "methods/stoermer-verlet.gark.yaml"
 HOSTILE = """\
 name: "<script>alert(1)</script>"
@@ -85,10 +83,7 @@ def test_names_of_files_are_text() -> None:
     [
         (garkcli.find_stability("rk4"), ("stability", "rk4")),
         (garkcli.compare("rk4", "heun"), ("diff", "rk4", "heun")),
-        (
-            garkcli.backward_analysis(VERLET, 4),
-            ("modified", VERLET, "--order", "4"),
-        ),
+        (garkcli.backward_analysis(VERLET, 4), ("modified", VERLET, "--order", "4")),
         (
             garkcli.modified_run(VERLET, "pendulum", 3),
             ("energy", VERLET, "--modified", "3", "--problem", "pendulum"),
@@ -96,9 +91,7 @@ def test_names_of_files_are_text() -> None:
     ],
     ids=["stability", "comparison", "modified", "energy"],
 )
-def test_reports_are_those_of_the_commands(
-    value: Any, command: tuple[str, ...]
-) -> None:
+def test_reports_are_those_of_the_commands(value: Any, command: tuple[str, ...]) -> None:
     """Line by line, but for the name at the top."""
     printed = [line.strip() for line in gark(*command).out.splitlines()]
     shown = lines(value._repr_html_())
@@ -128,9 +121,7 @@ def test_a_witness_is_its_tree_and_its_condition() -> None:
     assert order == f"<p>order 4: a condition of order 5 fails</p>{html}"
     limited = garkcli.find_order("rk4", limit=3)._repr_html_()
     assert "order at least 3: every condition up to order 3 holds" in limited
-    holding, failing = (
-        next(garkcli.conditions(x, "[[[]]]")) for x in ("rk4", "heun")
-    )
+    holding, failing = (next(garkcli.conditions(x, "[[[]]]")) for x in ("rk4", "heun"))
     assert "[[[]_1]_1]_1: 1/6 = 1/6" in holding._repr_html_()
     assert "0 instead of 1/6" in failing._repr_html_()
 

@@ -22,10 +22,7 @@ from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.page.asciiplot import SEVERAL, terminal_curves, terminal_plot
 from garkcli.plots import saving
-from garkcli.plots.convergence_plot import (
-    comparison_figure,
-    convergence_figure,
-)
+from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
 from garkcli.plots.saving import check_suffix, save
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
@@ -42,9 +39,7 @@ def result_of(
     name: str, s: int | None = None, steps: tuple[fmpq, ...] | None = None
 ) -> Convergence:
     """The convergence test of one method, once."""
-    return converge(
-        gark([diagonal_method(name, s)], {}), OSCILLATOR, steps=steps
-    )
+    return converge(gark([diagonal_method(name, s)], {}), OSCILLATOR, steps=steps)
 
 
 def beyond_floats() -> Convergence:
@@ -57,9 +52,7 @@ def beyond_floats() -> Convergence:
 def test_terminal_plot_is_a_straight_line() -> None:
     """Points of error = h² rise from the lower left to the upper right corner, in equal steps."""
     h = [10.0**-k for k in range(4)]
-    lines = terminal_plot(
-        h, [x**2 for x in h], width=31, height=7
-    ).splitlines()
+    lines = terminal_plot(h, [x**2 for x in h], width=31, height=7).splitlines()
     at = [(i, line.index("•")) for i, line in enumerate(lines) if "•" in line]
     assert [i for i, _ in at] == [1, 3, 5, 7]
     assert [at[k][1] - at[k + 1][1] for k in range(3)] == [10, 10, 10]
@@ -70,9 +63,7 @@ def test_terminal_plot_fits_the_terminal(name: str) -> None:
     """Every point is there, the reference line too, within 80 columns."""
     result = result_of(name)
     text = terminal_plot(
-        [r.h for r in result.rows],
-        [r.error for r in result.rows],
-        order=result.visible_order,
+        [r.h for r in result.rows], [r.error for r in result.rows], order=result.visible_order
     )
     lines = text.splitlines()
     assert len(lines) == 16 + 3
@@ -97,10 +88,7 @@ def test_terminal_plot_of_little() -> None:
 
 def test_terminal_curves_have_marks_of_their_own() -> None:
     """Points of two methods in one frame; where they fall together there is a sign for that."""
-    one, two = (
-        [(k, 10.0**-k) for k in (1, 2, 3)],
-        [(k, 10.0 ** (k - 4)) for k in (1, 2, 3)],
-    )
+    one, two = ([(k, 10.0**-k) for k in (1, 2, 3)], [(k, 10.0 ** (k - 4)) for k in (1, 2, 3)])
     text = terminal_curves({"A": one, "B": two}, "steps")
     assert (text.count("A"), text.count("B"), text.count(SEVERAL)) == (2, 2, 1)
     assert text.endswith("  steps")
@@ -108,8 +96,7 @@ def test_terminal_curves_have_marks_of_their_own() -> None:
 
 
 @pytest.mark.parametrize(
-    ("top", "label"),
-    [(999.0, "1000"), (1234.0, "1200"), (56789.0, "57000"), (1.26e6, "1.3e6")],
+    ("top", "label"), [(999.0, "1000"), (1234.0, "1200"), (56789.0, "57000"), (1.26e6, "1.3e6")]
 )
 def test_terminal_axis_of_counts(top: float, label: str) -> None:
     """Counts are whole numbers with two digits that are right, large ones with an exponent, within
@@ -121,8 +108,7 @@ def test_terminal_axis_of_counts(top: float, label: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("suffix", "start"),
-    [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")],
+    ("suffix", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")]
 )
 def test_figures_are_saved(tmp_path: Path, suffix: str, start: bytes) -> None:
     """Each format is what its name says, nothing else is left behind, and an old file is
@@ -143,12 +129,8 @@ def test_convergence_figure_shows_the_result() -> None:
     result = result_of("rk4")
     (axes,) = convergence_figure(result, "a method").axes
     error, energy, reference = axes.get_lines()
-    assert list(error.get_ydata()) == pytest.approx(
-        [float(r.error) for r in result.rows]
-    )
-    assert list(energy.get_ydata()) == pytest.approx(
-        [float(r.energy_error) for r in result.rows]
-    )
+    assert list(error.get_ydata()) == pytest.approx([float(r.error) for r in result.rows])
+    assert list(energy.get_ydata()) == pytest.approx([float(r.energy_error) for r in result.rows])
     x, y = reference.get_xdata(), reference.get_ydata()
     assert y[0] / y[1] == pytest.approx((x[0] / x[1]) ** 4)
     assert reference.get_label() == "reference, slope 4"
@@ -168,16 +150,12 @@ def test_comparison_figure_shows_every_method() -> None:
     (axes,) = figure.axes
     curves, slopes = axes.get_lines()[:5], axes.get_lines()[5:]
     for drawn, (_, result) in zip(curves, named, strict=True):
-        assert list(drawn.get_ydata()) == pytest.approx(
-            [float(row.error) for row in result.rows]
-        )
+        assert list(drawn.get_ydata()) == pytest.approx([float(row.error) for row in result.rows])
     assert len({(x.get_marker(), x.get_linestyle()) for x in curves}) == 5
     found = []
     for line in slopes:
         x, y = line.get_xdata(), line.get_ydata()
-        found.append(
-            round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9)
-        )
+        found.append(round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9))
         assert line.get_label() == f"slope {found[-1]:.0f}"
     assert sorted(found) == [1, 2, 3, 4]
     assert [text.get_text() for text in figure.legends[0].get_texts()] == [
@@ -190,9 +168,7 @@ def test_comparison_figure_in_grey() -> None:
     white.
     """
     curves = (
-        comparison_figure([(str(k), result_of("rk4")) for k in range(20)])
-        .axes[0]
-        .get_lines()[:20]
+        comparison_figure([(str(k), result_of("rk4")) for k in range(20)]).axes[0].get_lines()[:20]
     )
     assert len({(x.get_marker(), str(x._dash_pattern)) for x in curves}) == 20
     for one, other in pairwise(curves):
@@ -202,9 +178,7 @@ def test_comparison_figure_in_grey() -> None:
     assert max(0.299 * r + 0.587 * g + 0.114 * b for r, g, b in colours) < 0.6
 
 
-@pytest.mark.parametrize(
-    ("against", "sign"), [("evaluations", -1), ("seconds", -1), ("h", 1)]
-)
+@pytest.mark.parametrize(("against", "sign"), [("evaluations", -1), ("seconds", -1), ("h", 1)])
 def test_work_figure(against: str, sign: int) -> None:
     """Errors against what they cost; the line beside them falls as fast as the order says."""
     tableau = gark([diagonal_method("rk4")], {})
@@ -242,28 +216,18 @@ def test_figures_without_errors(tmp_path: Path) -> None:
         observed_order=None,
     )
     for k, figure in enumerate(
-        (
-            convergence_figure(exact, "a method"),
-            comparison_figure([("rk4", exact)]),
-        )
+        (convergence_figure(exact, "a method"), comparison_figure([("rk4", exact)]))
     ):
         assert figure.axes[0].get_lines() == []
         save(figure, tmp_path / f"{k}.png")
     mixed = comparison_figure([("exact", exact), ("rk4", result)])
-    assert [text.get_text() for text in mixed.legends[0].get_texts()] == [
-        "rk4"
-    ]
+    assert [text.get_text() for text in mixed.legends[0].get_texts()] == ["rk4"]
 
 
 def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
     """Errors below 1e-308 beside large ones: logarithms are drawn instead."""
     path = tmp_path / "figure.svg"
-    save(
-        comparison_figure(
-            [("gauss 16", beyond_floats()), ("rk4", result_of("rk4"))]
-        ),
-        path,
-    )
+    save(comparison_figure([("gauss 16", beyond_floats()), ("rk4", result_of("rk4"))]), path)
     assert path.stat().st_size > 5000
 
 
@@ -288,9 +252,7 @@ def test_other_suffixes_are_refused(tmp_path: Path, name: str) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_failed_save_leaves_the_old_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A fault while drawing removes the half-written file and keeps the old one."""
 
     def fail(*_: object, **__: object) -> None:
@@ -311,10 +273,7 @@ def _clearance(line: Line2D, curves: Sequence[Line2D]) -> float:
     for x in np.linspace(a, b, 50):
         y = c + (d - c) * (x - a) / (b - a)
         for curve in curves:
-            xs, ys = (
-                np.log10(curve.get_xdata())[::-1],
-                np.log10(curve.get_ydata())[::-1],
-            )
+            xs, ys = (np.log10(curve.get_xdata())[::-1], np.log10(curve.get_ydata())[::-1])
             if xs[0] <= x <= xs[-1]:
                 least = min(least, abs(y - np.interp(x, xs, ys)))
     return least
@@ -327,10 +286,7 @@ def test_lines_of_slopes_are_on_no_curve() -> None:
     result = result_of("rk4")
     for factor in (1e-3, 0.03, 0.3, 0.5, 2, 30):
         shifted = replace(
-            result,
-            rows=tuple(
-                replace(row, error=row.error * factor) for row in result.rows
-            ),
+            result, rows=tuple(replace(row, error=row.error * factor) for row in result.rows)
         )
         (axes,) = comparison_figure([("one", result), ("other", shifted)]).axes
         *curves, line = axes.get_lines()
@@ -341,12 +297,8 @@ def test_lines_of_slopes_are_on_no_curve() -> None:
 def test_the_reference_is_not_on_the_energy_error() -> None:
     """Energy errors may be a little above the errors, where the reference usually is."""
     steps = [fmpq(1, 2**k) for k in range(1, 9)]
-    result = converge(
-        gark([diagonal_method("rk4")], {}), OSCILLATOR, steps=steps
-    )
-    rows = tuple(
-        replace(row, energy_error=row.error * 3) for row in result.rows
-    )
+    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, steps=steps)
+    rows = tuple(replace(row, energy_error=row.error * 3) for row in result.rows)
     (axes,) = convergence_figure(replace(result, rows=rows), "rk4").axes
     *curves, line = axes.get_lines()
     assert _clearance(line, curves) > 0.3
@@ -356,25 +308,18 @@ def test_the_reference_is_not_on_the_energy_error() -> None:
     ("steps", "shown"),
     [
         ((fmpq(1, 3), fmpq(1, 5), fmpq(1, 7)), ["0.2", "0.3"]),
-        (
-            (fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)),
-            ["0.05", "0.1", "0.2", "0.5"],
-        ),
+        ((fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)), ["0.05", "0.1", "0.2", "0.5"]),
         (
             (fmpq(1, 2), fmpq(1, 100), fmpq(1, 1000)),
             ["$\\mathdefault{10^{-3}}$", "$\\mathdefault{10^{-2}}$"],
         ),
     ],
 )
-def test_numbers_below_do_not_collide(
-    steps: tuple[fmpq, ...], shown: list[str]
-) -> None:
+def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str]) -> None:
     """Over few decades some multiples of powers of ten are labelled too, and never one on
     another.
     """
-    result = converge(
-        gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps
-    )
+    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps)
     figure = comparison_figure([("rk4", result)])
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
@@ -382,16 +327,11 @@ def test_numbers_below_do_not_collide(
     low, high = axes.get_xlim()
     labels = [
         text
-        for tick in (
-            *axes.xaxis.get_major_ticks(),
-            *axes.xaxis.get_minor_ticks(),
-        )
+        for tick in (*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks())
         if (text := tick.label1).get_text() and low <= tick.get_loc() <= high
     ]
     assert set(shown) <= {text.get_text() for text in labels}
-    boxes = sorted(
-        (text.get_window_extent() for text in labels), key=lambda box: box.x0
-    )
+    boxes = sorted((text.get_window_extent() for text in labels), key=lambda box: box.x0)
     assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
 
 
@@ -404,9 +344,7 @@ def test_a_figure_of_one_method_names_it() -> None:
     assert max(map(len, names)) <= 60
 
 
-def test_who_has_no_matplotlib_is_told(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_who_has_no_matplotlib_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Before the work, with what to install."""
     check_suffix(tmp_path / "a.png")
     monkeypatch.setattr(saving, "find_spec", lambda _: None)

@@ -41,13 +41,7 @@ def test_every_property_of_every_method(path: Path) -> None:
     listed = {x["property"]: x for x in found["every_property"]}
     assert list(listed) == list(KEYS)
     short = found["properties"]
-    for key in (
-        "explicit",
-        "fsal",
-        "symmetric",
-        "reducible",
-        "implicit-stages",
-    ):
+    for key in ("explicit", "fsal", "symmetric", "reducible", "implicit-stages"):
         assert short[key.replace("-", "_")] == listed[key]["value"]
     verdict = garkcli.find_property(garkcli.load(str(path)), "l-stable")
     assert listed["l-stable"]["value"] == verdict.value
@@ -67,10 +61,7 @@ def test_systems_and_renumberings_in_json() -> None:
     spelled out, the numbers of stages.
     """
     found = report("methods/collocation.gark.yaml")["properties"]
-    first, second = (
-        {"colours": ["1"], "stages": [1, 2]},
-        {"colours": ["2"], "stages": [2, 3]},
-    )
+    first, second = ({"colours": ["1"], "stages": [1, 2]}, {"colours": ["2"], "stages": [2, 3]})
     assert found["solved_together"] == [[first, second]]
     assert [x["stages"] for x in found["renumbering"]] == ["1 - x", "1 - x"]
     found = report("methods/rectangular.gark.yaml")["properties"]
@@ -95,10 +86,7 @@ def test_a_stage_order_at_the_limit_is_a_lower_bound() -> None:
     """With --max-order 1 no more is known; a claim on more raises the limit."""
     text = "methods: {family: gauss, stages: 3}\n"
     found = report("-", "--max-order", "1", stdin=text)["properties"]
-    assert (found["stage_order"], found["stage_order_is_lower_bound"]) == (
-        1,
-        True,
-    )
+    assert (found["stage_order"], found["stage_order_is_lower_bound"]) == (1, True)
     claimed = f"{text}expect: {{stage-order: 3}}\n"
     run = gark("check", "-", "--max-order", "1", stdin=claimed)
     assert run.code == 0
@@ -116,9 +104,7 @@ def test_every_claim_is_explained(key: str) -> None:
     assert gark("check", "--explain", key, encoding="ascii").out.isascii()
     data = json.loads(gark("check", "--explain", key, "--format", "json").out)
     assert [x["name"] for x in data["meanings"]] == [key]
-    assert (
-        list(Draft7Validator(explain_report_schema()).iter_errors(data)) == []
-    )
+    assert list(Draft7Validator(explain_report_schema()).iter_errors(data)) == []
 
 
 def test_an_unknown_key_has_a_suggestion() -> None:

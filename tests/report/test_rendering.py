@@ -22,16 +22,8 @@ Made = tuple[Callable[[], Any], tuple[str, ...], str]
 MADE: dict[str, Made] = {
     "GarkMethod": (lambda: garkcli.load("rk4"), ("tableau", "rk4"), ""),
     "Outcome": (lambda: garkcli.check_file("rk4"), ("check", "rk4"), ""),
-    "Analysis": (
-        lambda: garkcli.analyse(NO_CLAIMS),
-        ("check", NO_CLAIMS),
-        NO_CLAIMS,
-    ),
-    "Stability": (
-        lambda: garkcli.find_stability("rk4"),
-        ("stability", "rk4"),
-        NAMES["rk4"],
-    ),
+    "Analysis": (lambda: garkcli.analyse(NO_CLAIMS), ("check", NO_CLAIMS), NO_CLAIMS),
+    "Stability": (lambda: garkcli.find_stability("rk4"), ("stability", "rk4"), NAMES["rk4"]),
     "Convergence": (
         lambda: garkcli.converge("rk4", "pendulum", steps=[0.5, 0.25]),
         ("converge", "rk4", *STEPS),
@@ -42,11 +34,7 @@ MADE: dict[str, Made] = {
         ("energy", "rk4", "--problem", "pendulum", "--t-end", "20"),
         NAMES["rk4"],
     ),
-    "Comparison": (
-        lambda: garkcli.compare("rk4", "heun"),
-        ("diff", "rk4", "heun"),
-        "",
-    ),
+    "Comparison": (lambda: garkcli.compare("rk4", "heun"), ("diff", "rk4", "heun"), ""),
     "BackwardAnalysis": (
         lambda: garkcli.backward_analysis("stoermer-verlet", 3),
         ("modified", "stoermer-verlet", "--order", "3"),
@@ -54,32 +42,17 @@ MADE: dict[str, Made] = {
     ),
     "ModifiedRun": (
         lambda: garkcli.modified_run("stoermer-verlet", "pendulum", 2),
-        (
-            *("energy", "stoermer-verlet", "--modified", "2"),
-            *("--problem", "pendulum"),
-        ),
+        (*("energy", "stoermer-verlet", "--modified", "2"), *("--problem", "pendulum")),
         NAMES["stoermer-verlet"],
     ),
-    "Design": (
-        lambda: garkcli.find_parameters(FAMILY),
-        ("design", FAMILY),
-        FAMILY,
-    ),
+    "Design": (lambda: garkcli.find_parameters(FAMILY), ("design", FAMILY), FAMILY),
     "Minimum": (
         lambda: garkcli.minimise(FAMILY, "error"),
         ("design", FAMILY, "--minimise", "error"),
         FAMILY,
     ),
-    "Meaning": (
-        lambda: garkcli.explain("density"),
-        ("explain", "density"),
-        "density",
-    ),
-    "Audited": (
-        lambda: list(garkcli.audit(KUTTA)),
-        ("audit", KUTTA),
-        "",
-    ),
+    "Meaning": (lambda: garkcli.explain("density"), ("explain", "density"), "density"),
+    "Audited": (lambda: list(garkcli.audit(KUTTA)), ("audit", KUTTA), ""),
 }
 """A value of each kind, the command that prints it, and the name that it gives to the method."""
 FILES = {"Analysis", "Stability", "BackwardAnalysis", "Comparison", "LongRun"}
@@ -104,9 +77,7 @@ def values() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(("kind", "format"), formats())
-def test_it_is_what_the_command_prints(
-    kind: str, format: str, values: dict[str, Any]
-) -> None:
+def test_it_is_what_the_command_prints(kind: str, format: str, values: dict[str, Any]) -> None:
     """Line by line; the names of files apart, which a value does not know."""
     _, command, name = MADE[kind]
     printed = gark(*command, "--format", format).out.splitlines()
@@ -134,8 +105,7 @@ def test_a_sweep_is_rendered(tmp_path: Path) -> None:
 def test_what_no_command_prints_is_refused() -> None:
     """A value of another kind, and a format that the command has not."""
     with pytest.raises(
-        MethodError,
-        match=r"no command prints values of the kind str; give .* analyse",
+        MethodError, match=r"no command prints values of the kind str; give .* analyse"
     ):
         render("rk4")
     with pytest.raises(UsageProblem, match="no format 'html' of GarkMethod"):
@@ -144,10 +114,7 @@ def test_what_no_command_prints_is_refused() -> None:
 
 def test_plots_are_drawn_and_saved(tmp_path: Path) -> None:
     """A run is saved; several convergence tests in one figure."""
-    found = [
-        garkcli.converge(x, "pendulum", steps=[0.5, 0.25])
-        for x in ("rk4", "heun")
-    ]
+    found = [garkcli.converge(x, "pendulum", steps=[0.5, 0.25]) for x in ("rk4", "heun")]
     run = garkcli.long_run("rk4", "pendulum", 2, "1/10")
     path = tmp_path / "energy.svg"
     garkcli.plot(run, path=path)

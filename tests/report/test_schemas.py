@@ -19,18 +19,14 @@ from garkcli.cli.main import COMMANDS
 from garkcli.report.schemas import REPORTS, report_schema
 from tests.cli.harness import ROOT, gark
 
-METHODS = [
-    f"methods/{path.name}" for path in sorted(ROOT.glob("methods/*.gark.yaml"))
-]
+METHODS = [f"methods/{path.name}" for path in sorted(ROOT.glob("methods/*.gark.yaml"))]
 EXAMPLES = [
     f"tests/examples/{folder}/{path.name}"
     for folder in ("valid", "failing")
     for path in sorted(ROOT.glob(f"tests/examples/{folder}/*.gark.yaml"))
 ]
 FILES = [*METHODS, *EXAMPLES]
-PROBLEMS = [
-    f"problems/{path.name}" for path in sorted(ROOT.glob("problems/*.yaml"))
-]
+PROBLEMS = [f"problems/{path.name}" for path in sorted(ROOT.glob("problems/*.yaml"))]
 SLOW = {
     "methods/gauss6-lobatto7.gark.yaml",
     "methods/three-colours.gark.yaml",
@@ -110,11 +106,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     "list-exports": [("list", "exports")],
     "export": [(file,) for file in FILES],
     "claims": [(file,) for file in METHODS],
-    "diff": [
-        (VERLET, COLLOCATION),
-        (IMEX, IMEX),
-        *((COLLOCATION, x) for x in METHODS[:4]),
-    ],
+    "diff": [(VERLET, COLLOCATION), (IMEX, IMEX), *((COLLOCATION, x) for x in METHODS[:4])],
     "convert": [(IMEX, "--to", "tableau"), (COLLOCATION, "--to", "pair")],
     "energy": [
         (VERLET, "--t-end", "10"),
@@ -185,9 +177,7 @@ def test_every_command_with_a_report_has_a_schema() -> None:
     assert RUNS.keys() == REPORTS.keys()
     names = set()
     for path in Path(ROOT, "garkcli").rglob("*.py"):
-        names |= set(
-            re.findall(r"gark/[a-z-]+/1", path.read_text(encoding="utf-8"))
-        )
+        names |= set(re.findall(r"gark/[a-z-]+/1", path.read_text(encoding="utf-8")))
     schemas = json.dumps([report_schema(command) for command in REPORTS])
     assert names == set(re.findall(r'"const": "(gark/[a-z-]+/1)"', schemas))
 
@@ -204,15 +194,9 @@ def test_reports_keep_to_their_schema(command: str) -> None:
 def objects(value: Any, at: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """The paths to all objects in plain data, the first of each list alone."""
     if isinstance(value, dict):
-        inner = [
-            x for key, one in value.items() for x in objects(one, (*at, key))
-        ]
+        inner = [x for key, one in value.items() for x in objects(one, (*at, key))]
         return [at, *inner]
-    return (
-        objects(value[0], (*at, 0))
-        if isinstance(value, list) and value
-        else []
-    )
+    return objects(value[0], (*at, 0)) if isinstance(value, list) and value else []
 
 
 def changed(report: dict[str, Any], path: tuple[Any, ...]) -> tuple[Any, Any]:
@@ -241,9 +225,7 @@ def test_what_is_wrong_is_refused(command: str) -> None:
         if {"invariant_errors", "values", "parameters"} & {*path}:
             continue  # the keys are names of the problem or of parameters
         here["mood"] = "good"
-        assert bool(complaints(command, copy)) != ((command, path) in OPEN), (
-            path
-        )
+        assert bool(complaints(command, copy)) != ((command, path) in OPEN), path
         del here["mood"]
         for key in list(here):
             kept = here[key]
@@ -265,9 +247,7 @@ def test_a_field_that_is_missing_is_refused(command: str) -> None:
     report = found[0]
     always = set.intersection(*(set(x) for x in found))
     for key in sorted(always - {"ideal", "dimension", "complete"}):
-        shorter = {
-            name: value for name, value in report.items() if name != key
-        }
+        shorter = {name: value for name, value in report.items() if name != key}
         wrong = [shorter] if command in LISTS else shorter
         assert complaints(command, wrong), key
 

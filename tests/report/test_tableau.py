@@ -17,25 +17,14 @@ from garkcli.methodfile.load import load, loads
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
-EXACT = [
-    "rectangular",
-    "collocation",
-    "stoermer-verlet",
-    "prk-lobatto-iiia-iiib",
-    "ark-ars222",
-]
+EXACT = ["rectangular", "collocation", "stoermer-verlet", "prk-lobatto-iiia-iiib", "ark-ars222"]
 
 
 def arrays(text: str) -> list[list[list[str]]]:
     """The rows of cells of each LaTeX array."""
-    found = re.findall(
-        r"\\begin\{array\}\{[^}]*\}\n(.*?)\\end\{array\}", text, re.DOTALL
-    )
+    found = re.findall(r"\\begin\{array\}\{[^}]*\}\n(.*?)\\end\{array\}", text, re.DOTALL)
     rows = [body.replace("\\hline\n", "").split("\\\\") for body in found]
-    return [
-        [[cell.strip() for cell in row.split("&")] for row in body]
-        for body in rows
-    ]
+    return [[[cell.strip() for cell in row.split("&")] for row in body] for body in rows]
 
 
 def test_the_rectangular_method_is_printed_as_in_the_paper() -> None:
@@ -45,11 +34,7 @@ def test_the_rectangular_method_is_printed_as_in_the_paper() -> None:
     third, half = r"\frac{1}{3}", r"\frac{1}{2}"
     assert q == [
         ["0", "0", "0"],
-        [
-            half,
-            r"\frac{1}{4}+\frac{\sqrt{3}}{8}",
-            r"\frac{1}{4}-\frac{\sqrt{3}}{8}",
-        ],
+        [half, r"\frac{1}{4}+\frac{\sqrt{3}}{8}", r"\frac{1}{4}-\frac{\sqrt{3}}{8}"],
         ["1", half, half],
         ["", half, half],
     ]
@@ -64,36 +49,22 @@ def test_a_wide_pair_is_one_display_after_the_other() -> None:
     """Q and P of a pair of 2N colours have the same nodes and weights, as in eq.
     (psymplecticGARK).
     """
-    run = gark(
-        "conjugate",
-        "methods/collocation.gark.yaml",
-        "--pair",
-        "--format",
-        "latex",
-    )
+    run = gark("conjugate", "methods/collocation.gark.yaml", "--pair", "--format", "latex")
     q, p = arrays(run.out)
     assert run.out.count(r"\[") == 2
     assert [row[0] for row in q] == [row[0] for row in p]
     assert q[-1] == p[-1]
     assert len(q) == 6
     assert {len(row) for row in (*q, *p)} == {6}
-    (alone,) = arrays(
-        gark(
-            "tableau", "methods/collocation.gark.yaml", "--format", "latex"
-        ).out
-    )
+    (alone,) = arrays(gark("tableau", "methods/collocation.gark.yaml", "--format", "latex").out)
     assert alone == q
-    made = gark(
-        "conjugate", "methods/collocation.gark.yaml", "--format", "latex"
-    )
+    made = gark("conjugate", "methods/collocation.gark.yaml", "--format", "latex")
     assert arrays(made.out) == [p]
 
 
 def test_a_semi_separable_pair_leaves_out_what_the_problem_lacks() -> None:
     """The paper's Q has stages of both methods and one column of blocks, its P the other way."""
-    run = gark(
-        "tableau", "methods/semi-separable.gark.yaml", "--format", "latex"
-    )
+    run = gark("tableau", "methods/semi-separable.gark.yaml", "--format", "latex")
     q, p = arrays(run.out)
     assert [len(q), len(q[0])] == [2 + 3 + 1, 1 + 2]
     assert [len(p), len(p[0])] == [2 + 1, 1 + 2 + 3]
@@ -106,9 +77,7 @@ def test_a_document_is_complete(command: str) -> None:
     text = gark(*arguments, "--format", "latex").out
     assert text.startswith("\\documentclass")
     assert text.endswith("\\end{document}\n")
-    assert arrays(text) == arrays(
-        gark(*arguments[:2], "--format", "latex").out
-    )
+    assert arrays(text) == arrays(gark(*arguments[:2], "--format", "latex").out)
     for other in ("text", "yaml", "json"):
         run = gark(*arguments, "--format", other)
         assert (run.code, run.out) == (2, "")
@@ -133,53 +102,29 @@ def test_the_file_of_a_tableau_is_the_method(name: str) -> None:
 
 def test_what_no_file_spells_out() -> None:
     """Nodes without radicals ask for digits; pairs of several terms have no spelled-out form."""
-    run = gark(
-        "tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"
-    )
+    run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
     assert run.code == 2
     assert "--digits 17" in run.err
-    run = gark(
-        "tableau",
-        "methods/semi-separable.gark.yaml",
-        "--format",
-        "yaml",
-        "--digits",
-        "9",
-    )
+    run = gark("tableau", "methods/semi-separable.gark.yaml", "--format", "yaml", "--digits", "9")
     assert run.code == 2
     assert "--format json" in run.err
 
 
-@pytest.mark.parametrize(
-    ("name", "order"), [("gauss6-lobatto7", 12), ("rectangular", 4)]
-)
-def test_a_rounded_file_has_the_order_within_its_tolerance(
-    name: str, order: int
-) -> None:
+@pytest.mark.parametrize(("name", "order"), [("gauss6-lobatto7", 12), ("rectangular", 4)])
+def test_a_rounded_file_has_the_order_within_its_tolerance(name: str, order: int) -> None:
     """Decimals of any nodes make a file whose tolerance explains what rounding did."""
     path = f"methods/{name}.gark.yaml"
     text = gark("tableau", path, "--format", "yaml", "--digits", "25").out
-    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)[
-        "files"
-    ][0]
+    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)["files"][0]
     assert found["order"] == order
     assert loads(text).tolerance == fmpq(1, 10**22)
 
 
 @pytest.mark.parametrize("shape", ["text", "latex", "json", "yaml"])
 @pytest.mark.parametrize("command", ["tableau", "conjugate"])
-def test_digits_make_decimals_in_every_format(
-    command: str, shape: str
-) -> None:
+def test_digits_make_decimals_in_every_format(command: str, shape: str) -> None:
     """No root and no fraction is left, and each number is that of the exact tableau, rounded."""
-    run = gark(
-        command,
-        "methods/collocation.gark.yaml",
-        "--digits",
-        "6",
-        "--format",
-        shape,
-    )
+    run = gark(command, "methods/collocation.gark.yaml", "--digits", "6", "--format", shape)
     assert run.code == 0
     assert "sqrt" not in run.out
     assert "/" not in run.out.replace("gark/tableau/1", "")
@@ -192,20 +137,13 @@ def test_plain_decimals_are_read_back(p: int, twos: int, fives: int) -> None:
     number = fmpq(p, 2**twos * 5**fives)
     text = plain_decimal(number)
     assert "/" not in text
-    assert (
-        read_decimal(text.removeprefix("-"))
-        * (-1 if text.startswith("-") else 1)
-        == number
-    )
+    assert read_decimal(text.removeprefix("-")) * (-1 if text.startswith("-") else 1) == number
 
 
 def test_stages_are_counted_as_the_paper_does() -> None:
     """Three stages for q and two for p, although the weights are two and three."""
     rectangular = load(str(ROOT / "methods/rectangular.gark.yaml")).tableau
-    assert (rectangular.stages_of("q"), rectangular.stages_of("p")) == (
-        (3,),
-        (2,),
-    )
+    assert (rectangular.stages_of("q"), rectangular.stages_of("p")) == ((3,), (2,))
     semi = load(str(ROOT / "methods/semi-separable.gark.yaml")).tableau
     assert (semi.stages_of("q"), semi.stages_of("p")) == ((2, 3), (2,))
     assert semi.stages_of("y") == ()
@@ -217,12 +155,8 @@ def test_long_nodes_and_weights_go_on_in_the_next_line() -> None:
     """Nodes and weights of a tableau too wide for a grid fit 80 columns, and none is lost."""
     run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml")
     vectors = run.out.split("\n\n")[1:3]
-    assert (
-        max(len(line) for part in vectors for line in part.splitlines()) <= 80
-    )
-    counts = [
-        len(x.split(",")) for part in vectors for x in re.split(r"\nb", part)
-    ]
+    assert max(len(line) for part in vectors for line in part.splitlines()) <= 80
+    counts = [len(x.split(",")) for part in vectors for x in re.split(r"\nb", part)]
     assert counts == [6, 6, 7, 7]
 
 
@@ -248,9 +182,7 @@ def blocks_of(text: str) -> dict[str, list[list[str]]]:
     ],
     ids=lambda run: run[0],
 )
-def test_wide_blocks_are_printed_some_columns_at_a_time(
-    run: tuple[str, str],
-) -> None:
+def test_wide_blocks_are_printed_some_columns_at_a_time(run: tuple[str, str]) -> None:
     """Together the groups of columns are the blocks of the JSON report, entry by entry; a block
     that fits 80 columns is printed whole.
     """
@@ -275,10 +207,6 @@ def test_the_columns_of_a_group_are_named() -> None:
     """Three of seven columns, the next three, and the last, each group within 80 columns."""
     text = gark("tableau", "methods/gauss6-lobatto7.gark.yaml").out
     heads = re.findall(r"^A\{1,2\}, (.*) =$", text, re.MULTILINE)
-    assert heads == [
-        "columns 1 to 3 of 7",
-        "columns 4 to 6 of 7",
-        "column 7 of 7",
-    ]
+    assert heads == ["columns 1 to 3 of 7", "columns 4 to 6 of 7", "column 7 of 7"]
     text = gark("conjugate", "methods/three-colours.gark.yaml").out
     assert "A{1,3}, columns 2 and 3 of 3 =" in text

@@ -18,18 +18,8 @@ from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import loads
 from garkcli.stability.algebraic import algebraic_stability
 from garkcli.stability.algebraic_within import algebraic_within, is_positive
-from garkcli.stability.bounds import (
-    OPEN,
-    UNLIMITED,
-    Bounds,
-    first_failure,
-    least,
-)
-from garkcli.stability.linear import (
-    imaginary_set,
-    real_set,
-    stability_function,
-)
+from garkcli.stability.bounds import OPEN, UNLIMITED, Bounds, first_failure, least
+from garkcli.stability.linear import imaginary_set, real_set, stability_function
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.stability.within import stability_within
 from garkcli.tableau.tableau import Tableau
@@ -40,20 +30,11 @@ ENTRY = fractions(0, 1, 6)
 KNOWN = {
     "heun": ([["0", "0"], ["1", "0"]], ["1/2", "1/2"], 2),
     "rk4": (
-        [
-            ["0"] * 4,
-            ["1/2", "0", "0", "0"],
-            ["0", "1/2", "0", "0"],
-            ["0", "0", "1", "0"],
-        ],
+        [["0"] * 4, ["1/2", "0", "0", "0"], ["0", "1/2", "0", "0"], ["0", "0", "1", "0"]],
         ["1/6", "1/3", "1/3", "1/6"],
         4,
     ),
-    "ssp3": (
-        [["0"] * 3, ["1", "0", "0"], ["1/4", "1/4", "0"]],
-        ["1/6", "1/6", "2/3"],
-        3,
-    ),
+    "ssp3": ([["0"] * 3, ["1", "0", "0"], ["1/4", "1/4", "0"]], ["1/6", "1/6", "2/3"], 3),
     "radau-iia": ([["5/12", "-1/12"], ["3/4", "1/4"]], ["3/4", "1/4"], 3),
     "lobatto-iiia": ([["0", "0"], ["1/2", "1/2"]], ["1/2", "1/2"], 2),
 }
@@ -71,18 +52,14 @@ def disturbed(A: list[list[str]], b: list[str], signs: list[int]) -> Tableau:
     def changed(x: str) -> str:
         return x if x == "0" else f"{x} + {next(following)}*({TOLERANCE})"
 
-    return method(
-        [[changed(x) for x in row] for row in A], [changed(x) for x in b]
-    )
+    return method([[changed(x) for x in row] for row in A], [changed(x) for x in b])
 
 
 def lies_within(value: RealRoot | None, bounds: Bounds) -> bool:
     """Whether a number, or ∞, is between bounds."""
     if value is None:
         return bounds.high is None
-    above = bounds.low is not None and not value < RealRoot.rational(
-        bounds.low
-    )
+    above = bounds.low is not None and not value < RealRoot.rational(bounds.low)
     below = bounds.high is None or not RealRoot.rational(bounds.high) < value
     return above and below
 
@@ -98,10 +75,7 @@ def first_end(intervals: tuple[Interval, ...]) -> RealRoot | None:
 def explicit(draw: st.DrawFn) -> tuple[list[list[str]], list[str]]:
     """Random explicit methods."""
     s = draw(st.integers(1, 3))
-    A = [
-        [str(draw(ENTRY)) if j < i else "0" for j in range(s)]
-        for i in range(s)
-    ]
+    A = [[str(draw(ENTRY)) if j < i else "0" for j in range(s)] for i in range(s)]
     return A, [str(draw(ENTRY)) for _ in range(s)]
 
 
@@ -191,9 +165,7 @@ def test_the_report(tmp_path: Path) -> None:
     text = CliRunner().invoke(gark, ["stability", str(path)]).output
     assert "−z ≤ 2.512745327\n" in text
     assert "y² ≤ 3.000000000\n" in text
-    json_text = CliRunner().invoke(
-        gark, ["stability", str(path), "--format", "json"]
-    )
+    json_text = CliRunner().invoke(gark, ["stability", str(path), "--format", "json"])
     (data,) = json.loads(json_text.output)["files"]
     ends = data["real_interval"]
     assert float(ends["at_least"]) < 2.51274532661833 < float(ends["at_most"])

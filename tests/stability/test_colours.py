@@ -25,9 +25,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
 
 ENTRY = fractions(-2, 2, 4).map(str)
-IMEX_EULER = (
-    "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}"
-)
+IMEX_EULER = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}"
 SSP_222 = """
 parameters: {g: 1 - sqrt(2)/2}
 methods:
@@ -58,15 +56,9 @@ def pairs(draw: st.DrawFn) -> Tableau:
     """Random pairs, the first part explicit, the second one diagonally implicit."""
     s = draw(st.integers(1, 3))
     gamma = draw(st.sampled_from(["1/4", "1/2", "1", "1/2 + sqrt(2)/4"]))
-    explicit = [
-        [draw(ENTRY) if j < i else "0" for j in range(s)] for i in range(s)
-    ]
+    explicit = [[draw(ENTRY) if j < i else "0" for j in range(s)] for i in range(s)]
     implicit = [
-        [
-            gamma if j == i else (draw(ENTRY) if j < i else "0")
-            for j in range(s)
-        ]
-        for i in range(s)
+        [gamma if j == i else (draw(ENTRY) if j < i else "0") for j in range(s)] for i in range(s)
     ]
     b = matrix(draw, 2, s)
     return loads(f"ark: {{A: [{explicit}, {implicit}], b: {b}}}").tableau
@@ -78,9 +70,7 @@ def value_of_a_step(tableau: Tableau, z: list[fmpq]) -> Number:
     for space in tableau.spaces:
         starts.append(size)
         size += space.stages
-    rows: list[list[Number]] = [
-        [ONE if i == j else ZERO for j in range(size)] for i in range(size)
-    ]
+    rows: list[list[Number]] = [[ONE if i == j else ZERO for j in range(size)] for i in range(size)]
     for k, start in enumerate(starts):
         for m, colour in enumerate(tableau.colours):
             block = tableau.blocks[k, m]
@@ -98,16 +88,12 @@ def value_of_a_step(tableau: Tableau, z: list[fmpq]) -> Number:
 
 @settings(max_examples=20)
 @given(coupled() | pairs(), st.data())
-def test_the_fraction_is_what_a_step_gives(
-    tableau: Tableau, data: st.DataObject
-) -> None:
+def test_the_fraction_is_what_a_step_gives(tableau: Tableau, data: st.DataObject) -> None:
     """P(z) = Q(z) R(z) at rational points where the stage equations are solved one by one."""
     R = stability_fraction(tableau)
     assert R is not None
     for _ in range(3):
-        point = [
-            fmpq(data.draw(st.integers(-9, 9)), 7) for _ in range(tableau.size)
-        ]
+        point = [fmpq(data.draw(st.integers(-9, 9)), 7) for _ in range(tableau.size)]
         try:
             expected = value_of_a_step(tableau, point)
         except SingularMatrixError:
@@ -119,9 +105,7 @@ def common_factor_degree(R: Fraction) -> int:
     """The total degree of the greatest common divisor, by python-flint."""
     names = [f"z{k}" for k in range(R.numerator.variables)]
     ring = fmpq_mpoly_ctx.get(names, Ordering.degrevlex)
-    P, Q = (
-        ring.from_dict(dict(p.terms)) for p in (R.numerator, R.denominator)
-    )
+    P, Q = (ring.from_dict(dict(p.terms)) for p in (R.numerator, R.denominator))
     return int(P.gcd(Q).total_degree())
 
 
@@ -149,9 +133,7 @@ def doubled(tableau: Tableau) -> Tableau:
     A = []
     for l in N:
         blocks = [exact.block(l, m) for m in N]
-        A.append(
-            [[half(row) for row in B or () for _ in range(2)] for B in blocks]
-        )
+        A.append([[half(row) for row in B or () for _ in range(2)] for B in blocks])
     b = [half(colour.b) for colour in exact.colours]
     return loads(f"tableau: {{A: {A}, b: {b}}}").tableau
 
@@ -159,10 +141,7 @@ def doubled(tableau: Tableau) -> Tableau:
 def test_a_common_factor_of_a_number_field_is_cancelled() -> None:
     """Over ℚ(√2) too: the doubled method has the fraction of the method itself."""
     tableau = loads(SSP_222).tableau
-    once, twice = (
-        stability_fraction(tableau),
-        stability_fraction(doubled(tableau)),
-    )
+    once, twice = (stability_fraction(tableau), stability_fraction(doubled(tableau)))
     # each file has a number field of its own: numbers are compared as texts
     assert str(once) == str(twice)
 
@@ -179,9 +158,7 @@ def test_imex_euler() -> None:
     found = several_colours(loads(IMEX_EULER).tableau)
     assert found.R is not None
     assert found.R.numerator == Multivariate.of(2, {(0, 0): ONE, (1, 0): ONE})
-    assert found.R.denominator == Multivariate.of(
-        2, {(0, 0): ONE, (0, 1): -ONE}
-    )
+    assert found.R.denominator == Multivariate.of(2, {(0, 0): ONE, (0, 1): -ONE})
     assert found.pair is not None
     assert (found.pair.explicit, found.pair.implicit) == (0, 1)
     assert found.real is not None
@@ -190,34 +167,23 @@ def test_imex_euler() -> None:
     assert found.imaginary is not None
     assert found.imaginary.end is not None
     assert found.imaginary.end.exact == 0
-    on_circle = [
-        (fmpq(-1) + fmpq(3, 5), fmpq(4, 5)),
-        (fmpq(-2), ZERO),
-        (ZERO, ZERO),
-    ]
+    on_circle = [(fmpq(-1) + fmpq(3, 5), fmpq(4, 5)), (fmpq(-2), ZERO), (ZERO, ZERO)]
     assert all(found.pair.is_damped(a, b) for a, b in on_circle)
     assert not found.pair.is_damped(fmpq(-2, 5), fmpq(4, 5) + fmpq(1, 10**40))
     radii = [radius.radius for radius in found.radii]
-    ends = [
-        None if r is None or r.value is None else r.value.exact for r in radii
-    ]
+    ends = [None if r is None or r.value is None else r.value.exact for r in radii]
     assert ends == [fmpq(1), None, fmpq(1)]
 
 
 def largest_modulus(R: Fraction, pair: ImexPair, z: complex) -> float:
     """The largest |R(z, iy)| over many y, in floats."""
-    y = np.concatenate(
-        [-np.geomspace(1e3, 1e-3, 400), [0], np.geomspace(1e-3, 1e3, 400)]
-    )
+    y = np.concatenate([-np.geomspace(1e3, 1e-3, 400), [0], np.geomspace(1e-3, 1e3, 400)])
     w = 1j * y
 
     def at(p: Multivariate) -> np.ndarray:
         total = np.zeros_like(w)
         for e, a in p.terms:
-            total = (
-                total
-                + to_float(a) * z ** e[pair.explicit] * w ** e[pair.implicit]
-            )
+            total = total + to_float(a) * z ** e[pair.explicit] * w ** e[pair.implicit]
         return total
 
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -226,9 +192,7 @@ def largest_modulus(R: Fraction, pair: ImexPair, z: complex) -> float:
 
 @settings(max_examples=25)
 @given(pairs(), st.integers(-12, 4), st.integers(0, 8))
-def test_damped_points_against_many_samples(
-    tableau: Tableau, a: int, b: int
-) -> None:
+def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) -> None:
     """A γ > 0 has its poles to the right: the imaginary axis decides, and a grid on it agrees."""
     R = stability_fraction(tableau)
     pair = imex_pair(tableau, R)
@@ -286,9 +250,7 @@ def test_an_explicit_and_an_implicit_colour_are_told_apart() -> None:
 
 @settings(max_examples=25)
 @given(pairs(), st.sampled_from([(1, 0), (0, 1), (1, 1), (1, 2)]))
-def test_additive_radii_by_floating_point(
-    tableau: Tableau, direction: tuple[int, int]
-) -> None:
+def test_additive_radii_by_floating_point(tableau: Tableau, direction: tuple[int, int]) -> None:
     """Below the radius all conditions of both colours hold; just above it one of them fails."""
     found = additive_radius(tableau, [fmpq(q) for q in direction]).radius
     assert found is not None
@@ -296,9 +258,7 @@ def test_additive_radii_by_floating_point(
     parts = []
     for l in (0, 1):
         K = np.zeros((s + 1, s + 1))
-        K[:s, :s] = [
-            [to_float(x) for x in row] for row in tableau.blocks[0, l]
-        ]
+        K[:s, :s] = [[to_float(x) for x in row] for row in tableau.blocks[0, l]]
         K[s, :s] = [to_float(x) for x in tableau.colours[l].b]
         parts.append(K)
     whole = direction[0] * parts[0] + direction[1] * parts[1]
@@ -312,9 +272,7 @@ def test_additive_radii_by_floating_point(
     if radius > 0.01:
         assert smallest(radius * 0.999) >= -1e-9
     if found.value is not None:
-        assert (
-            min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
-        )
+        assert min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
 
 
 def test_the_region_of_ssp_222() -> None:
@@ -334,9 +292,7 @@ def test_the_region_of_ssp_222() -> None:
 
 
 @given(st.lists(st.integers(-6, 6), min_size=2, max_size=6), st.integers(0, 2))
-def test_roots_in_balls_are_counted_as_exactly(
-    roots: list[int], extra: int
-) -> None:
+def test_roots_in_balls_are_counted_as_exactly(roots: list[int], extra: int) -> None:
     """Sturm's chain in balls finds the distinct real roots, or says that it cannot."""
     p = Polynomial([1])
     for root in roots:
@@ -357,7 +313,5 @@ def test_subresultants_tell_the_degree_of_the_gcd(k: int) -> None:
         common = common * Polynomial([-root, 1])
     a, b = p * common, q * common
     assert gcd(a, b).degree == k
-    assert [bool(subresultant(a, b, j)) for j in range(k + 1)] == [
-        False
-    ] * k + [True]
+    assert [bool(subresultant(a, b, j)) for j in range(k + 1)] == [False] * k + [True]
     assert resultant(a, b) == subresultant(a, b, 0)

@@ -28,10 +28,7 @@ def test_every_method_of_the_paper(path: str) -> None:
     (data,) = json.loads(run(path, "--format", "json").output)["files"]
     assert ("A-stable" in text.output) == ("a_stable" in data)
     if "p_stable" in data:
-        assert (
-            f"P-stable              {'yes' if data['p_stable'] else 'no'}"
-            in text.output
-        )
+        assert f"P-stable              {'yes' if data['p_stable'] else 'no'}" in text.output
 
 
 def test_the_page_shows_what_the_program_prints() -> None:
@@ -67,22 +64,10 @@ def test_latex() -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (
-            ["methods/rk4.gark.yaml", "--slow", "1"],
-            "--slow and --fast belong together",
-        ),
-        (
-            ["methods/three-colours.gark.yaml", "--slow", "1", "--fast", "4"],
-            "no colour '4'",
-        ),
-        (
-            ["methods/three-colours.gark.yaml", "--slow", "-1", "--fast", "2"],
-            "is not negative",
-        ),
-        (
-            ["methods/rk4.gark.yaml", "--slow", "1", "--fast", "1"],
-            "no two colours for two springs",
-        ),
+        (["methods/rk4.gark.yaml", "--slow", "1"], "--slow and --fast belong together"),
+        (["methods/three-colours.gark.yaml", "--slow", "1", "--fast", "4"], "no colour '4'"),
+        (["methods/three-colours.gark.yaml", "--slow", "-1", "--fast", "2"], "is not negative"),
+        (["methods/rk4.gark.yaml", "--slow", "1", "--fast", "1"], "no two colours for two springs"),
     ],
 )
 def test_refusals(arguments: list[str], message: str) -> None:

@@ -51,9 +51,7 @@ def tableaus(draw: st.DrawFn) -> Tableau:
 
 
 @given(tableaus(), ENTRIES)
-def test_the_fraction_is_what_a_step_gives(
-    tableau: Tableau, at: Fraction
-) -> None:
+def test_the_fraction_is_what_a_step_gives(tableau: Tableau, at: Fraction) -> None:
     """P(z)/Q(z) = 1 + z bᵀ(I − zA)⁻¹𝟙 by solving the stage equations at one z."""
     z = (
         fmpq(str(at).split("/", maxsplit=1)[0])
@@ -88,9 +86,7 @@ def test_the_fraction_is_what_a_step_gives(
         ("lobatto-iiic", True),
     ],
 )
-def test_the_classical_families(
-    name: str, l_stable: bool, stages: int
-) -> None:
+def test_the_classical_families(name: str, l_stable: bool, stages: int) -> None:
     """All are A-stable (Hairer, Wanner, section IV.5); Radau and Lobatto IIIC are L-stable."""
     R = stability_function(family(name, stages))
     assert is_a_stable(R)
@@ -108,9 +104,7 @@ def test_explicit_methods_are_not(name: str) -> None:
 
 def tangent(shift: fmpq) -> StabilityFunction:
     """A function with |R(iy)|² = 1 + (4δ + δ²) y²/|Q|² − y²(y² − 1)²/|Q|², δ the shift: it touches 1 at y = 1."""
-    return StabilityFunction(
-        Polynomial([fmpq(1), -(2 + shift)]), Polynomial([1, -3, 2, -1])
-    )
+    return StabilityFunction(Polynomial([fmpq(1), -(2 + shift)]), Polynomial([1, -3, 2, -1]))
 
 
 def test_tangency_is_decided() -> None:
@@ -135,24 +129,12 @@ def test_a_pole_close_to_the_axis(distance: int) -> None:
     assert not poles_are_right(rest * right * left)
 
 
-@given(
-    st.lists(
-        st.tuples(st.integers(-4, 4), st.integers(0, 3)),
-        min_size=1,
-        max_size=5,
-    )
-)
-def test_poles_against_what_was_multiplied_out(
-    pairs: list[tuple[int, int]],
-) -> None:
+@given(st.lists(st.tuples(st.integers(-4, 4), st.integers(0, 3)), min_size=1, max_size=5))
+def test_poles_against_what_was_multiplied_out(pairs: list[tuple[int, int]]) -> None:
     """Q with roots r ± is has all roots to the right exactly when all r > 0."""
     Q = Polynomial([1])
     for r, s in pairs:
-        Q = Q * (
-            Polynomial([r * r + s * s, -2 * r, 1])
-            if s
-            else Polynomial([-r, 1])
-        )
+        Q = Q * (Polynomial([r * r + s * s, -2 * r, 1]) if s else Polynomial([-r, 1]))
     assert poles_are_right(Q) == all(r > 0 for r, _ in pairs)
 
 
@@ -181,21 +163,12 @@ def test_against_a_grid(tableau: Tableau) -> None:
 
 def test_real_interval_of_rk4_is_the_known_one() -> None:
     """−2.7852935634…, the real root of x³ + 4x² + 12x + 24."""
-    (interval,) = real_set(
-        stability_function(gark([diagonal_method("rk4", None)], {}))
-    )
+    (interval,) = real_set(stability_function(gark([diagonal_method("rk4", None)], {})))
     assert interval.end is not None
-    assert [int(a) for a in interval.end.polynomial.coeffs()] == [
-        -24,
-        12,
-        -4,
-        1,
-    ]
+    assert [int(a) for a in interval.end.polynomial.coeffs()] == [-24, 12, -4, 1]
 
 
-def restricted_denominator(
-    gamma: fmpq, stages: int, order: int
-) -> StabilityFunction:
+def restricted_denominator(gamma: fmpq, stages: int, order: int) -> StabilityFunction:
     """R of an SDIRK method: P/(1 − γz)^s with R = e^z + O(z^(order+1))."""
     Q = Polynomial([fmpq(1), -gamma]) ** stages
     exponential = [fmpq(1)]

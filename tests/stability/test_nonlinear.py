@@ -10,10 +10,7 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
-from garkcli.stability.algebraic import (
-    algebraic_stability,
-    is_positive_semidefinite,
-)
+from garkcli.stability.algebraic import algebraic_stability, is_positive_semidefinite
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
@@ -33,7 +30,9 @@ SSP_10_4 = (
     + "]}]"
 )
 SHU_OSHER = "methods: [{A: [[0,0,0],[1,0,0],[1/4,1/4,0]], b: [1/6,1/6,2/3]}]"
-SSP_4_3 = "methods: [{A: [[0,0,0,0],[1/2,0,0,0],[1/2,1/2,0,0],[1/6,1/6,1/6,0]], b: [1/6,1/6,1/6,1/2]}]"
+SSP_4_3 = (
+    "methods: [{A: [[0,0,0,0],[1/2,0,0,0],[1/2,1/2,0,0],[1/6,1/6,1/6,0]], b: [1/6,1/6,1/6,1/2]}]"
+)
 SSP_3_2 = "methods: [{A: [[0,0,0],[1/2,0,0],[1/2,1/2,0]], b: [1/3,1/3,1/3]}]"
 
 
@@ -49,9 +48,7 @@ SSP_3_2 = "methods: [{A: [[0,0,0],[1/2,0,0],[1/2,1/2,0]], b: [1/3,1/3,1/3]}]"
         ("lobatto-iiic", True),
     ],
 )
-def test_the_classical_families(
-    name: str, expected: bool, stages: int
-) -> None:
+def test_the_classical_families(name: str, expected: bool, stages: int) -> None:
     """Burrage and Butcher (1979); Hairer, Wanner, section IV.12."""
     found = algebraic_stability(gark([diagonal_method(name, stages)], {}))
     assert found is not None
@@ -69,8 +66,7 @@ def test_semidefinite_against_eigenvalues(n: int, data: st.DataObject) -> None:
     lowest = float(np.min(np.linalg.eigvalsh(gram)))
     less = fmpq(int(np.floor(lowest + 0.5)) + 1)
     shifted = tuple(
-        tuple(x - less if i == j else x for j, x in enumerate(row))
-        for i, row in enumerate(exact)
+        tuple(x - less if i == j else x for j, x in enumerate(row)) for i, row in enumerate(exact)
     )
     assert not is_positive_semidefinite(shifted)
 
@@ -111,9 +107,7 @@ def test_optimal_ssp_methods(text: str, expected: int) -> None:
         ("gauss", 2, 0),
     ],
 )
-def test_classical_methods(
-    name: str, stages: int | None, expected: int
-) -> None:
+def test_classical_methods(name: str, stages: int | None, expected: int) -> None:
     """Kraaijevanger (1991)."""
     found = ssp_coefficient(gark([diagonal_method(name, stages)], {}))
     assert found is not None
@@ -133,10 +127,7 @@ def explicit(draw: st.DrawFn) -> Tableau:
     """Random explicit methods with entries that are not negative."""
     s = draw(st.integers(1, 4))
     entry = fractions(0, 1, 6)
-    A = [
-        [str(draw(entry)) if j < i else "0" for j in range(s)]
-        for i in range(s)
-    ]
+    A = [[str(draw(entry)) if j < i else "0" for j in range(s)] for i in range(s)]
     b = [str(draw(entry)) for _ in range(s)]
     return loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
 
@@ -158,14 +149,10 @@ def test_the_conditions_by_floating_point(tableau: Tableau) -> None:
 
     def smallest(r: float) -> float:
         inverse = np.linalg.inv(np.eye(s + 1) + r * K)
-        return float(
-            min((K @ inverse).min(), (inverse @ np.ones(s + 1)).min())
-        )
+        return float(min((K @ inverse).min(), (inverse @ np.ones(s + 1)).min()))
 
     radius = 5.0 if found.value is None else float(found.value.ball(64))
     if radius > 0.01:
         assert smallest(radius * 0.999) >= -1e-9
     if found.value is not None:
-        assert (
-            min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
-        )
+        assert min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0

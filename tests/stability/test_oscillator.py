@@ -46,13 +46,9 @@ def contains(found: OscillatorStability, x: fmpq) -> bool:
     """Whether x is in the stable set."""
     at = RealRoot.rational(x)
     for interval in found.stable:
-        after = interval.start < at or (
-            interval.has_start and interval.start == at
-        )  # type: ignore[operator]
+        after = interval.start < at or (interval.has_start and interval.start == at)  # type: ignore[operator]
         before = (
-            interval.end is None
-            or at < interval.end
-            or (interval.has_end and interval.end == at)
+            interval.end is None or at < interval.end or (interval.has_end and interval.end == at)
         )
         if after and before:
             return True
@@ -83,10 +79,7 @@ def test_the_rectangular_method() -> None:
     assert found.determinant.is_one
     ends = [(i.start.exact, i.end.exact) for i in found.stable]  # type: ignore[union-attr]
     assert ends == [(0, 8), (12, 24)]
-    assert [(i.has_start, i.has_end) for i in found.stable] == [
-        (True, False),
-        (False, False),
-    ]
+    assert [(i.has_start, i.has_end) for i in found.stable] == [(True, False), (False, False)]
     assert not found.is_p_stable
     assert (found.phase.order, found.phase.constant) == (4, fmpq(1, 2880))
 
@@ -150,9 +143,7 @@ def test_a_fast_spring_against_steps_at_single_strengths() -> None:
         total = fmpq(1, 4) + x
         shares = tuple(
             (k, (s * fmpq(1, 4) + f * x) / total)
-            for k, s, f in zip(
-                split.kinetic, split.slow, split.fast, strict=True
-            )
+            for k, s, f in zip(split.kinetic, split.slow, split.fast, strict=True)
         )
         whole = Oscillator(ONE, shares)
         M = oscillator_stability(tableau, whole)
@@ -179,9 +170,7 @@ def test_where_an_entry_has_a_pole_there_is_no_step() -> None:
     """M = (0, 1 − x; −1/(1 − x), 0) has trace 0 and determinant 1, and does not exist at x = 1."""
     zero, one = Polynomial([]), Polynomial([1])
     pole = Polynomial([1, -1])
-    found = stable_set(
-        Ratio(zero, one), Ratio(one, one), (pole * pole, -one), pole
-    )
+    found = stable_set(Ratio(zero, one), Ratio(one, one), (pole * pole, -one), pole)
     before, after = found
     assert before.end is not None
     assert before.end.exact == 1

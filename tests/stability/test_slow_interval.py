@@ -18,18 +18,9 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import load
 from garkcli.stability.slow_interval import slow_interval
-from garkcli.stability.two_frequencies import (
-    SplitSprings,
-    springs,
-    two_frequencies,
-)
+from garkcli.stability.two_frequencies import SplitSprings, springs, two_frequencies
 
-NAMES = [
-    "collocation",
-    "interpolation",
-    "three-colours",
-    "four-term-combination",
-]
+NAMES = ["collocation", "interpolation", "three-colours", "four-term-combination"]
 
 
 def has(intervals: tuple[Interval, ...], x: fmpq) -> bool:
@@ -64,10 +55,7 @@ def test_against_single_frequencies(
     found = slow_interval(tableau, split, A, B)
     exchanged = SplitSprings(split.kinetic, slow=split.fast, fast=split.slow)
     ends = RealRoot.rational(A), RealRoot.rational(B)
-    samples = [
-        two_frequencies(tableau, split, A + (B - A) * fmpq(k, 6))
-        for k in range(7)
-    ]
+    samples = [two_frequencies(tableau, split, A + (B - A) * fmpq(k, 6)) for k in range(7)]
     for value in at:
         x = fmpq(value.numerator, value.denominator)
         slow = two_frequencies(tableau, exchanged, x).stable
@@ -79,9 +67,7 @@ def test_against_single_frequencies(
 
 def _covers(interval: Interval, low: RealRoot, high: RealRoot) -> bool:
     start, end = interval.start, interval.end
-    is_right = (
-        start is None or start < low or (interval.has_start and start == low)
-    )
+    is_right = start is None or start < low or (interval.has_start and start == low)
     is_left = end is None or high < end or (interval.has_end and end == high)
     return is_right and is_left
 
@@ -90,9 +76,7 @@ def test_the_resonance_of_an_interval_is_that_of_its_ends() -> None:
     """Collocation of Gauss 2 and Lobatto 3: the resonance ends at 12 − a and begins at 9 − 3a/4."""
     tableau = load("methods/collocation.gark.yaml").tableau
     found = slow_interval(tableau, springs(tableau, 1), fmpq(1), fmpq(2))
-    ends = [
-        (i.start.exact, i.end.exact) for i in found.stable if i.start and i.end
-    ]
+    ends = [(i.start.exact, i.end.exact) for i in found.stable if i.start and i.end]
     assert ends == [(0, fmpq(15, 2)), (11, 36)]
     assert found.is_stable_for_all is False
     assert not found.open_points
@@ -117,28 +101,18 @@ def run(*arguments: str) -> dict[str, Any]:
 
 def test_the_command() -> None:
     """--slow A..B tells what the function finds, and draws the plane."""
-    data = run(
-        "methods/interpolation.gark.yaml", "--slow", "1/4..2", "--fast", "2"
-    )
+    data = run("methods/interpolation.gark.yaml", "--slow", "1/4..2", "--fast", "2")
     assert data["kind"] == "slow-interval"
     assert data["slow"] == {"from": "1/4", "to": "2"}
     assert data["stable_for_every_fast"] is True
 
 
 @pytest.mark.parametrize(
-    ("slow", "message"),
-    [("1..0", "ascending"), ("1..", "no number"), ("-1..2", "not negative")],
+    ("slow", "message"), [("1..0", "ascending"), ("1..", "no number"), ("-1..2", "not negative")]
 )
 def test_refusals(slow: str, message: str) -> None:
     """Ends that make no interval are refused with their reason."""
-    words = [
-        "stability",
-        "methods/collocation.gark.yaml",
-        "--slow",
-        slow,
-        "--fast",
-        "2",
-    ]
+    words = ["stability", "methods/collocation.gark.yaml", "--slow", slow, "--fast", "2"]
     result = CliRunner().invoke(gark, words)
     assert isinstance(result.exception, GarkError)
     assert message in result.exception.message

@@ -9,14 +9,8 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import loads
-from garkcli.properties.last_stage import (
-    is_stiffly_accurate as has_new_value_as_stage,
-)
-from garkcli.stability.linear import (
-    is_a_stable,
-    is_l_stable,
-    stability_function,
-)
+from garkcli.properties.last_stage import is_stiffly_accurate as has_new_value_as_stage
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.summary import stability_of_rounded
 from garkcli.stability.within import is_stiffly_accurate, stability_within
 from garkcli.tableau.forms import additive, gark
@@ -36,17 +30,13 @@ def sdirk(gamma: str) -> str:
 
 def test_the_sdirk_method_of_order_three() -> None:
     """γ = 0.4358665215, a root of x³ − 3x² + 3x/2 − 1/6 in ten digits: L-stable, whatever was rounded."""
-    (found,) = stability_of_rounded(
-        loads(sdirk("0.4358665215")).tableau, TOLERANCE
-    ).linear
+    (found,) = stability_of_rounded(loads(sdirk("0.4358665215")).tableau, TOLERANCE).linear
     assert (found.a_stable, found.l_stable) == (True, True)
 
 
 def test_the_other_root_is_not() -> None:
     """γ = 0.1589838999 has order 3 too, and is not A-stable."""
-    (found,) = stability_of_rounded(
-        loads(sdirk("0.1589838999")).tableau, TOLERANCE
-    ).linear
+    (found,) = stability_of_rounded(loads(sdirk("0.1589838999")).tableau, TOLERANCE).linear
     assert (found.a_stable, found.l_stable) == (False, False)
 
 
@@ -56,9 +46,7 @@ def test_a_digit_off_is_decided_as_exactly(digit: int, sign: int) -> None:
     """With one digit of the first γ wrong the verdict is the exact one, or open: it is lost one way."""
     text = sdirk("0.4358665215")
     wrong = f"{fmpq(4358665215, 10**10) + fmpq(sign, 10**digit)}"
-    tableau = loads(
-        text.replace("[0.4358665215, 0, 0]", f"[{wrong}, 0, 0]")
-    ).tableau
+    tableau = loads(text.replace("[0.4358665215, 0, 0]", f"[{wrong}, 0, 0]")).tableau
     (found,) = stability_of_rounded(tableau, TOLERANCE).linear
     exact = is_a_stable(stability_function(tableau))
     assert exact == (sign > 0)
@@ -73,10 +61,7 @@ def test_symmetric_methods_are_left_open() -> None:
     assert found.a_stable is None
 
 
-@given(
-    st.sampled_from(["radau-iia", "radau-ia", "lobatto-iiic"]),
-    st.integers(2, 2),
-)
+@given(st.sampled_from(["radau-iia", "radau-ia", "lobatto-iiic"]), st.integers(2, 2))
 def test_exact_methods_are_decided_alike(name: str, stages: int) -> None:
     """Where something is decided for all neighbours it is what holds exactly."""
     tableau = gark([diagonal_method(name, stages)], {})
@@ -90,10 +75,7 @@ def test_exact_methods_are_decided_alike(name: str, stages: int) -> None:
 def test_explicit_methods_are_decided(name: str) -> None:
     """A polynomial is unbounded, rounded or not."""
     tableau = gark([diagonal_method(name, None)], {})
-    assert (
-        stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1).a_stable
-        is False
-    )
+    assert stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1).a_stable is False
 
 
 @pytest.mark.parametrize(
@@ -122,12 +104,8 @@ def test_a_pole_on_the_left_that_stays_decides() -> None:
     assert found.a_stable is False
 
 
-@pytest.mark.parametrize(
-    ("units", "expected"), [(fmpq(9, 10), None), (fmpq(20), True)]
-)
-def test_coefficients_that_are_added_add_their_rounding(
-    units: fmpq, expected: bool | None
-) -> None:
+@pytest.mark.parametrize(("units", "expected"), [(fmpq(9, 10), None), (fmpq(20), True)])
+def test_coefficients_that_are_added_add_their_rounding(units: fmpq, expected: bool | None) -> None:
     """Two matrices on one stage, a = 1/2 + u t each: A-stable where their sum is 1 or more. Each may
     be off by t, so that u = 9/10 leaves it open, though the sum is 1.8 t above 1; u = 20 decides.
     """

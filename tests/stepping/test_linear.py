@@ -48,13 +48,7 @@ def gark_of(*names: tuple[str, int]) -> Tableau:
     methods = [diagonal_method(*name) for name in names]
     N = range(len(methods))
     return gark(
-        methods,
-        {
-            (l, m): collocation(methods[l], methods[m])
-            for l in N
-            for m in N
-            if l != m
-        },
+        methods, {(l, m): collocation(methods[l], methods[m]) for l in N for m in N if l != m}
     )
 
 
@@ -70,9 +64,7 @@ def determinant(R: Matrix) -> object:
 
 def float_matrix(R: Matrix) -> np.ndarray:
     """Rounded."""
-    return np.array(
-        [[float(x) for x in row] for row in enclosure(R, 80).tolist()]
-    )
+    return np.array([[float(x) for x in row] for row in enclosure(R, 80).tolist()])
 
 
 def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
@@ -86,9 +78,7 @@ def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
                 float(space.modulus[k].p) / float(space.modulus[k].q)
                 for k in range(space.stages + 1)
             ]
-            change.append(
-                np.vander(np.roots(coefficients[::-1]), increasing=True)
-            )
+            change.append(np.vander(np.roots(coefficients[::-1]), increasing=True))
         else:
             change.append(np.eye(space.stages))
     sizes = [space.stages for space in tableau.spaces]
@@ -99,21 +89,12 @@ def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
         L = float_matrix(problem.matrix(colour))
         seen = slice(2 * start[colour.space], 2 * start[colour.space + 1])
         to_values = np.linalg.inv(change[colour.space])
-        b = (
-            np.array(
-                [[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]]
-            )
-            @ to_values
-        )
+        b = np.array([[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]]) @ to_values
         weights[:, seen] += np.kron(b, L)
         for k in range(len(sizes)):
             if (k, m) in tableau.blocks:
-                block = (
-                    change[k] @ float_matrix(tableau.blocks[k, m]) @ to_values
-                )
-                system[2 * start[k] : 2 * start[k + 1], seen] -= h * np.kron(
-                    block, L
-                )
+                block = change[k] @ float_matrix(tableau.blocks[k, m]) @ to_values
+                system[2 * start[k] : 2 * start[k + 1], seen] -= h * np.kron(block, L)
     stages = np.linalg.solve(system, np.kron(np.ones((total, 1)), np.eye(2)))
     return np.eye(2) + h * weights @ stages
 
@@ -126,10 +107,7 @@ def rectangular_in_radicals() -> Tableau:
     ]
     parsed = [[[parse(x) for x in row] for row in block] for block in texts]
     domain = Domain([x for block in parsed for row in block for x in row])
-    A_q, A_p = (
-        tuple(tuple(domain.evaluate(x) for x in row) for row in block)
-        for block in parsed
-    )
+    A_q, A_p = (tuple(tuple(domain.evaluate(x) for x in row) for row in block) for block in parsed)
     b_q, b_p = (fmpq(1, 2),) * 2, (fmpq(1, 6), fmpq(2, 3), fmpq(1, 6))
     return separable_prk((A_q, b_q, None), (A_p, b_p, None))
 
@@ -139,9 +117,7 @@ TABLEAUS = {
     "one colour": gark_of(("radau-iia", 3)),
     "explicit": gark_of(("rk4", 4)),
     "gark": GAUSS_LOBATTO,
-    "three colours": gark_of(
-        ("gauss", 2), ("lobatto-iiia", 3), ("radau-iia", 2)
-    ),
+    "three colours": gark_of(("gauss", 2), ("lobatto-iiia", 3), ("radau-iia", 2)),
     "pair": pair(GAUSS_LOBATTO),
     "pair of one": pair(gark_of(("radau-ia", 2))),
     "semi-separable": symplectic_pair(GAUSS_LOBATTO, [0], [0, 1]),
@@ -152,9 +128,7 @@ TABLEAUS = {
         [(fmpq(1, 2),) * 2] * 2,
         None,
     ),
-    "partitioned": partitioned(
-        diagonal_method("heun"), diagonal_method("explicit-midpoint")
-    ),
+    "partitioned": partitioned(diagonal_method("heun"), diagonal_method("explicit-midpoint")),
 }
 
 
@@ -165,9 +139,7 @@ def test_step_is_that_of_a_dense_computation(name: str, omega: fmpq) -> None:
     tableau = TABLEAUS[name]
     problem = default(tableau, omega)
     exact = float_matrix(linear_step(tableau, problem).at(H))
-    assert exact == pytest.approx(
-        dense_step(tableau, problem, float(H)), abs=1e-12
-    )
+    assert exact == pytest.approx(dense_step(tableau, problem, float(H)), abs=1e-12)
 
 
 def test_radicals_and_families_make_the_same_rectangular_method() -> None:
@@ -175,9 +147,7 @@ def test_radicals_and_families_make_the_same_rectangular_method() -> None:
     ℚ.
     """
     one, other = TABLEAUS["separable"], TABLEAUS["in radicals"]
-    assert linear_step(one, default(one)).at(H) == linear_step(
-        other, default(other)
-    ).at(H)
+    assert linear_step(one, default(one)).at(H) == linear_step(other, default(other)).at(H)
 
 
 @pytest.mark.parametrize("s", [1, 2, 3, 6])
@@ -188,23 +158,15 @@ def test_gauss_step_is_the_pade_approximant(s: int) -> None:
     tableau, omega = gark_of(("gauss", s)), fmpq(3, 2)
     P = [
         fmpq(
-            factorial(2 * s - k) * factorial(s),
-            factorial(2 * s) * factorial(k) * factorial(s - k),
+            factorial(2 * s - k) * factorial(s), factorial(2 * s) * factorial(k) * factorial(s - k)
         )
         for k in range(s + 1)
     ]
     # on an eigenvector L is iω: P(ihω) = C + iS with real C, S, and R(h) is the rotation by P/P̄
     x = omega * H
-    C = sum(
-        ((-1) ** (k // 2) * P[k] * x**k for k in range(0, s + 1, 2)), fmpq(0)
-    )
-    S = sum(
-        ((-1) ** (k // 2) * P[k] * x**k for k in range(1, s + 1, 2)), fmpq(0)
-    )
-    cosine, sine = (
-        (C * C - S * S) / (C * C + S * S),
-        2 * C * S / (C * C + S * S),
-    )
+    C = sum(((-1) ** (k // 2) * P[k] * x**k for k in range(0, s + 1, 2)), fmpq(0))
+    S = sum(((-1) ** (k // 2) * P[k] * x**k for k in range(1, s + 1, 2)), fmpq(0))
+    cosine, sine = ((C * C - S * S) / (C * C + S * S), 2 * C * S / (C * C + S * S))
     R = linear_step(tableau, default(tableau, omega)).at(H)
     rotation = ((cosine, sine / omega), (-omega * sine, cosine))
     assert rotation == R
@@ -212,8 +174,7 @@ def test_gauss_step_is_the_pade_approximant(s: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["pair", "pair of one", "semi-separable", "separable", "in radicals"],
+    "name", ["pair", "pair of one", "semi-separable", "separable", "in radicals"]
 )
 def test_pairs_are_symplectic(name: str) -> None:
     """Det R(h) = 1 exactly, which for a plane is symplecticity; energy is not conserved exactly."""
@@ -231,20 +192,13 @@ def test_other_methods_are_not_symplectic(name: str) -> None:
 
 
 @settings(max_examples=25, deadline=None)
-@given(
-    st.fractions(0, 1, max_denominator=9),
-    st.fractions(-1, 2, max_denominator=9),
-)
-def test_one_method_on_all_terms_does_not_see_the_split(
-    kinetic: object, potential: object
-) -> None:
+@given(st.fractions(0, 1, max_denominator=9), st.fractions(-1, 2, max_denominator=9))
+def test_one_method_on_all_terms_does_not_see_the_split(kinetic: object, potential: object) -> None:
     """Gauss 2 twice is Gauss 2, whatever the shares."""
     k, v = (fmpq(x.numerator, x.denominator) for x in (kinetic, potential))  # type: ignore[attr-defined]
     twice, once = gark_of(("gauss", 2), ("gauss", 2)), gark_of(("gauss", 2))
     split = Oscillator(fmpq(2), ((k, v), (1 - k, 1 - v)))
-    assert linear_step(twice, split).at(H) == linear_step(
-        once, default(once, fmpq(2))
-    ).at(H)
+    assert linear_step(twice, split).at(H) == linear_step(once, default(once, fmpq(2))).at(H)
 
 
 @pytest.mark.parametrize("name", TABLEAUS)
@@ -253,8 +207,7 @@ def test_series_sums_to_the_step(name: str) -> None:
     tableau, h = TABLEAUS[name], fmpq(1, 64)
     step = linear_step(tableau, default(tableau))
     total = np.eye(2) + sum(
-        float_matrix(R_k) * float(h) ** k
-        for k, R_k in enumerate(islice(step.series(), 8), start=1)
+        float_matrix(R_k) * float(h) ** k for k, R_k in enumerate(islice(step.series(), 8), start=1)
     )
     assert total == pytest.approx(float_matrix(step.at(h)), abs=1e-13)
 
@@ -282,9 +235,7 @@ def test_visible_order(name: str, order: int) -> None:
 def test_visible_order_within_a_tolerance() -> None:
     """A weight that is off by 1e-12 is of order 0 exactly, and of order 2 within 1e-10."""
     b = (fmpq(1, 2), fmpq(1, 2) + fmpq(1, 10**12))
-    tableau = spelled_out(
-        [[((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)))]], [b], [None]
-    )
+    tableau = spelled_out([[((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)))]], [b], [None])
     step = linear_step(tableau, default(tableau))
     assert visible_order(step) == 0
     assert visible_order(step, fmpq(1, 10**10)) == 2
@@ -304,10 +255,7 @@ def test_precision_is_what_was_asked_for() -> None:
     """The enclosure of an irrational or long number has the bits."""
     tableau = TABLEAUS["separable"]
     step = linear_step(tableau, default(tableau))
-    assert all(
-        x.rel_accuracy_bits() >= 500
-        for x in enclosure(step.at(H), 500).entries()
-    )
+    assert all(x.rel_accuracy_bits() >= 500 for x in enclosure(step.at(H), 500).entries())
 
 
 def test_singular_stage_equations() -> None:
@@ -315,10 +263,7 @@ def test_singular_stage_equations() -> None:
     many stages.
     """
     one = fmpq(1)
-    blocks: list[list[Matrix | None]] = [
-        [((one,),), ((one,),)],
-        [((-one,),), ((one,),)],
-    ]
+    blocks: list[list[Matrix | None]] = [[((one,),), ((one,),)], [((-one,),), ((one,),)]]
     tableau = spelled_out(blocks, [(one,), (one,)], [None, None])
     step = linear_step(tableau, default(tableau))
     with pytest.raises(UsageProblem, match="no unique solution for h = 1"):
@@ -326,9 +271,7 @@ def test_singular_stage_equations() -> None:
     assert step.at(fmpq(1, 2))
 
 
-@pytest.mark.parametrize(
-    ("t_end", "h"), [("1", "0"), ("-1", "1"), ("1", "2"), ("1", "2/7")]
-)
+@pytest.mark.parametrize(("t_end", "h"), [("1", "0"), ("-1", "1"), ("1", "2"), ("1", "2/7")])
 def test_steps_have_to_divide_the_time(t_end: str, h: str) -> None:
     """No step is silently made longer or shorter."""
     t, x = (fmpq(*map(int, text.split("/"))) for text in (t_end, h))

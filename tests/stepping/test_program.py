@@ -22,13 +22,9 @@ from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
 
-GAUSS, LOBATTO = (
-    diagonal_method("gauss", 2),
-    diagonal_method("lobatto-iiia", 3),
-)
+GAUSS, LOBATTO = (diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3))
 COUPLED = gark(
-    [GAUSS, LOBATTO],
-    {(0, 1): collocation(GAUSS, LOBATTO), (1, 0): collocation(LOBATTO, GAUSS)},
+    [GAUSS, LOBATTO], {(0, 1): collocation(GAUSS, LOBATTO), (1, 0): collocation(LOBATTO, GAUSS)}
 )
 RECTANGULAR = symplectic_pair(COUPLED, [0], [1])
 RK4 = gark([diagonal_method("rk4")], {})
@@ -46,21 +42,11 @@ def composition(parts: int) -> Tableau:
     """Leapfrog steps one after the other, as one separable method of ``parts`` stages each."""
     b = [fmpq(k % 3 + 1, 2 * parts) for k in range(parts)]
     b = [x / sum(b, fmpq(0)) for x in b]
-    half = [
-        (b[0] if k == 0 else b[k - 1] + b[k]) / 2 for k in range(parts)
-    ] + [b[-1] / 2]
-    Q = [
-        [b[j] if j < i else fmpq(0) for j in range(parts)]
-        for i in range(parts + 1)
-    ]
-    P = [
-        [half[j] if j <= i else fmpq(0) for j in range(parts + 1)]
-        for i in range(parts)
-    ]
+    half = [(b[0] if k == 0 else b[k - 1] + b[k]) / 2 for k in range(parts)] + [b[-1] / 2]
+    Q = [[b[j] if j < i else fmpq(0) for j in range(parts)] for i in range(parts + 1)]
+    P = [[half[j] if j <= i else fmpq(0) for j in range(parts + 1)] for i in range(parts)]
     rows = [tuple(tuple(row) for row in A) for A in (Q, P)]
-    return separable_prk(
-        (rows[0], tuple(b), None), (rows[1], tuple(half), None)
-    )
+    return separable_prk((rows[0], tuple(b), None), (rows[1], tuple(half), None))
 
 
 @pytest.mark.parametrize(("tableau", "name"), METHODS)
@@ -69,15 +55,12 @@ def test_many_steps_are_single_steps(tableau: Tableau, name: str) -> None:
     last bit.
     """
     made = bind(
-        with_joined_terms(tableau),
-        hamiltonian(name, terms_of(with_joined_terms(tableau))),
+        with_joined_terms(tableau), hamiltonian(name, terms_of(with_joined_terms(tableau)))
     ).at()
     singly = list(trajectory(made, fmpq(1, 20), 10))
     assert len(singly) == 11
     assert integrate(made, fmpq(1, 20), 10) == singly[-1]
-    assert list(trajectory(made, fmpq(1, 20), 10, every=3)) == [
-        singly[k] for k in (0, 3, 6, 9, 10)
-    ]
+    assert list(trajectory(made, fmpq(1, 20), 10, every=3)) == [singly[k] for k in (0, 3, 6, 9, 10)]
     state = Stepper(made, fmpq(1, 20))
     for k in range(11):
         assert state.y == singly[k]
@@ -96,10 +79,7 @@ def test_balls_take_the_same_path(tableau: Tableau, name: str) -> None:
     )
     assert few.program.coefficients == many.program.coefficients
     assert few.program.implicit == many.program.implicit
-    ends = [
-        [float(x) for x in integrate(made, fmpq(1, 20), 10)]
-        for made in (few, many)
-    ]
+    ends = [[float(x) for x in integrate(made, fmpq(1, 20), 10)] for made in (few, many)]
     assert ends[0] == pytest.approx(ends[1], abs=1e-14)
 
 
@@ -115,9 +95,7 @@ def test_jacobian_in_matrices_is_that_written_out(
     for written in (0, 1000):
         monkeypatch.setattr("garkcli.stepping.newton._WRITTEN", written)
         made = bind(with_joined_terms(tableau), problem).at(digits)
-        assert bool(made.program.chains) == (
-            written == 0 and bool(made.program.implicit)
-        )
+        assert bool(made.program.chains) == (written == 0 and bool(made.program.implicit))
         states.append(Stepper(made, fmpq(1, 20)))
         states[-1].advance(10)
     assert [float(x) for x in states[0].y] == pytest.approx(
@@ -133,15 +111,10 @@ def test_cyclic_variable_has_balls_too() -> None:
     (x, _), (px, py) = (symbols(("x", "y"), group) for group in GROUPS)
     terms = (px**2 / (2 + sympy.cos(x)), py**2 * (2 + sympy.sin(x)) / 2)
     problem = Hamiltonian(
-        "cyclic",
-        ("x", "y"),
-        terms,
-        (fmpq(1), fmpq(0), fmpq(1, 2), fmpq(1)),
-        fmpq(1),
+        "cyclic", ("x", "y"), terms, (fmpq(1), fmpq(0), fmpq(1, 2), fmpq(1)), fmpq(1)
     )
     ends = [
-        integrate(bind(pair(COUPLED), problem).at(digits), fmpq(1, 10), 5)
-        for digits in (15, 40)
+        integrate(bind(pair(COUPLED), problem).at(digits), fmpq(1, 10), 5) for digits in (15, 40)
     ]
     assert [float(a) for a in ends[1]] == pytest.approx(ends[0], abs=1e-14)
     assert ends[1][3] == 1
@@ -186,18 +159,12 @@ def test_work_is_counted() -> None:
     """
     state = Stepper(bind(RK4, hamiltonian("generic", 1)).at(), fmpq(1, 10))
     state.advance(7)
-    assert (
-        state.work.evaluations,
-        state.work.iterations,
-        state.work.jacobians,
-    ) == (
+    assert (state.work.evaluations, state.work.iterations, state.work.jacobians) == (
         7 * 4 * 2,
         0,
         0,
     )  # V and F
-    state = Stepper(
-        bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(), fmpq(1, 10)
-    )
+    state = Stepper(bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(), fmpq(1, 10))
     state.advance(10)
     program, work = state.integrator.program, state.work
     assert (program.evaluations, program.repeated) == (
@@ -206,9 +173,7 @@ def test_work_is_counted() -> None:
     )  # F at both ends, V frozen; V twice and F
     assert work.evaluations == 10 * 3 + 3 * work.iterations
     assert 20 <= work.iterations <= 40
-    assert (
-        work.jacobians == work.iterations - 10
-    )  # the last of each step needs none
+    assert work.jacobians == work.iterations - 10  # the last of each step needs none
 
 
 @pytest.mark.parametrize(("tableau", "name"), METHODS)
@@ -217,18 +182,12 @@ def test_text_has_names_of_ours_only(tableau: Tableau, name: str) -> None:
     problem's.
     """
     problem = hamiltonian(name, terms_of(with_joined_terms(tableau)))
-    tree = ast.parse(
-        bind(with_joined_terms(tableau), problem).at().program.source
-    )
+    tree = ast.parse(bind(with_joined_terms(tableau), problem).at().program.source)
     stored = {
-        x.id
-        for x in ast.walk(tree)
-        if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)
+        x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)
     }
     loaded = {
-        x.id
-        for x in ast.walk(tree)
-        if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Load)
+        x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Load)
     }
     known = {
         "abs",
@@ -258,9 +217,7 @@ def test_text_has_names_of_ours_only(tableau: Tableau, name: str) -> None:
         "record",
     }
     assert loaded - stored <= known
-    assert not [
-        x for x in ast.walk(tree) if isinstance(x, ast.Attribute | ast.Import)
-    ]
+    assert not [x for x in ast.walk(tree) if isinstance(x, ast.Attribute | ast.Import)]
 
 
 def test_a_thousand_digits_from_the_first_step() -> None:
@@ -271,10 +228,7 @@ def test_a_thousand_digits_from_the_first_step() -> None:
         tableau = gark([diagonal_method("gauss", stages)], {})
         bound = bind(tableau, hamiltonian("pendulum", 1))
         with ctx.workprec(3500):
-            few, many = (
-                integrate(bound.at(digits), fmpq(1, 10), 1)
-                for digits in (1000, 1040)
-            )
+            few, many = (integrate(bound.at(digits), fmpq(1, 10), 1) for digits in (1000, 1040))
             for x, y in zip(few, many, strict=True):
                 assert abs(x - y) < arb(10) ** -995
 

@@ -45,10 +45,7 @@ def test_rk4_with_time() -> None:
         k2 = f(t + h / 2, x + h / 2 * k1[0], v + h / 2 * k1[1])
         k3 = f(t + h / 2, x + h / 2 * k2[0], v + h / 2 * k2[1])
         k4 = f(t + h, x + h * k3[0], v + h * k3[1])
-        sums = [
-            a + 2 * b + 2 * c + d
-            for a, b, c, d in zip(k1, k2, k3, k4, strict=True)
-        ]
+        sums = [a + 2 * b + 2 * c + d for a, b, c, d in zip(k1, k2, k3, k4, strict=True)]
         x, v = x + h / 6 * sums[0], v + h / 6 * sums[1]
     found = integrate(bind(rk4(), loads_problem(PENDULUM)).at(), fmpq(1, 8), 4)
     assert found == pytest.approx([x, v], rel=1e-14)
@@ -58,9 +55,7 @@ def test_an_imex_method_with_time() -> None:
     """Explicit midpoint with the implicit one, one term each: the implicit stage is linear and is
     solved by hand.
     """
-    imex = loads(
-        "ark: {A: [[[0, 0], [1/2, 0]], [[0, 0], [0, 1/2]]], b: [[0, 1], [0, 1]]}"
-    ).tableau
+    imex = loads("ark: {A: [[[0, 0], [1/2, 0]], [[0, 0], [0, 1/2]]], b: [[0, 1], [0, 1]]}").tableau
     y, h = 2.0, 0.125
     for n in range(4):
         t = n * h
@@ -76,9 +71,7 @@ def test_an_imex_method_with_time() -> None:
 
 @pytest.mark.parametrize("family", ["rk4", "gauss", "lobatto-iiia"])
 @pytest.mark.parametrize(
-    "solved",
-    [loads_problem(PENDULUM), problem("van-der-pol", 1)],
-    ids=["t", "no t"],
+    "solved", [loads_problem(PENDULUM), problem("van-der-pol", 1)], ids=["t", "no t"]
 )
 def test_balls_and_floats(family: str, solved: Problem) -> None:
     """The two programs of one method differ by round-off."""
@@ -126,10 +119,7 @@ def test_time_as_an_unknown_is_the_same() -> None:
 @pytest.mark.parametrize(
     ("method", "message"),
     [
-        (
-            "prk: {q: {A: [[0]], b: [1]}, p: {A: [[1]], b: [1]}}",
-            "drives positions and momenta",
-        ),
+        ("prk: {q: {A: [[0]], b: [1]}, p: {A: [[1]], b: [1]}}", "drives positions and momenta"),
         (
             "tableau: {A: [[[[0]], [[0]]], [[[1]], [[1]]]], b: [[1], [1]]}\nlinear: [2]",
             "the stages of the method have no times",

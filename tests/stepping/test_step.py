@@ -25,13 +25,7 @@ from garkcli.stepping.dependency import Stage
 from garkcli.stepping.fields import fields_of, visible_trees, with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, integrate, trajectory
-from garkcli.tableau.forms import (
-    gark,
-    pair,
-    separable_prk,
-    symplectic_pair,
-    with_linear,
-)
+from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair, with_linear
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation, interpolation
@@ -41,27 +35,17 @@ H = fmpq(1, 10)
 
 def coupled(s: int, t: int, rule: Any = collocation) -> Tableau:
     """Gauss s × Lobatto IIIA t."""
-    one, other = (
-        diagonal_method("gauss", s),
-        diagonal_method("lobatto-iiia", t),
-    )
-    return gark(
-        [one, other], {(0, 1): rule(one, other), (1, 0): rule(other, one)}
-    )
+    one, other = (diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t))
+    return gark([one, other], {(0, 1): rule(one, other), (1, 0): rule(other, one)})
 
 
 RECTANGULAR = symplectic_pair(coupled(2, 3), [0], [1])
 SEMI = symplectic_pair(coupled(2, 3), [0], [0, 1])
 RK4 = gark([diagonal_method("rk4")], {})
-HEUN = gark(
-    [diagonal_method("heun"), diagonal_method("heun")],
-    {(0, 1): diagonal_method("heun").A},
-)
+HEUN = gark([diagonal_method("heun"), diagonal_method("heun")], {(0, 1): diagonal_method("heun").A})
 
 
-def plain_step(
-    tableau: Tableau, problem: Hamiltonian, h: float
-) -> list[float]:
+def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
     """Every stage of every colour by fixed-point iteration, with no thought for structure."""
     entries, d = numeric_entries(tableau), problem.dimension
     A = {
@@ -83,9 +67,7 @@ def plain_step(
     def field(m: int, y: Any) -> Any:
         out, groups = np.zeros(2 * d), {"q": y[:d], "p": y[d:]}
         for group, part, offset in (("q", "yq", 0), ("p", "yp", d)):
-            made = (
-                function(m, group) if tableau.colours[m].part in part else None
-            )
+            made = function(m, group) if tableau.colours[m].part in part else None
             if made is not None:
                 depends, gradient = made
                 arguments = [x for g in depends for x in groups[g]]
@@ -95,15 +77,11 @@ def plain_step(
     F = [np.array([field(m, y0)] * len(b[m])) for m in range(tableau.size)]
     for _ in range(80):
         Y = [
-            y0
-            + h
-            * sum(A[l, m] @ F[m] for m in range(tableau.size) if (l, m) in A)
+            y0 + h * sum(A[l, m] @ F[m] for m in range(tableau.size) if (l, m) in A)
             for l in range(tableau.size)
         ]
         F = [
-            np.array(
-                [field(m, y) for y in Y[m] + np.zeros((len(b[m]), 2 * d))]
-            )
+            np.array([field(m, y) for y in Y[m] + np.zeros((len(b[m]), 2 * d))])
             for m in range(tableau.size)
         ]
     return (y0 + h * sum(b[m] @ F[m] for m in range(tableau.size))).tolist()
@@ -123,17 +101,13 @@ def plain_step(
         (with_linear(RECTANGULAR, ["V1"]), "henon-heiles"),
     ],
 )
-def test_step_is_that_of_a_plain_iteration(
-    tableau: Tableau, name: str
-) -> None:
+def test_step_is_that_of_a_plain_iteration(tableau: Tableau, name: str) -> None:
     """General, GARK, separable, rectangular, semi-separable, explicit and Nyström: the same step to
     round-off.
     """
     problem = hamiltonian(name, terms_of(tableau))
     expected = plain_step(tableau, problem, 0.1)
-    assert integrate(bind(tableau, problem).at(), H, 1) == pytest.approx(
-        expected, abs=3e-15
-    )
+    assert integrate(bind(tableau, problem).at(), H, 1) == pytest.approx(expected, abs=3e-15)
     many = [float(x) for x in integrate(bind(tableau, problem).at(40), H, 1)]
     assert many == pytest.approx(expected, abs=3e-15)
 
@@ -142,22 +116,19 @@ def test_digits_are_correct() -> None:
     """30, 60 and 120 digits agree to the digits of the shorter."""
     problem = hamiltonian("kepler", 2)
     ends = {
-        digits: integrate(bind(RECTANGULAR, problem).at(digits), H, 5)
-        for digits in (30, 60, 120)
+        digits: integrate(bind(RECTANGULAR, problem).at(digits), H, 5) for digits in (30, 60, 120)
     }
     with ctx.workprec(420):
         for short, long in ((30, 60), (60, 120)):
-            assert max(
-                abs(a - b)
-                for a, b in zip(ends[short], ends[long], strict=True)
-            ) < arb(10) ** (1 - short)
+            assert max(abs(a - b) for a, b in zip(ends[short], ends[long], strict=True)) < arb(
+                10
+            ) ** (1 - short)
 
 
 def unknowns(tableau: Tableau, name: str) -> list[tuple[Stage, ...]]:
     """The unknowns of each implicit block."""
     made = bind(
-        with_joined_terms(tableau),
-        hamiltonian(name, terms_of(with_joined_terms(tableau))),
+        with_joined_terms(tableau), hamiltonian(name, terms_of(with_joined_terms(tableau)))
     ).at()
     return [block.unknowns for block in made.program.implicit]
 
@@ -180,24 +151,17 @@ def test_explicit_and_diagonally_implicit_are_found() -> None:
     A = ((third, fmpq(0)), (third, third))
     dirk = gark([diagonal_method("heun")], {})
     dirk = Tableau(dirk.spaces, dirk.colours, {(0, 0): A})
-    assert [len(block) for block in unknowns(dirk, "generic")] == [
-        2,
-        2,
-    ]  # q and p of a stage
+    assert [len(block) for block in unknowns(dirk, "generic")] == [2, 2]  # q and p of a stage
 
 
 def test_components_come_in_order() -> None:
     """Two cycles and a vertex: each after what it needs, and a long path without recursion."""
     graph = {1: [2], 2: [1, 3], 3: [4], 4: [5], 5: [4]}
     assert [sorted(x) for x in components(graph)] == [[1, 2], [3], [4, 5]]
-    assert (
-        len(components({k: [k + 1] for k in range(5000)} | {5000: []})) == 5001
-    )
+    assert len(components({k: [k + 1] for k in range(5000)} | {5000: []})) == 5001
 
 
-@pytest.mark.parametrize(
-    "tableau", [pair(coupled(2, 3)), pair(coupled(3, 4, interpolation))]
-)
+@pytest.mark.parametrize("tableau", [pair(coupled(2, 3)), pair(coupled(3, 4, interpolation))])
 def test_pair_is_symplectic(tableau: Tableau) -> None:
     """Central differences with 60 digits: ‖MᵀJM − J‖ is their error, where the GARK method's is not
     small.
@@ -214,27 +178,16 @@ def symplecticity(tableau: Tableau, problem: Hamiltonian) -> float:
     for j in range(2 * d):
         ends = []
         for sign in (1, -1):
-            start = [
-                x + (sign * tiny if i == j else 0)
-                for i, x in enumerate(problem.initial)
-            ]
+            start = [x + (sign * tiny if i == j else 0) for i, x in enumerate(problem.initial)]
             ends.append(integrate(made, H, 1, start))
         with ctx.workprec(260):
-            columns.append(
-                [(a - b) / arb(2 * tiny) for a, b in zip(*ends, strict=True)]
-            )
+            columns.append([(a - b) / arb(2 * tiny) for a, b in zip(*ends, strict=True)])
     worst = 0.0
     with ctx.workprec(260):
         for i, u in enumerate(columns):
             for j, v in enumerate(columns):
-                form = sum(
-                    (u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)),
-                    arb(0),
-                )
-                worst = max(
-                    worst,
-                    abs(float(form - (int(j == i + d) - int(i == j + d)))),
-                )
+                form = sum((u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)), arb(0))
+                worst = max(worst, abs(float(form - (int(j == i + d) - int(i == j + d)))))
     return worst
 
 
@@ -249,10 +202,7 @@ def test_energy_stays_near_its_start() -> None:
         energy = [p * p / 2 + 1 - math.cos(q) for q, p in path]
         return [abs(x - energy[0]) for x in energy]
 
-    ours, theirs = (
-        errors(RECTANGULAR, swing),
-        errors(RK4, hamiltonian("pendulum", 1)),
-    )
+    ours, theirs = (errors(RECTANGULAR, swing), errors(RK4, hamiltonian("pendulum", 1)))
     assert max(ours[2000:]) < 1.01 * max(ours[:2000]) < 1e-3
     assert theirs[-1] > 50 * max(ours)
 
@@ -262,9 +212,7 @@ def test_compensated_sums_keep_the_last_digits() -> None:
     four digits.
     """
     (px,) = symbols(("x",), "p")
-    free = Hamiltonian(
-        "free", ("x",), (px**2 / 2,), (fmpq(0), fmpq(1, 3)), fmpq(1)
-    )
+    free = Hamiltonian("free", ("x",), (px**2 / 2,), (fmpq(0), fmpq(1, 3)), fmpq(1))
     q, _ = integrate(bind(RK4, free).at(), fmpq(1, 10), 30_000)
     assert q == pytest.approx(1000, abs=3e-13)
     plain = 0.0
@@ -278,13 +226,7 @@ def test_states_before_a_failure_are_seen() -> None:
     itself as well.
     """
     x, px = (symbols(("x",), group)[0] for group in GROUPS)
-    fall = Hamiltonian(
-        "fall",
-        ("x",),
-        (px**2 / 2 - sympy.sqrt(x),),
-        (fmpq(1), fmpq(-2)),
-        fmpq(1),
-    )
+    fall = Hamiltonian("fall", ("x",), (px**2 / 2 - sympy.sqrt(x),), (fmpq(1), fmpq(-2)), fmpq(1))
     made = bind(RK4, fall).at()
     seen: list[list[float]] = []
     with pytest.raises(StepFailed) as caught:
@@ -294,50 +236,33 @@ def test_states_before_a_failure_are_seen() -> None:
 
 
 @pytest.mark.parametrize("mass", [fmpq(1, 10**20), fmpq(10**10), fmpq(10**20)])
-@pytest.mark.parametrize(
-    "tableau", [RECTANGULAR, pair(coupled(2, 3)), pair(coupled(3, 4))]
-)
+@pytest.mark.parametrize("tableau", [RECTANGULAR, pair(coupled(2, 3)), pair(coupled(3, 4))])
 def test_units_do_not_matter(tableau: Tableau, mass: fmpq) -> None:
     """A pendulum of any mass in floats: Newton's method ends by the size of its unknowns alone."""
     (x,), (px,) = (symbols(("x",), group) for group in GROUPS)
     m = sympy.Rational(int(mass.p), int(mass.q))
     terms = (px**2 / (2 * m), -m * sympy.cos(x))
     heavy = Hamiltonian("heavy", ("x",), terms, (fmpq(1), mass / 2), fmpq(1))
-    floats, exact = (
-        integrate(bind(tableau, heavy).at(digits), H / 2, 40)
-        for digits in (15, 40)
-    )
+    floats, exact = (integrate(bind(tableau, heavy).at(digits), H / 2, 40) for digits in (15, 40))
     assert floats == pytest.approx([float(y) for y in exact], rel=2e-15)
 
 
 def test_balls_around_zero_have_powers() -> None:
     """A ball of a position at zero, where Kepler's field is smooth: no digit is lost."""
     field = vector_field(hamiltonian("kepler", 2), 1, "p")
-    x, y = function(field.components, field.arguments, True)(
-        arb(1), arb(0, 1e-12)
-    )
+    x, y = function(field.components, field.arguments, True)(arb(1), arb(0, 1e-12))
     assert abs(x + 1) < 1e-11
     assert abs(y) < 1e-11
 
 
 def test_failing_step_says_where() -> None:
     """Kepler with huge steps: the number of the step, its size and the residual."""
-    with pytest.raises(
-        StepFailed, match=r"step 1 of size 1000000: .*residual"
-    ) as caught:
-        integrate(
-            bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(),
-            fmpq(10**6),
-            3,
-        )
+    with pytest.raises(StepFailed, match=r"step 1 of size 1000000: .*residual") as caught:
+        integrate(bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(), fmpq(10**6), 3)
     assert (caught.value.number, caught.value.h) == (1, 10**6)
     assert caught.value.help
     falling = Hamiltonian(
-        "fall",
-        ("x",),
-        (1 / symbols(("x",), "q")[0],),
-        (fmpq(0), fmpq(0)),
-        fmpq(1),
+        "fall", ("x",), (1 / symbols(("x",), "q")[0],), (fmpq(0), fmpq(0)), fmpq(1)
     )
     with pytest.raises(StepFailed, match="step 1") as left:
         integrate(bind(RK4, falling).at(), H, 1)
@@ -349,17 +274,11 @@ def test_failing_step_says_where() -> None:
     [
         (RECTANGULAR, "generic", r"H\{1\} of generic depends on q"),
         (SEMI, "generic", r"H\{2\} of generic depends on p"),
-        (
-            with_linear(pair(coupled(2, 3)), ["V1"]),
-            "generic",
-            "colour V1 to be linear",
-        ),
+        (with_linear(pair(coupled(2, 3)), ["V1"]), "generic", "colour V1 to be linear"),
         (HEUN, "generic", "colour 2 depends on what colour 1 drives"),
     ],
 )
-def test_problem_has_to_fit_the_structure(
-    tableau: Tableau, name: str, said: str
-) -> None:
+def test_problem_has_to_fit_the_structure(tableau: Tableau, name: str, said: str) -> None:
     """A separable method has no colour for a Hamiltonian that is not."""
     with pytest.raises(UsageProblem, match=said):
         fields_of(tableau, hamiltonian(name, 2))
@@ -399,6 +318,4 @@ def test_unknown_problem() -> None:
 )
 def test_what_a_problem_sees(tableau: Tableau, name: str, said: str) -> None:
     """Linear, quadratic kinetic energy, all."""
-    assert said in visible_trees(
-        fields_of(tableau, hamiltonian(name, terms_of(tableau)))
-    )
+    assert said in visible_trees(fields_of(tableau, hamiltonian(name, terms_of(tableau))))

@@ -69,9 +69,7 @@ class Lagrangian:
     @cached_property
     def moving(self) -> tuple[int, ...]:
         """The terms with velocities."""
-        return tuple(
-            l for l, L in enumerate(self.terms) if L.free_symbols & set(self.v)
-        )
+        return tuple(l for l, L in enumerate(self.terms) if L.free_symbols & set(self.v))
 
     @cached_property
     def derivatives(self) -> tuple[Callable[..., Any], ...]:
@@ -82,11 +80,7 @@ class Lagrangian:
         return tuple(
             sympy.lambdify(
                 y,
-                [
-                    L,
-                    [L.diff(x) for x in y],
-                    [[L.diff(x, z) for z in y] for x in y],
-                ],
+                [L, [L.diff(x) for x in y], [[L.diff(x, z) for z in y] for x in y]],
                 modules="mpmath",
                 cse=True,
             )
@@ -96,29 +90,18 @@ class Lagrangian:
     def hamiltonian(self) -> Hamiltonian:
         """H^l(q, p) = p·v − L^l with ∂L^l/∂v = p, term by term."""
         return Hamiltonian(
-            "legendre",
-            self.variables,
-            tuple(map(self._legendre, self.terms)),
-            self.start,
-            fmpq(1),
+            "legendre", self.variables, tuple(map(self._legendre, self.terms)), self.start, fmpq(1)
         )
 
     def _legendre(self, L: Any) -> Any:
         if not L.free_symbols & set(self.v):
             return -L
         p = symbols(self.variables, "p")
-        somewhere = {
-            x: sympy.Rational(k, 7)
-            for k, x in enumerate((*self.q, *p), start=1)
-        }
+        somewhere = {x: sympy.Rational(k, 7) for k, x in enumerate((*self.q, *p), start=1)}
         momenta = tuple(zip(self.v, p, strict=True))
-        for v in sympy.solve(
-            [L.diff(w) - x for w, x in momenta], self.v, dict=True
-        ):
+        for v in sympy.solve([L.diff(w) - x for w, x in momenta], self.v, dict=True):
             if all(
-                abs(L.diff(w).subs(v).subs(somewhere) - somewhere[x]).n()
-                < 1e-9
-                for w, x in momenta
+                abs(L.diff(w).subs(v).subs(somewhere) - somewhere[x]).n() < 1e-9 for w, x in momenta
             ):
                 return (sum(x * w for w, x in momenta) - L).subs(v)
         raise AssertionError(f"no velocities for {L}")
@@ -137,29 +120,19 @@ LINE = {
         -sympy.sqrt(1 - U**2) + sympy.exp(X) / 5,
         (3 + sympy.cos(X)) * U**2 / 2 - X**2 * U / 5 - X**3 / 3,
     ),
-    "semi-separable": (
-        (2 + sympy.cos(X)) * U**2 / 2 + X**2 * U - X**3 / 3,
-        -sympy.exp(-X) - X**4,
-    ),
+    "semi-separable": ((2 + sympy.cos(X)) * U**2 / 2 + X**2 * U - X**3 / 3, -sympy.exp(-X) - X**4),
     "separable": (-sympy.sqrt(1 - U**2), sympy.cos(X) - X**4 / 4),
 }
 PLANE = {
     "two": (
-        ((1 + Y**2) * U**2 + X * U * W + (2 + X**2) * W**2) / 2
-        + X * Y * U
-        - sympy.cos(X - Y),
-        ((2 + sympy.sin(X)) * U**2 + (1 + X**2 * Y**2) * W**2) / 2
-        - X**4 / 4
-        - X**2 * Y,
+        ((1 + Y**2) * U**2 + X * U * W + (2 + X**2) * W**2) / 2 + X * Y * U - sympy.cos(X - Y),
+        ((2 + sympy.sin(X)) * U**2 + (1 + X**2 * Y**2) * W**2) / 2 - X**4 / 4 - X**2 * Y,
     ),
     "semi-separable": (
         ((1 + Y**2) * U**2 + (1 + X**2) * W**2) / 2 - X * Y,
         -sympy.cos(X - 2 * Y) - Y**4,
     ),
-    "separable": (
-        (U**2 + U * W + W**2) / 2,
-        -(X**2) * Y + Y**3 / 3 - sympy.exp(X) / 2,
-    ),
+    "separable": ((U**2 + U * W + W**2) / 2, -(X**2) * Y + Y**3 / 3 - sympy.exp(X) / 2),
 }
 START = (fmpq(2, 5), fmpq(-1, 5), fmpq(1, 2), fmpq(3, 10))
 
@@ -244,13 +217,9 @@ class Case:
         ]
         return symplectic_pair(self.tableau, self.lagrangian.moving, forces)
 
-    def path(
-        self, digits: int, count: int = 3, tableau: Tableau | None = None
-    ) -> list[Any]:
+    def path(self, digits: int, count: int = 3, tableau: Tableau | None = None) -> list[Any]:
         """(q, p) after 0, 1, … steps, in mpmath's numbers, shape (count + 1, 2, d)."""
-        made = bind(tableau or self.pair, hamiltonian(self.lagrangian)).at(
-            digits
-        )
+        made = bind(tableau or self.pair, hamiltonian(self.lagrangian)).at(digits)
         return [
             np.array(list(map(number, y)), object).reshape(2, -1)
             for y in trajectory(made, H, count)
@@ -264,31 +233,19 @@ CASES = {
     "interpolation": Case(built(interpolation, GAUSS_LOBATTO), ("two", 1)),
     "symplectic collocation": Case(symplectic(GAUSS_LOBATTO), ("two", 1)),
     "three terms": Case(built(collocation, THREE), ("three", 1)),
-    "three terms, interpolated": Case(
-        built(interpolation, THREE), ("three", 1)
-    ),
+    "three terms, interpolated": Case(built(interpolation, THREE), ("three", 1)),
     "plane": Case(built(collocation, GAUSS_LOBATTO), ("two", 2)),
-    "plane, interpolation": Case(
-        built(interpolation, GAUSS_LOBATTO[::-1]), ("two", 2)
-    ),
-    "semi-separable": Case(
-        built(collocation, GAUSS_LOBATTO), ("semi-separable", 1), full=False
-    ),
+    "plane, interpolation": Case(built(interpolation, GAUSS_LOBATTO[::-1]), ("two", 2)),
+    "semi-separable": Case(built(collocation, GAUSS_LOBATTO), ("semi-separable", 1), full=False),
     "semi-separable by the general pair": Case(
         built(interpolation, GAUSS_LOBATTO), ("semi-separable", 1)
     ),
-    "semi-separable, zero weight": Case(
-        FLAWED, ("semi-separable", 2), full=False
-    ),
-    "rectangular": Case(
-        built(collocation, GAUSS_LOBATTO), ("separable", 1), full=False
-    ),
+    "semi-separable, zero weight": Case(FLAWED, ("semi-separable", 2), full=False),
+    "rectangular": Case(built(collocation, GAUSS_LOBATTO), ("separable", 1), full=False),
     "rectangular in the plane": Case(
         built(interpolation, GAUSS_LOBATTO), ("separable", 2), full=False
     ),
-    "separable by the general pair": Case(
-        symplectic(GAUSS_LOBATTO), ("separable", 1)
-    ),
+    "separable by the general pair": Case(symplectic(GAUSS_LOBATTO), ("separable", 1)),
 }
 SOME = ("collocation", "three terms", "plane", "semi-separable", "rectangular")
 
@@ -329,17 +286,14 @@ class Discrete:
         small = False
         for _ in range(40):
             value, force = mpf(0), np.array([mpf(0)] * d, object)
-            residual = np.concatenate(
-                [rows.T @ multiplier, q0 - q1 + rows @ V]
-            )
+            residual = np.concatenate([rows.T @ multiplier, q0 - q1 + rows @ V])
             matrix = np.full((n + d, n + d), mpf(0), object)
             matrix[:n, n:], matrix[n:, :n] = rows.T, rows
             for term, b, J in self.stages:
                 at = J @ V
                 at[:d] += q0
                 L, slope, curvature = (
-                    np.array(x, object)
-                    for x in self.lagrangian.derivatives[term](*at)
+                    np.array(x, object) for x in self.lagrangian.derivatives[term](*at)
                 )
                 value += h * b * L[()]
                 force += slope[:d] * (h * b)
@@ -348,17 +302,10 @@ class Discrete:
             if small:
                 return value, force + multiplier, -multiplier
             change = np.array(
-                list(
-                    mpmath.lu_solve(
-                        mpmath.matrix(matrix.tolist()), list(residual)
-                    )
-                ),
-                object,
+                list(mpmath.lu_solve(mpmath.matrix(matrix.tolist()), list(residual))), object
             )
             V, multiplier = V - change[:n], multiplier - change[n:]
-            small = max(abs(change)) < mpf(10) ** (
-                2 - DIGITS // 2
-            )  # its square is what is left
+            small = max(abs(change)) < mpf(10) ** (2 - DIGITS // 2)  # its square is what is left
         raise AssertionError("no extremum")
 
 
@@ -369,15 +316,9 @@ def rational(x: fmpq) -> mpf:
 
 def discrete(tableau: Tableau, L: Lagrangian) -> Discrete:
     """L_d from the entries of ``tableau``."""
-    entries, d, h = (
-        numeric_entries(tableau, DIGITS + 10),
-        len(L.variables),
-        rational(H),
-    )
+    entries, d, h = (numeric_entries(tableau, DIGITS + 10), len(L.variables), rational(H))
     sizes = [len(entries.b[m]) for m in L.moving]
-    unit = np.array(
-        [[mpf(int(i == j)) for j in range(d)] for i in range(d)], object
-    )
+    unit = np.array([[mpf(int(i == j)) for j in range(d)] for i in range(d)], object)
 
     def spread(row: Sequence[Any]) -> Any:
         """A row of n coefficients as a matrix on V, shape (d, n d)."""
@@ -387,26 +328,16 @@ def discrete(tableau: Tableau, L: Lagrangian) -> Discrete:
     for l, weights in enumerate(entries.b):
         for i, b in enumerate(weights):
             positions = [
-                h * number(a)
-                for m in L.moving
-                for a in seen(entries.A[l][m], i, len(entries.b[m]))
+                h * number(a) for m in L.moving for a in seen(entries.A[l][m], i, len(entries.b[m]))
             ]
             velocities = [
                 mpf(int((m, j) == (l, i)))
                 for m, s in zip(L.moving, sizes, strict=True)
                 for j in range(s)
             ]
-            stages.append(
-                (
-                    l,
-                    number(b),
-                    np.vstack([spread(positions), spread(velocities)]),
-                )
-            )
+            stages.append((l, number(b), np.vstack([spread(positions), spread(velocities)])))
     return Discrete(
-        L,
-        tuple(stages),
-        spread([h * number(b) for m in L.moving for b in entries.b[m]]),
+        L, tuple(stages), spread([h * number(b) for m in L.moving for b in entries.b[m]])
     )
 
 
@@ -431,31 +362,20 @@ def imbalances(case: Case, path: Sequence[Any]) -> tuple[float, float]:
     momenta.
     """
     made = discrete(case.tableau, case.lagrangian)
-    slopes = [
-        made.extremum(now[0], then[0])[1:] for now, then in pairwise(path)
-    ]
-    stationarity = [
-        size(before[1] + after[0]) for before, after in pairwise(slopes)
-    ]
+    slopes = [made.extremum(now[0], then[0])[1:] for now, then in pairwise(path)]
+    stationarity = [size(before[1] + after[0]) for before, after in pairwise(slopes)]
     momenta = [
         max(size(before + now[1]), size(after - then[1]))
-        for (before, after), (now, then) in zip(
-            slopes, pairwise(path), strict=True
-        )
+        for (before, after), (now, then) in zip(slopes, pairwise(path), strict=True)
     ]
     return max(stationarity), max(momenta)
 
 
 @pytest.mark.parametrize(
     ("name", "digits"),
-    [
-        *((name, MANY) for name in CASES),
-        *((name, FLOAT_DIGITS) for name in SOME),
-    ],
+    [*((name, MANY) for name in CASES), *((name, FLOAT_DIGITS) for name in SOME)],
 )
-def test_trajectory_makes_the_discrete_action_stationary(
-    name: str, digits: int
-) -> None:
+def test_trajectory_makes_the_discrete_action_stationary(name: str, digits: int) -> None:
     """The discrete Euler–Lagrange equations and both discrete Legendre transforms, to round-off."""
     case = CASES[name]
     assert max(imbalances(case, case.path(digits, 2))) < TOLERANCES[digits]
@@ -479,23 +399,10 @@ def test_derivatives_are_those_of_the_discrete_lagrangian(name: str) -> None:
         def slope(action: Callable[[Any], mpf], shift: Any = shift) -> mpf:
             return (action(shift) - action(-shift)) / (2 * tiny)
 
+        assert abs(slope(lambda z: made.extremum(q0 + z, q1)[0]) - before[k]) < 1e-20
+        assert abs(slope(lambda z: made.extremum(q0, q1 + z)[0]) - after[k]) < 1e-20
         assert (
-            abs(slope(lambda z: made.extremum(q0 + z, q1)[0]) - before[k])
-            < 1e-20
-        )
-        assert (
-            abs(slope(lambda z: made.extremum(q0, q1 + z)[0]) - after[k])
-            < 1e-20
-        )
-        assert (
-            abs(
-                slope(
-                    lambda z: (
-                        made.extremum(q0, q1 + z)[0]
-                        + made.extremum(q1 + z, q2)[0]
-                    )
-                )
-            )
+            abs(slope(lambda z: made.extremum(q0, q1 + z)[0] + made.extremum(q1 + z, q2)[0]))
             < 1e-20
         )
         assert min(abs(before[k]), abs(after[k])) > 1e-3
@@ -505,36 +412,15 @@ def test_discrete_lagrangians_known_in_closed_form() -> None:
     """Implicit midpoint: h L((q_0 + q_1)/2, (q_1 − q_0)/h); Störmer–Verlet: the mean of both ends'
     potentials.
     """
-    h, q0, q1 = (
-        rational(H),
-        np.array([mpf("0.4")], object),
-        np.array([mpf("0.43")], object),
-    )
+    h, q0, q1 = (rational(H), np.array([mpf("0.4")], object), np.array([mpf("0.43")], object))
     one, separable = lagrangian("one", 1), lagrangian("separable", 1)
     velocity = (q1[0] - q0[0]) / h
-    midpoint, *_ = discrete(gark(methods(("gauss", 1)), {}), one).extremum(
-        q0, q1
-    )
-    assert (
-        abs(
-            midpoint - h * one.derivatives[0]((q0[0] + q1[0]) / 2, velocity)[0]
-        )
-        < 1e-45
-    )
-    trapezoidal = built(
-        collocation, methods(("gauss", 1), ("lobatto-iiia", 2))
-    )
+    midpoint, *_ = discrete(gark(methods(("gauss", 1)), {}), one).extremum(q0, q1)
+    assert abs(midpoint - h * one.derivatives[0]((q0[0] + q1[0]) / 2, velocity)[0]) < 1e-45
+    trapezoidal = built(collocation, methods(("gauss", 1), ("lobatto-iiia", 2)))
     verlet, *_ = discrete(trapezoidal, separable).extremum(q0, q1)
-    potential = (
-        sum(separable.derivatives[1](q[0], velocity)[0] for q in (q0, q1)) / 2
-    )
-    assert (
-        abs(
-            verlet
-            - h * (separable.derivatives[0](q0[0], velocity)[0] + potential)
-        )
-        < 1e-45
-    )
+    potential = sum(separable.derivatives[1](q[0], velocity)[0] for q in (q0, q1)) / 2
+    assert abs(verlet - h * (separable.derivatives[0](q0[0], velocity)[0] + potential)) < 1e-45
 
 
 FRACTIONS = st.builds(fmpq, st.integers(-6, 6), st.integers(6, 9))
@@ -547,18 +433,12 @@ def tableaux(draw: st.DrawFn) -> Tableau:
     """
     sizes = draw(st.lists(st.integers(1, 3), min_size=1, max_size=3))
 
-    def row(
-        length: int, entries: st.SearchStrategy[fmpq] = FRACTIONS
-    ) -> tuple[fmpq, ...]:
+    def row(length: int, entries: st.SearchStrategy[fmpq] = FRACTIONS) -> tuple[fmpq, ...]:
         return tuple(draw(entries) for _ in range(length))
 
     b = [row(s, FRACTIONS.filter(bool)) for s in sizes]
     b = [
-        (
-            *weights[1:],
-            weights[0]
-            + (0 if sum(weights) > fmpq(1, 2) else 1 - sum(weights)),
-        )
+        (*weights[1:], weights[0] + (0 if sum(weights) > fmpq(1, 2) else 1 - sum(weights)))
         for weights in b
     ]
     blocks = [[tuple(row(t) for _ in range(s)) for t in sizes] for s in sizes]
@@ -575,37 +455,22 @@ def test_any_tableau_has_a_variational_pair(tableau: Tableau) -> None:
 
 @pytest.mark.parametrize("name", SOME)
 @pytest.mark.parametrize(
-    ("digits", "error"),
-    [(FLOAT_DIGITS, fmpq(1, 10**4)), (MANY, fmpq(1, 10**20))],
+    ("digits", "error"), [(FLOAT_DIGITS, fmpq(1, 10**4)), (MANY, fmpq(1, 10**20))]
 )
-def test_perturbed_conjugate_is_not_variational(
-    name: str, digits: int, error: fmpq
-) -> None:
+def test_perturbed_conjugate_is_not_variational(name: str, digits: int, error: fmpq) -> None:
     """One coefficient of Â off by 1e-4, or by 1e-20 in balls: the equations are missed by a part of
     that.
     """
     case = CASES[name]
     right = case.pair
-    where = next(
-        key for key in right.blocks if right.colours[key[1]].part == "p"
-    )
+    where = next(key for key in right.blocks if right.colours[key[1]].part == "p")
     first, *rest = right.blocks[where]
-    wrong = replace(
-        right,
-        blocks={
-            **right.blocks,
-            where: ((first[0] + error, *first[1:]), *rest),
-        },
-    )
+    wrong = replace(right, blocks={**right.blocks, where: ((first[0] + error, *first[1:]), *rest)})
     found = imbalances(case, case.path(digits, tableau=wrong))
-    assert (
-        min(found) > 1e-4 * float(rational(error)) > 100 * TOLERANCES[digits]
-    )
+    assert min(found) > 1e-4 * float(rational(error)) > 100 * TOLERANCES[digits]
 
 
-@pytest.mark.parametrize(
-    "name", ["one method", "collocation", "three terms", "plane"]
-)
+@pytest.mark.parametrize("name", ["one method", "collocation", "three terms", "plane"])
 def test_gark_method_is_not_variational(name: str) -> None:
     """The same method for positions and momenta, without its conjugate."""
     case = CASES[name]
@@ -616,7 +481,5 @@ def test_gark_method_is_not_variational(name: str) -> None:
 def test_other_tableau_is_not_variational() -> None:
     """The pair by collocation does not make the action by interpolation stationary."""
     case = CASES["collocation"]
-    found = imbalances(
-        replace(case, tableau=CASES["interpolation"].tableau), case.path(MANY)
-    )
+    found = imbalances(replace(case, tableau=CASES["interpolation"].tableau), case.path(MANY))
     assert min(found) > 1e-11

@@ -30,9 +30,7 @@ search: {seeds: 1..2, starts: 3, order: 2}
 columns: [order, stages]
 best: [error]
 """
-NINTH = (
-    "parameters: {t: free}\nA: [[t**9 + t/3]]\nb: [1]\ndesign: {order: 2}\n"
-)
+NINTH = "parameters: {t: free}\nA: [[t**9 + t/3]]\nb: [1]\ndesign: {order: 2}\n"
 
 
 @pytest.fixture(scope="module")
@@ -53,9 +51,7 @@ def test_rows_are_finds(swept: tuple[Path, Any]) -> None:
     """
     spec, report = swept
     jsonschema.validate(report, report_schema("sweep"))
-    jsonschema.validate(
-        yaml.safe_load(SPEC), json.loads(gark("schema", "--sweep").out)
-    )
+    jsonschema.validate(yaml.safe_load(SPEC), json.loads(gark("schema", "--sweep").out))
     lines = spec.with_suffix(".jsonl").read_text("utf-8").splitlines()
     rows = [json.loads(line) for line in lines]
     assert len({row["key"] for row in rows}) == len(rows) == 2 * 2 + 1 + 2
@@ -110,9 +106,7 @@ def test_what_is_not_exact(tmp_path: Path) -> None:
     none = "parameters: {g: free}\nA: [[g]]\nb: [1]\ndesign: {order: 3}\n"
     (tmp_path / "none.yaml").write_text(none, "utf-8")
     spec = tmp_path / "spec.yaml"
-    text = (
-        "files: [ninth.yaml, none.yaml]\nsearch: {seeds: 7}\ncolumns: order\n"
-    )
+    text = "files: [ninth.yaml, none.yaml]\nsearch: {seeds: 7}\ncolumns: order\n"
     spec.write_text(text, "utf-8")
     plan = load_plan(str(spec))
     ninth, nothing = (row_of(plan.criteria, x) for x in plan.points())

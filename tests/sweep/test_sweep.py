@@ -69,9 +69,7 @@ def test_all_methods_once(spec: Path) -> None:
     """Families × stages × rules × values: a key each, and the verdicts of ``gark check``."""
     assert gark("sweep", str(spec)).code == 0
     rows = rows_in(spec.with_suffix(".jsonl"))
-    assert (
-        len(rows) == len({row["key"] for row in rows}) == 2 * 2 * 2 * (1 + 3)
-    )
+    assert len(rows) == len({row["key"] for row in rows}) == 2 * 2 * 2 * (1 + 3)
     for point in load_plan(str(spec)).points():
         (row,) = [x for x in rows if x["key"] == point.key]
         found = analyse(loads(point.template.text, settings=point.settings))
@@ -92,10 +90,7 @@ def test_resumed(spec: Path) -> None:
     whole = rows.read_bytes()
     lines = whole.splitlines(keepends=True)
     refused = gark("sweep", str(spec))
-    assert (refused.code, "--resume does what is missing" in refused.err) == (
-        2,
-        True,
-    )
+    assert (refused.code, "--resume does what is missing" in refused.err) == (2, True)
     rows.write_bytes(b"".join(lines[:7]) + lines[7][:-5])
     resumed = gark("sweep", str(spec), "--resume")
     assert resumed.code == 0
@@ -111,14 +106,7 @@ def test_resumed(spec: Path) -> None:
 
 def row_like(key: str, order: int) -> Row:
     """A row as a file has it."""
-    return {
-        "key": key,
-        "spec": "0",
-        "kept": True,
-        "method": key,
-        "parameters": {},
-        "order": order,
-    }
+    return {"key": key, "spec": "0", "kept": True, "method": key, "parameters": {}, "order": order}
 
 
 @pytest.mark.parametrize(
@@ -255,19 +243,9 @@ def test_killed_and_resumed(spec: Path) -> None:
     """
     rows = spec.with_suffix(".jsonl")
     spec.write_text(LONG, encoding="utf-8")
-    command = [
-        sys.executable,
-        "-m",
-        "garkcli",
-        "sweep",
-        str(spec),
-        "--jobs",
-        "2",
-    ]
+    command = [sys.executable, "-m", "garkcli", "sweep", str(spec), "--jobs", "2"]
     with subprocess.Popen(command, stdout=-1, stderr=-3) as process:
-        while process.poll() is None and not (
-            rows.exists() and rows.stat().st_size
-        ):
+        while process.poll() is None and not (rows.exists() and rows.stat().st_size):
             time.sleep(0.01)
         process.kill()
         process.communicate(timeout=100)
@@ -289,9 +267,7 @@ def test_without_dask(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_without_pyarrow(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same of Parquet."""
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    run = gark(
-        "sweep", str(spec), "--parquet", str(spec.with_suffix(".parquet"))
-    )
+    run = gark("sweep", str(spec), "--parquet", str(spec.with_suffix(".parquet")))
     assert (run.code, "garkcli[parquet]" in run.err) == (2, True)
 
 
@@ -303,9 +279,7 @@ def test_parquet(spec: Path) -> None:
     table = parquet.read_table(path).to_pylist()
     lines = list(csv.DictReader(io.StringIO(run.out)))
     assert [row["key"] for row in table] == [row["key"] for row in lines]
-    assert [row["order"] for row in table] == [
-        int(row["order"]) for row in lines
-    ]
+    assert [row["order"] for row in table] == [int(row["order"]) for row in lines]
 
 
 def test_reports(spec: Path) -> None:
@@ -314,9 +288,7 @@ def test_reports(spec: Path) -> None:
     jsonschema.validate(data, report_schema("sweep"))
     resumed = ("sweep", str(spec), "--resume", "--format")
     lines = list(csv.DictReader(io.StringIO(gark(*resumed, "csv").out)))
-    rows = [
-        json.loads(line) for line in gark(*resumed, "jsonl").out.splitlines()
-    ]
+    rows = [json.loads(line) for line in gark(*resumed, "jsonl").out.splitlines()]
     assert [x["key"] for x in lines] == [x["key"] for x in rows]
     assert len(rows) == data["kept"]
     assert data["best"] == rows[:10]
@@ -333,41 +305,26 @@ def test_the_plot(spec: Path) -> None:
     """
     first, second = spec.with_suffix(".svg"), spec.with_name("again.svg")
     assert gark("sweep", str(spec), "--plot", str(first)).code == 0
-    assert (
-        gark("sweep", str(spec), "--resume", "--plot", str(second)).code == 0
-    )
+    assert gark("sweep", str(spec), "--resume", "--plot", str(second)).code == 0
     assert first.read_bytes() == second.read_bytes()
     rows = spec.with_suffix(".jsonl")
     report = SweepReport(
-        str(spec),
-        load_plan(str(spec)),
-        {str(x["key"]): x for x in rows_in(rows)},
-        1,
+        str(spec), load_plan(str(spec)), {str(x["key"]): x for x in rows_in(rows)}, 1
     )
     (axes,) = sweep_figure(report, "order", "stages").axes
     drawn = [list(zip(*line.get_data(), strict=True)) for line in axes.lines]
     everything = [(x["order"], x["stages"]) for x in kept(report.done)]
-    assert drawn == [
-        everything,
-        [(x["order"], x["stages"]) for x in report.front],
-    ]
+    assert drawn == [everything, [(x["order"], x["stages"]) for x in report.front]]
     rows.unlink()
     assert gark("sweep", str(spec), "--plot", "figure.txt").code == 2
-    spec.write_text(
-        SPEC.replace("pareto: [order, stages]\n", ""), encoding="utf-8"
-    )
+    spec.write_text(SPEC.replace("pareto: [order, stages]\n", ""), encoding="utf-8")
     refused = gark("sweep", str(spec), "--plot", str(first))
     assert (refused.code, "needs two columns" in refused.err) == (2, True)
     assert not rows.exists()
 
 
 _ROWS = st.lists(
-    st.tuples(
-        st.integers(1, 4),
-        st.sampled_from([0.5, 0.25, None]),
-        st.integers(1, 3),
-    ),
-    max_size=12,
+    st.tuples(st.integers(1, 4), st.sampled_from([0.5, 0.25, None]), st.integers(1, 3)), max_size=12
 )
 
 
@@ -387,9 +344,7 @@ def test_the_front(values: list[tuple[int, float | None, int]]) -> None:
 
     complete = [row for row in rows if row["error"] is not None]
     front = pareto_front(rows, by)
-    wanted = [
-        x for x in complete if not any(surpasses(y, x) for y in complete)
-    ]
+    wanted = [x for x in complete if not any(surpasses(y, x) for y in complete)]
     assert {str(x["key"]) for x in front} == {str(x["key"]) for x in wanted}
     ordered = best_first(rows, by)
     assert len(ordered) == len(rows)
@@ -402,9 +357,7 @@ def test_files(tmp_path: Path) -> None:
     sdirk = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
     (tmp_path / "sdirk.yaml").write_text(sdirk, "utf-8")
     (tmp_path / "given.yaml").write_text(sdirk.replace("free", "1"), "utf-8")
-    (tmp_path / "rounded.yaml").write_text(
-        "tolerance: 1e-3\nA: [[0.5]]\nb: [1.0]\n", "utf-8"
-    )
+    (tmp_path / "rounded.yaml").write_text("tolerance: 1e-3\nA: [[0.5]]\nb: [1.0]\n", "utf-8")
     spec = tmp_path / "spec.yaml"
     spec.write_text(
         "files: [sdirk.yaml, given.yaml, rounded.yaml]\n"
@@ -478,9 +431,7 @@ def test_a_grid_without_values_beside_a_search(tmp_path: Path) -> None:
     family = "parameters: {s: free, t: free}\nA: [[s]]\nb: [t]\n"
     (tmp_path / "family.yaml").write_text(family, "utf-8")
     path = tmp_path / "spec.yaml"
-    rest = (
-        "parameters: {s: free, t: []}\nsearch: {seeds: 1}\ncolumns: [order]\n"
-    )
+    rest = "parameters: {s: free, t: []}\nsearch: {seeds: 1}\ncolumns: [order]\n"
     for name, message in (
         ("family.yaml", "t has no value"),
         (r'"a\0b.yaml"', "no file has such a name"),
@@ -541,6 +492,4 @@ def test_every_column_has_values(tmp_path: Path) -> None:
     for name in columns():
         values = [row.get(name) for row in found if row.get(name) is not None]
         assert values, name
-        assert all(
-            isinstance(x, types[property_kind(name)]) for x in values
-        ), name
+        assert all(isinstance(x, types[property_kind(name)]) for x in values), name

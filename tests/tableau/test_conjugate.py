@@ -16,14 +16,7 @@ from garkcli.exact.matrix import dot, identity, transpose
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, conjugate_block, is_symplectic
-from garkcli.tableau.forms import (
-    additive,
-    gark,
-    pair,
-    separable_prk,
-    spelled_out,
-    symplectic_pair,
-)
+from garkcli.tableau.forms import additive, gark, pair, separable_prk, spelled_out, symplectic_pair
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
@@ -61,12 +54,7 @@ def full_graph(seed: int) -> Tableau:
         return fmpq(dice.choice([-3, -2, -1, 1, 2, 3]), dice.randint(1, 4))
 
     A = [
-        [
-            tuple(
-                tuple(samples.small(dice) for _ in range(s)) for _ in range(r)
-            )
-            for s in stages
-        ]
+        [tuple(tuple(samples.small(dice) for _ in range(s)) for _ in range(r)) for s in stages]
         for r in stages
     ]
     b = [tuple(nonzero() for _ in range(s)) for s in stages]
@@ -86,15 +74,11 @@ def test_twice_is_the_identity_at_points(seed: int) -> None:
     """Conjugated twice, a random tableau is the one it was, block by block."""
     tableau = full_graph(seed)
     assert conjugate(conjugate(tableau)) == tableau
-    assert set(tableau.blocks) == {
-        (l, m) for l in range(tableau.size) for m in range(tableau.size)
-    }
+    assert set(tableau.blocks) == {(l, m) for l in range(tableau.size) for m in range(tableau.size)}
 
 
 @given(st.tuples(FAMILIES, FAMILIES), seeds)
-def test_twice_is_the_identity_in_polynomials(
-    names: tuple[str, str], seed: int
-) -> None:
+def test_twice_is_the_identity_in_polynomials(names: tuple[str, str], seed: int) -> None:
     """The same in ℚ[x]/(M), and between such a space and a space of points."""
     tableau = mixed(names, seed)
     assert conjugate(conjugate(tableau)) == tableau
@@ -105,10 +89,7 @@ def test_twice_is_the_identity_for_partitioned_methods(seed: int) -> None:
     """A pair of unrelated position and momentum blocks comes back after two conjugations."""
     dice = Random(seed)
     tableau = pair(full_graph(seed))
-    blocks = {
-        edge: _random_like(block, dice)
-        for edge, block in tableau.blocks.items()
-    }
+    blocks = {edge: _random_like(block, dice) for edge, block in tableau.blocks.items()}
     unrelated = replace(tableau, blocks=blocks)
     assert conjugate(conjugate(unrelated)) == unrelated
     assert conjugate(tableau) == tableau
@@ -160,12 +141,7 @@ def assert_exchanged(Q: Tableau) -> None:
     for l in range(Q.size):
         for m in range(Q.size):
             reach = min(one.B[l], one.B[m])
-            C_hat, D_hat, C, D = (
-                other.C[l][m],
-                other.D[l][m],
-                one.C[m][l],
-                one.D[m][l],
-            )
+            C_hat, D_hat, C, D = (other.C[l][m], other.D[l][m], one.C[m][l], one.D[m][l])
             assert C_hat is not None
             assert D_hat is not None
             assert C is not None
@@ -175,9 +151,7 @@ def assert_exchanged(Q: Tableau) -> None:
 
 
 @given(st.tuples(FAMILIES, FAMILIES), st.sampled_from(sorted(RULES)))
-def test_conjugation_exchanges_stage_order_and_d(
-    names: tuple[str, str], rule: str
-) -> None:
+def test_conjugation_exchanges_stage_order_and_d(names: tuple[str, str], rule: str) -> None:
     """C and D change places under conjugation, for every pair of families and every rule."""
     assert_exchanged(samples.everywhere(RULES[rule], *names))
 
@@ -189,9 +163,7 @@ def test_conjugation_exchanges_stage_order_and_d_of_mixtures(
     """The same for random combinations of the rules."""
     dice = Random(seed)
     weights = [samples.small(dice) for _ in range(3)]
-    rule = samples.mixture(
-        *(str(x) for x in (*weights, 1 - sum(weights, fmpq(0))))
-    )
+    rule = samples.mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))
     assert_exchanged(samples.everywhere(rule, *names))
 
 
@@ -201,9 +173,7 @@ def test_renumbering_commutes_with_everything(seed: int) -> None:
     difference.
     """
     dice = Random(seed)
-    tableau = samples.everywhere(
-        collocation, "gauss 2", "lobatto-iiia 3", "radau-iia 2"
-    )
+    tableau = samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3", "radau-iia 2")
     tableau = samples.with_perturbed_block(tableau, dice)
     permutation = dice.sample(range(3), 3)
     other = samples.renumbered(tableau, permutation)
@@ -213,20 +183,14 @@ def test_renumbering_commutes_with_everything(seed: int) -> None:
         for m in range(3):
             k, n = permutation[l], permutation[m]
             assert other.block(l, m) == tableau.block(k, n)
-            assert conjugate(other).block(l, m) == conjugate(tableau).block(
-                k, n
-            )
+            assert conjugate(other).block(l, m) == conjugate(tableau).block(k, n)
             assert pair(other).block(l, m + 3) == pair(tableau).block(k, n + 3)
     C, found = simplifying(tableau, 5).C, simplifying(other, 5).C
-    assert found == tuple(
-        tuple(C[k][n] for n in permutation) for k in permutation
-    )
+    assert found == tuple(tuple(C[k][n] for n in permutation) for k in permutation)
 
 
 @given(seeds, st.sampled_from([full_graph, *SPELLED.values()]))
-def test_numbering_of_stages_does_not_matter(
-    seed: int, make: Callable[[int], Tableau]
-) -> None:
+def test_numbering_of_stages_does_not_matter(seed: int, make: Callable[[int], Tableau]) -> None:
     """Stages in another order: the same order, B, C and D, and the same order of the pair where it
     exists.
     """
@@ -236,10 +200,7 @@ def test_numbering_of_stages_does_not_matter(
     assert simplifying(other, 6) == simplifying(tableau, 6)
     assert is_symplectic(other) == is_symplectic(tableau)
     if all(all(colour.b) for colour in tableau.colours):
-        assert (
-            find_order(pair(other), 6).order
-            == find_order(pair(tableau), 6).order
-        )
+        assert find_order(pair(other), 6).order == find_order(pair(tableau), 6).order
 
 
 def test_a_zero_weight_is_named() -> None:
@@ -255,9 +216,7 @@ def test_symplecticity_divides_by_no_weight() -> None:
     """A tableau with a zero weight can be told to be symplectic or not."""
     assert not is_symplectic(gark([samples.method("explicit-midpoint")], {}))
     used = ((fmpq(1, 2), fmpq(1)), (fmpq(7), fmpq(3)))
-    assert not is_symplectic(
-        spelled_out([[used]], [(fmpq(1), fmpq(0))], [None])
-    )
+    assert not is_symplectic(spelled_out([[used]], [(fmpq(1), fmpq(0))], [None]))
     unused = ((fmpq(1, 2), fmpq(0)), (fmpq(7), fmpq(3)))
     assert is_symplectic(spelled_out([[unused]], [(fmpq(1), fmpq(0))], [None]))
 
@@ -265,13 +224,7 @@ def test_symplecticity_divides_by_no_weight() -> None:
 def test_a_structure_divides_by_fewer_weights() -> None:
     """Separable: only the weights of the velocities need to be nonzero."""
     methods = [samples.method("gauss 2"), samples.method("explicit-midpoint")]
-    Q = gark(
-        methods,
-        {
-            (0, 1): collocation(*methods),
-            (1, 0): collocation(methods[1], methods[0]),
-        },
-    )
+    Q = gark(methods, {(0, 1): collocation(*methods), (1, 0): collocation(methods[1], methods[0])})
     assert is_symplectic(symplectic_pair(Q, [0], [1]))
     with pytest.raises(ZeroWeight, match="colour 2"):
         symplectic_pair(Q, [1], [0])
@@ -293,9 +246,7 @@ def test_pair_of_a_partitioned_method_keeps_its_positions() -> None:
     )
     assert is_symplectic(stormer)
     assert pair(stormer) == stormer
-    broken = replace(
-        stormer, blocks={**stormer.blocks, (0, 1): ((fmpq(1, 3), fmpq(1, 6)),)}
-    )
+    broken = replace(stormer, blocks={**stormer.blocks, (0, 1): ((fmpq(1, 3), fmpq(1, 6)),)})
     assert not is_symplectic(broken)
     assert pair(broken) == stormer
     assert find_order(stormer).order == 2
@@ -310,54 +261,34 @@ def test_shared_stages_are_told_apart_by_their_conjugates() -> None:
     b = (fmpq(1, 2), fmpq(1, 2))
     shared = additive([A_1, A_2], [b, b], None)
     twice = conjugate(conjugate(shared))
-    assert [shared.block(l, m) for l in (0, 1) for m in (0, 1)] == [
-        A_1,
-        A_2,
-    ] * 2
-    assert [twice.block(l, m) for l in (0, 1) for m in (0, 1)] == [
-        A_1,
-        A_2,
-    ] * 2
+    assert [shared.block(l, m) for l in (0, 1) for m in (0, 1)] == [A_1, A_2] * 2
+    assert [twice.block(l, m) for l in (0, 1) for m in (0, 1)] == [A_1, A_2] * 2
     assert find_order(twice).order == find_order(shared).order == 2
 
 
 def test_one_block_by_hand() -> None:
     """Â = 1 − a b_m / b_l for one stage each."""
     here, other = PointSpace((fmpq(1, 2),)), PointSpace((fmpq(1, 3),))
-    block = conjugate_block(
-        ((fmpq(1, 5),),), here, (fmpq(2),), other, (fmpq(3),)
-    )
+    block = conjugate_block(((fmpq(1, 5),),), here, (fmpq(2),), other, (fmpq(3),))
     assert block == ((3 - fmpq(1, 5) * 3 / 2,),)
 
 
 @pytest.mark.parametrize(
-    "make",
-    [
-        lambda: samples.without_cycles(),
-        lambda: samples.one_way("gauss 2", "radau-iia 2"),
-    ],
+    "make", [lambda: samples.without_cycles(), lambda: samples.one_way("gauss 2", "radau-iia 2")]
 )
 def test_edges_turn_round(make: Callable[[], Tableau]) -> None:
     """Colour l of the conjugate sees colour m where m saw l."""
     tableau = make()
-    assert set(conjugate(tableau).edges()) == {
-        (m, l) for l, m in tableau.edges()
-    }
+    assert set(conjugate(tableau).edges()) == {(m, l) for l, m in tableau.edges()}
     assert conjugate(conjugate(tableau)) == tableau
 
 
 @given(FAMILIES, FAMILIES, seeds)
-def test_the_form_of_a_block_is_the_weights_of_products(
-    here: str, there: str, seed: int
-) -> None:
+def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, seed: int) -> None:
     """In every stage space the entries of ``form`` are b(e_i ⊙ A e_j)."""
     tableau = mixed((here, there), seed)
     for l, m in tableau.edges():
-        space, b, block = (
-            tableau.space(l),
-            tableau.colours[l].b,
-            tableau.block(l, m),
-        )
+        space, b, block = (tableau.space(l), tableau.colours[l].b, tableau.block(l, m))
         assert block is not None
         images = transpose(block)
         assert space.form(b, block) == tuple(
@@ -372,16 +303,11 @@ def test_the_form_of_a_block_is_the_weights_of_products(
         (("1/2", "0", "1/2"), "which is 0 at the node 1/2"),
         (("1", "0", "-1"), "which is 0 at the node 1/2"),
         (("0", "1", "0"), "which are 0 at the nodes where x^2 + (-1)*x = 0"),
-        (
-            ("0", "0", "0"),
-            "which are 0 at the nodes where x^3 + (-3/2)*x^2 + 1/2*x = 0",
-        ),
+        (("0", "0", "0"), "which are 0 at the nodes where x^3 + (-3/2)*x^2 + 1/2*x = 0"),
         (("0", "sqrt(2)", "1"), "one of which is 0"),
     ],
 )
-def test_zero_weights_in_a_polynomial_space(
-    weights: tuple[str, ...], words: str
-) -> None:
+def test_zero_weights_in_a_polynomial_space(weights: tuple[str, ...], words: str) -> None:
     """The nodes 0, 1/2, 1 without weight are named, though no coordinate of the functional is
     theirs.
     """
@@ -391,19 +317,14 @@ def test_zero_weights_in_a_polynomial_space(
     b = tuple(dot(values, tuple(c**k for c in nodes)) for k in range(3))
     with pytest.raises(ZeroWeight) as caught:
         conjugate_block(identity(3), space, b, space, b)
-    assert (
-        caught.value.message
-        == f"the symplectic conjugate divides by the weights b, {words}"
-    )
+    assert caught.value.message == f"the symplectic conjugate divides by the weights b, {words}"
 
 
 def test_zero_weights_at_points() -> None:
     """They are named one by one, as long as they are few."""
     space = PointSpace((fmpq(0),) * 6)
     assert (
-        space.zero_weights(
-            (fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1))
-        )
+        space.zero_weights((fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1)))
         == "b_2 = b_4 = 0"
     )
     assert space.zero_weights((fmpq(0),) * 6) == "b_1 = b_2 = b_3 = … = 0"

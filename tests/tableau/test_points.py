@@ -39,13 +39,7 @@ from tests.oracles.draws import fractions
 from tests.oracles.points import at_points, method_at, numbers, value
 from tests.oracles.stages import product
 
-NODES = numbers(
-    "1/2 - sqrt(3)/6, 1/2 + sqrt(3)/6",
-    "0, 1/2, 1",
-    "1/3, 1",
-    "0, 2/3",
-    "0, 1",
-)
+NODES = numbers("1/2 - sqrt(3)/6, 1/2 + sqrt(3)/6", "0, 1/2, 1", "1/3, 1", "0, 2/3", "0, 1")
 """Over ℚ(√3), the nodes of Gauss 2, Lobatto 3, Radau IIA 2, Radau IA 2, Lobatto 2."""
 NODES_OF = {
     "gauss 2": NODES[0],
@@ -58,26 +52,20 @@ NODES_OF = {
 }
 names = st.sampled_from(sorted(NODES_OF))
 seeds = st.integers(0, 10**6)
-rationals = fractions(-9, 9, 12).map(
-    lambda x: fmpq(x.numerator, x.denominator)
-)
+rationals = fractions(-9, 9, 12).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
 def both_models(one: str, other: str, seed: int) -> tuple[Tableau, Tableau]:
     """A random combination of the rules, in polynomials and at points."""
     dice = Random(seed)
     weights = [samples.small(dice) for _ in range(3)]
-    rule = samples.mixture(
-        *(str(x) for x in (*weights, 1 - sum(weights, fmpq(0))))
-    )
+    rule = samples.mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))
     tableau = samples.everywhere(rule, one, other)
     return tableau, at_points(tableau, [NODES_OF[one], NODES_OF[other]])
 
 
 @given(names, names, seeds)
-def test_order_and_simplifying_conditions_agree(
-    one: str, other: str, seed: int
-) -> None:
+def test_order_and_simplifying_conditions_agree(one: str, other: str, seed: int) -> None:
     """Orders, B, C and D in polynomials are those of the entries, computed componentwise over
     ℚ(√3).
     """
@@ -112,9 +100,7 @@ def test_rules_agree(l: str, m: str) -> None:
 
 
 @given(st.lists(rationals, min_size=1, max_size=4, unique=True), st.data())
-def test_evaluation_is_a_homomorphism(
-    nodes: list[fmpq], data: st.DataObject
-) -> None:
+def test_evaluation_is_a_homomorphism(nodes: list[fmpq], data: st.DataObject) -> None:
     """Products, functionals and Gram matrices of ℚ[x]/(M) are those of the values at the nodes."""
     modulus = fmpq_poly([1])
     for c in nodes:
@@ -127,25 +113,16 @@ def test_evaluation_is_a_homomorphism(
         return tuple(value(f, c) for c in nodes)
 
     def functional(f: Vector) -> fmpq:
-        return sum(
-            (w * x for w, x in zip(weights, at_nodes(f), strict=True)), fmpq(0)
-        )
+        return sum((w * x for w, x in zip(weights, at_nodes(f), strict=True)), fmpq(0))
 
-    assert at_nodes(space.product(u, v)) == points.product(
-        at_nodes(u), at_nodes(v)
-    )
+    assert at_nodes(space.product(u, v)) == points.product(at_nodes(u), at_nodes(v))
     assert space.product(u, v) == product(space)(u, v)
     assert at_nodes(space.one) == points.one
     assert at_nodes(space.nodes) == points.nodes
     assert at_nodes(space.power(u, 3)) == points.power(at_nodes(u), 3)
-    unit = [
-        tuple(fmpq(int(i == j)) for j in range(len(nodes)))
-        for i in range(len(nodes))
-    ]
+    unit = [tuple(fmpq(int(i == j)) for j in range(len(nodes))) for i in range(len(nodes))]
     b = tuple(functional(e) for e in unit)
-    assert space.times(b, v) == tuple(
-        functional(space.product(v, e)) for e in unit
-    )
+    assert space.times(b, v) == tuple(functional(space.product(v, e)) for e in unit)
     assert space.gram(b) == tuple(
         tuple(functional(space.product(e, f)) for f in unit) for e in unit
     )
@@ -162,18 +139,13 @@ def test_functionals_with_radicals() -> None:
     """
     space = diagonal_method("gauss", 3).space
     unit = [tuple(fmpq(int(i == j)) for j in range(3)) for i in range(3)]
-    (b, v) = numbers(
-        "1/2 - sqrt(3)/6, sqrt(3), 0", "sqrt(3)/7, 2, 1 - sqrt(3)"
-    )
+    (b, v) = numbers("1/2 - sqrt(3)/6, sqrt(3), 0", "sqrt(3)/7, 2, 1 - sqrt(3)")
     for functional in (b, unit[1]):
         for f in (v, unit[2]):
             assert space.times(functional, f) == tuple(
                 dot(functional, space.product(f, e)) for e in unit
             )
-        rows = tuple(
-            tuple(dot(functional, space.product(e, f)) for f in unit)
-            for e in unit
-        )
+        rows = tuple(tuple(dot(functional, space.product(e, f)) for f in unit) for e in unit)
         assert space.gram(functional) == rows
 
 
@@ -213,11 +185,7 @@ def test_nodes_are_as_precise_as_asked() -> None:
     for bits in (300, 60, 300):
         with ctx.workprec(bits):
             V, W = powers_of_nodes(space), coordinates_at_nodes(space)
-            assert all(
-                (V * W)[i, j].contains(int(i == j))
-                for i in range(7)
-                for j in range(7)
-            )
+            assert all((V * W)[i, j].contains(int(i == j)) for i in range(7) for j in range(7))
             assert bits - 4 < V[3, 1].rel_accuracy_bits() < bits + 4
     with ctx.workprec(16), pytest.raises(ZeroDivisionError):
         coordinates_at_nodes(diagonal_method("gauss", 40).space)
@@ -229,9 +197,7 @@ def test_many_stages_are_soon_checked(tolerance: fmpq) -> None:
     tolerance.
     """
     before = process_time()
-    found = simplifying(
-        gark([diagonal_method("gauss", 60)], {}), 60, tolerance
-    )
+    found = simplifying(gark([diagonal_method("gauss", 60)], {}), 60, tolerance)
     assert (found.r, found.eta, found.zeta) == (60, 60, 60)
     assert process_time() - before < 5
 
@@ -242,19 +208,14 @@ def test_adjoint(nodes: list[fmpq], data: st.DataObject) -> None:
     modulus = fmpq_poly([1])
     for c in nodes:
         modulus *= fmpq_poly([-c, 1])
-    here = data.draw(
-        st.sampled_from([PolynomialSpace(modulus), PointSpace(tuple(nodes))])
-    )
+    here = data.draw(st.sampled_from([PolynomialSpace(modulus), PointSpace(tuple(nodes))]))
     source = samples.method("gauss 2").space
     s = len(nodes)
     nonzero = rationals.filter(bool)
     b = data.draw(st.tuples(*[nonzero] * s))
     b_source = samples.method("gauss 2").b
     A = data.draw(st.tuples(*[st.tuples(rationals, rationals)] * s))
-    f, g = (
-        data.draw(st.tuples(rationals, rationals)),
-        data.draw(st.tuples(*[rationals] * s)),
-    )
+    f, g = (data.draw(st.tuples(rationals, rationals)), data.draw(st.tuples(*[rationals] * s)))
     adjoint = here.adjoint(A, b, source, b_source)
     left = here.product(apply(A, f), g)
     right = source.product(f, apply(adjoint, g))
@@ -274,20 +235,14 @@ def test_nodes_beyond_the_largest_field_are_decimals() -> None:
         diagonal_method("lobatto-iiia", 4),
     ]
     blocks = {
-        (l, m): collocation(methods[l], methods[m])
-        for l in range(3)
-        for m in range(3)
-        if l != m
+        (l, m): collocation(methods[l], methods[m]) for l in range(3) for m in range(3) if l != m
     }
     tableau = gark(methods, blocks)
     assert in_points(tableau) is None
     found = entries(tableau, 20)
     assert not found.is_exact
     assert found.A[0][0] is not None
-    assert (
-        abs(float(found.A[0][0][0][0]) - (2**0.5 + 7**0.5 + 11**0.5 + 13**0.5))
-        < 1e-12
-    )
+    assert abs(float(found.A[0][0][0][0]) - (2**0.5 + 7**0.5 + 11**0.5 + 13**0.5)) < 1e-12
     assert abs(float(found.c[2][1]) - (0.5 - 5**0.5 / 10)) < 1e-12
 
 
@@ -297,12 +252,8 @@ def test_entries_in_radicals_are_the_definition() -> None:
     found, wanted = entries(tableau), at_points(tableau, NODES[:2])
     assert found.is_exact
     for l in range(2):
-        assert [str(x) for x in found.c[l]] == [
-            str(x) for x in wanted.colours[l].c
-        ]
-        assert [str(x) for x in found.b[l]] == [
-            str(x) for x in wanted.colours[l].b
-        ]
+        assert [str(x) for x in found.c[l]] == [str(x) for x in wanted.colours[l].c]
+        assert [str(x) for x in found.b[l]] == [str(x) for x in wanted.colours[l].b]
         for m in range(2):
             block, exact = found.A[l][m], wanted.block(l, m)
             assert block is not None
@@ -315,9 +266,7 @@ def test_entries_in_radicals_are_the_definition() -> None:
 def test_printing_mixes_the_fields_of_nodes_and_coefficients() -> None:
     """A block with √5 between nodes with √3 is printed in ℚ(√3, √5), and has the same order."""
     tableau = samples.everywhere(
-        samples.mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"),
-        "gauss 2",
-        "lobatto-iiia 3",
+        samples.mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"), "gauss 2", "lobatto-iiia 3"
     )
     found = in_points(tableau)
     assert found is not None
@@ -336,16 +285,9 @@ def test_printing_mixes_the_fields_of_nodes_and_coefficients() -> None:
 
 
 @pytest.mark.parametrize(
-    "names",
-    [
-        ("gauss 3", "radau-iia 2"),
-        ("lobatto-iiia 4", "gauss 2"),
-        ("radau-ia 3",),
-    ],
+    "names", [("gauss 3", "radau-iia 2"), ("lobatto-iiia 4", "gauss 2"), ("radau-ia 3",)]
 )
-def test_numeric_entries_enclose_the_exact_ones(
-    names: tuple[str, ...],
-) -> None:
+def test_numeric_entries_enclose_the_exact_ones(names: tuple[str, ...]) -> None:
     """Enclosures hold the exact entries, are as narrow as asked, and are in ascending order of the
     nodes.
     """
@@ -361,9 +303,7 @@ def test_numeric_entries_enclose_the_exact_ones(
             assert_enclosed(exact.A[l][m] or (), numeric.A[l][m] or ())
 
 
-def assert_enclosed(
-    exact: Sequence[Sequence[Cell]], enclosures: Sequence[Sequence[Cell]]
-) -> None:
+def assert_enclosed(exact: Sequence[Sequence[Cell]], enclosures: Sequence[Sequence[Cell]]) -> None:
     """Each ball is narrow and meets a much narrower ball around the exact number."""
     assert len(exact) == len(enclosures) > 0
     for row, balls in zip(exact, enclosures, strict=True):
@@ -395,9 +335,7 @@ def test_blocks_have_the_shape_of_their_colours() -> None:
     with pytest.raises(ShapeMismatch, match="block 1,1"):
         spelled_out([[((one, one),)]], [(one,)], [(one,)])
     with pytest.raises(ShapeMismatch, match=r"b\^\{1\}"):
-        Tableau(
-            (PointSpace((one,)),), (Colour("1", 0, (one, one), (one,)),), {}
-        )
+        Tableau((PointSpace((one,)),), (Colour("1", 0, (one, one), (one,)),), {})
 
 
 @given(st.fractions(0, 1, max_denominator=9))

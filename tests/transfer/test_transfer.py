@@ -58,11 +58,7 @@ def point_methods(draw: st.DrawFn) -> Method:
     c = draw(st.lists(rationals, min_size=s, max_size=s, unique=True))
     b = draw(st.lists(rationals.filter(bool), min_size=s, max_size=s))
     A = draw(
-        st.lists(
-            st.lists(rationals, min_size=s, max_size=s).map(tuple),
-            min_size=s,
-            max_size=s,
-        )
+        st.lists(st.lists(rationals, min_size=s, max_size=s).map(tuple), min_size=s, max_size=s)
     )
     return butcher(tuple(A), tuple(b), tuple(c))
 
@@ -75,24 +71,16 @@ def integral(f: Vector, x: fmpq) -> fmpq:
 @given(point_methods(), point_methods())
 def test_collocation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (coll): a_ij = ∫_0^{c_i} L_j, entry by entry."""
-    wanted = tuple(
-        tuple(integral(lagrange(m.c, j), c) for j in range(m.stages))
-        for c in l.c
-    )
+    wanted = tuple(tuple(integral(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
     assert collocation(l, m) == wanted
 
 
 @given(point_methods(), point_methods())
 def test_interpolation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (interp): L^{m}(c^{l}) A^{m,m}, entry by entry."""
-    L = tuple(
-        tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c
-    )
+    L = tuple(tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
     wanted = tuple(
-        tuple(
-            sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0))
-            for j in range(m.stages)
-        )
+        tuple(sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0)) for j in range(m.stages))
         for row in L
     )
     assert interpolation(l, m) == wanted
@@ -122,8 +110,7 @@ def test_combinations_are_sums(l: str, m: str, weights: list[fmpq]) -> None:
     for i in range(here.stages):
         for j in range(there.stages):
             assert found[i][j] == sum(
-                (w * A[i][j] for w, A in zip(weights, blocks, strict=True)),
-                fmpq(0),
+                (w * A[i][j] for w, A in zip(weights, blocks, strict=True)), fmpq(0)
             )
     assert combination(terms[::-1], here, there) == found
 
@@ -134,21 +121,13 @@ def test_combinations_integrate_low_degrees(l: str, m: str, tau: fmpq) -> None:
     1.
     """
     here, there = samples.method(l), samples.method(m)
-    block = combination(
-        [(tau, interpolation), (1 - tau, collocation)], here, there
-    )
-    if not isinstance(here.space, PolynomialSpace) or not isinstance(
-        there.space, PolynomialSpace
-    ):
+    block = combination([(tau, interpolation), (1 - tau, collocation)], here, there)
+    if not isinstance(here.space, PolynomialSpace) or not isinstance(there.space, PolynomialSpace):
         return
     for k in range(min(there.stages - 1, _stage_order(there))):
         power = tuple(fmpq(int(i == k)) for i in range(there.stages))
-        integral_of_it = (
-            fmpq_poly([0] * (k + 1) + [fmpq(1, k + 1)]) % here.space.modulus
-        )
-        assert image(block, power) == tuple(
-            integral_of_it[i] for i in range(here.stages)
-        )
+        integral_of_it = fmpq_poly([0] * (k + 1) + [fmpq(1, k + 1)]) % here.space.modulus
+        assert image(block, power) == tuple(integral_of_it[i] for i in range(here.stages))
 
 
 def _stage_order(method: Method) -> int:
@@ -162,9 +141,7 @@ def test_stage_order_does_not_depend_on_tau(l: str, m: str, tau: fmpq) -> None:
     """The corollary: C^{l,m}(min(η^{m,m}, s_m − 1)) holds for every τ, and beyond it for τ alone
     where it does.
     """
-    tableau = samples.everywhere(
-        samples.mixture(str(1 - tau), str(tau), "0", "0"), l, m
-    )
+    tableau = samples.everywhere(samples.mixture(str(1 - tau), str(tau), "0", "0"), l, m)
     found = simplifying(tableau, 10).C
     for k, n in ((0, 1), (1, 0)):
         own, mixed = found[n][n], found[k][n]
@@ -187,21 +164,14 @@ def test_rules_differ_where_the_method_is_no_collocation_method() -> None:
     ia = samples.method("radau-ia 2")
     assert interpolation(ia, ia) == ia.A
     assert collocation(ia, ia) != ia.A
-    iiib, iiia = (
-        samples.method("lobatto-iiib 3"),
-        samples.method("lobatto-iiia 3"),
-    )
+    iiib, iiia = (samples.method("lobatto-iiib 3"), samples.method("lobatto-iiia 3"))
     assert collocation(iiib, iiib) == iiia.A
 
 
 @given(
-    st.sampled_from(NAMES[:-1]),
-    st.sampled_from(NAMES[:-1]),
-    st.sampled_from(sorted(PAIR_RULES)),
+    st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), st.sampled_from(sorted(PAIR_RULES))
 )
-def test_symplectic_blocks_are_conjugate_to_each_other(
-    base: str, other: str, rule: str
-) -> None:
+def test_symplectic_blocks_are_conjugate_to_each_other(base: str, other: str, rule: str) -> None:
     """A^{other,base} is by the rule, and conjugating the tableau leaves both off-diagonal blocks as
     they are.
     """
@@ -225,17 +195,13 @@ SYMPLECTIC = [
 
 @pytest.mark.parametrize("rule", PAIR_RULES)
 @pytest.mark.parametrize("names", SYMPLECTIC)
-def test_symplectic_rules_keep_the_smaller_order(
-    rule: str, names: tuple[str, str]
-) -> None:
+def test_symplectic_rules_keep_the_smaller_order(rule: str, names: tuple[str, str]) -> None:
     """Built on the method of smaller order, Q and its pair have the smaller of the two orders."""
     methods = [samples.method(name) for name in names]
     orders = [find_order(gark([method], {})).order for method in methods]
     base = build_on(methods, orders, 0, 1)
     assert orders[base] == min(orders)
-    Q = gark(
-        methods, symplectic_blocks(PAIR_RULES[rule], methods, base, 1 - base)
-    )
+    Q = gark(methods, symplectic_blocks(PAIR_RULES[rule], methods, base, 1 - base))
     assert find_order(Q).order == find_order(pair(Q)).order == min(orders)
 
 
@@ -243,20 +209,11 @@ def test_what_a_symplectic_rule_builds_on() -> None:
     """Smaller order first, then fewer stages, then the lower number, whichever way round it is
     asked.
     """
-    methods = [
-        samples.method(name)
-        for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")
-    ]
+    methods = [samples.method(name) for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")]
     orders = [4, 4, 2, 4]
-    assert (
-        build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2
-    )
-    assert (
-        build_on(methods, orders, 0, 1) == build_on(methods, orders, 1, 0) == 1
-    )
-    assert (
-        build_on(methods, orders, 1, 3) == build_on(methods, orders, 3, 1) == 1
-    )
+    assert build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2
+    assert build_on(methods, orders, 0, 1) == build_on(methods, orders, 1, 0) == 1
+    assert build_on(methods, orders, 1, 3) == build_on(methods, orders, 3, 1) == 1
 
 
 def test_coinciding_nodes() -> None:
@@ -270,20 +227,14 @@ def test_coinciding_nodes() -> None:
 
 def test_zero_weights() -> None:
     """A conjugate rule divides by the weights of l, not by those of m."""
-    midpoint, gauss = (
-        samples.method("explicit-midpoint"),
-        samples.method("gauss 2"),
-    )
+    midpoint, gauss = (samples.method("explicit-midpoint"), samples.method("gauss 2"))
     with pytest.raises(ZeroWeight, match="b_1 = 0"):
         conjugate_rule(collocation)(midpoint, gauss)
     block: Matrix = conjugate_rule(collocation)(gauss, midpoint)
     assert len(block) == 2
     with pytest.raises(ZeroWeight):
         symplectic_blocks(collocation, [midpoint, gauss], 0, 1)
-    assert set(symplectic_blocks(collocation, [gauss, midpoint], 0, 1)) == {
-        (0, 1),
-        (1, 0),
-    }
+    assert set(symplectic_blocks(collocation, [gauss, midpoint], 0, 1)) == {(0, 1), (1, 0)}
 
 
 def test_every_rule_has_its_line() -> None:
@@ -296,9 +247,7 @@ def test_all_combinations_are_consistent(seed: int) -> None:
     """Weights that sum to 1 give A^{l,m} 𝟙 = c^{l} where all rules do."""
     dice = Random(seed)
     weights = [samples.small(dice) for _ in range(3)]
-    rule = samples.mixture(
-        *(str(x) for x in (*weights, 1 - sum(weights, fmpq(0))))
-    )
+    rule = samples.mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))
     tableau = samples.everywhere(rule, "gauss 2", "lobatto-iiia 3")
     found = simplifying(tableau, 3).C
     assert all(x is not None and x >= 1 for row in found for x in row)
@@ -306,9 +255,7 @@ def test_all_combinations_are_consistent(seed: int) -> None:
 
 def unrelated_nodes(count: int, first_denominator: int) -> Vector:
     """Distinct fractions whose denominators have little in common."""
-    return tuple(
-        fmpq(k, first_denominator + 2 * k) for k in range(1, count + 1)
-    )
+    return tuple(fmpq(k, first_denominator + 2 * k) for k in range(1, count + 1))
 
 
 def at_nodes(c: Vector) -> Method:
@@ -318,9 +265,7 @@ def at_nodes(c: Vector) -> Method:
     return butcher(A, (fmpq(1, s),) * s, c)
 
 
-@pytest.mark.parametrize(
-    "nodes", ["0, sqrt(2), 1, 1/3", "cbrt(2), 1 - cbrt(2), sqrt(3)"]
-)
+@pytest.mark.parametrize("nodes", ["0, sqrt(2), 1, 1/3", "cbrt(2), 1 - cbrt(2), sqrt(3)"])
 def test_collocation_at_irrational_nodes_is_its_definition(nodes: str) -> None:
     """Eq. (coll) where the nodes lie in a number field, at rational and at these nodes."""
     (c,) = numbers(nodes)
@@ -368,15 +313,9 @@ def test_what_would_fill_the_memory_is_refused() -> None:
     """400 unrelated nodes are refused by an estimate, in a moment, with the reason and a cure."""
     m, l = at_nodes(unrelated_nodes(400, 10**40)), samples.method("gauss 2")
     start = process_time()
-    rules = [
-        (collocation, l, m),
-        (interpolation, l, m),
-        (conjugate_rule(collocation), m, l),
-    ]
+    rules = [(collocation, l, m), (interpolation, l, m), (conjugate_rule(collocation), m, l)]
     for rule, here, there in rules:
-        with pytest.raises(
-            BlockTooLarge, match=r"400 nodes .* digits: too large"
-        ) as caught:
+        with pytest.raises(BlockTooLarge, match=r"400 nodes .* digits: too large") as caught:
             rule(here, there)
         assert "small denominators" in caught.value.help
     assert process_time() - start < 60
@@ -386,17 +325,13 @@ def test_what_would_fill_the_memory_is_refused() -> None:
 def test_many_nodes_of_one_denominator_are_not_refused() -> None:
     """100 nodes k/100 share their denominator: the estimate knows."""
     m = at_nodes(tuple(fmpq(k, 100) for k in range(100)))
-    assert image(
-        collocation(samples.method("gauss 2"), m), (fmpq(1),) * 100
-    ) == (0, 1)
+    assert image(collocation(samples.method("gauss 2"), m), (fmpq(1),) * 100) == (0, 1)
 
 
 def test_the_conjugate_of_long_entries_is_an_involution() -> None:
     """Conjugated twice, blocks whose denominators have nothing in common are what they were."""
     m, l = at_nodes(unrelated_nodes(20, 10**40)), samples.method("gauss 2")
-    tableau = gark(
-        [l, m], {(0, 1): collocation(l, m), (1, 0): collocation(m, l)}
-    )
+    tableau = gark([l, m], {(0, 1): collocation(l, m), (1, 0): collocation(m, l)})
     once = conjugate(tableau)
     assert once.block(0, 1) != tableau.block(0, 1)
     assert conjugate(once).blocks == tableau.blocks

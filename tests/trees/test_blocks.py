@@ -33,30 +33,22 @@ def test_blocks_are_the_table(size: int, linear: tuple[int, ...]) -> None:
     for order in (1, 2, 5, 7):
         blocks = list(iter_blocks(2, order, size, linear=linear))
         assert all(0 < len(block) <= size for block in blocks)
-        assert joined(blocks) == [
-            column.tolist() for column in columns_of(table, order).all()
-        ]
+        assert joined(blocks) == [column.tolist() for column in columns_of(table, order).all()]
 
 
 def test_blocks_have_texts_and_trees() -> None:
     """The text and the trees of blocks are those of the table."""
     table = TreeTable.upto(3, 5)
     blocks = list(iter_blocks(3, 5, 50))
-    assert [
-        text for block in blocks for text in block.notation()
-    ] == table.notation(table.ids(5))
-    assert [u for block in blocks for u in block.trees()] == [
-        table.tree(i) for i in table.ids(5)
-    ]
+    assert [text for block in blocks for text in block.notation()] == table.notation(table.ids(5))
+    assert [u for block in blocks for u in block.trees()] == [table.tree(i) for i in table.ids(5)]
 
 
 def test_totals_without_the_whole_order() -> None:
     """Σ n!/(σ γ) of 4 colours and order 7 adds up block by block; σ and γ have their range."""
     total = 0
     for block in iter_blocks(4, 7, 10_000):
-        total += int(
-            (factorial(7) // (block.columns.sigma * block.columns.gamma)).sum()
-        )
+        total += int((factorial(7) // (block.columns.sigma * block.columns.gamma)).sum())
     assert total == 4**7 * factorial(6)
 
 
@@ -76,10 +68,7 @@ def test_blocks_beyond_64_bits() -> None:
 @pytest.mark.parametrize("only", [None, (0, 1), (2,)])
 @pytest.mark.parametrize("using", [(), (1,), (0, 2)])
 def test_selection(
-    order: int,
-    root: int | None,
-    only: tuple[int, ...] | None,
-    using: tuple[int, ...],
+    order: int, root: int | None, only: tuple[int, ...] | None, using: tuple[int, ...]
 ) -> None:
     """Selecting is filtering: by root colour, by the colours allowed, by the colours that must
     occur.

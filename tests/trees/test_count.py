@@ -7,46 +7,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.trees import count
-from garkcli.trees.count import (
-    Admissible,
-    count_by_root,
-    count_trees,
-    counts_upto,
-)
+from garkcli.trees.count import Admissible, count_by_root, count_trees, counts_upto
 
 
 @pytest.mark.parametrize(
     ("colours", "counts"),
     [
-        (
-            1,
-            [
-                1,
-                1,
-                2,
-                4,
-                9,
-                20,
-                48,
-                115,
-                286,
-                719,
-                1842,
-                4766,
-                12486,
-                32973,
-                87811,
-            ],
-        ),
+        (1, [1, 1, 2, 4, 9, 20, 48, 115, 286, 719, 1842, 4766, 12486, 32973, 87811]),
         (2, [2, 4, 14, 52, 214, 916, 4116, 18996, 89894, 433196]),
         (4, [4, 16, 104, 752, 5996, 50512, 444256, 4027360]),
     ],
 )
 def test_known_counts(colours: int, counts: list[int]) -> None:
     """Rooted trees (OEIS A000081) and rooted trees with two and four colours of vertices."""
-    assert [
-        count_trees(colours, n) for n in range(1, len(counts) + 1)
-    ] == counts
+    assert [count_trees(colours, n) for n in range(1, len(counts) + 1)] == counts
 
 
 def test_large_orders_are_exact() -> None:
@@ -82,9 +56,7 @@ def test_a_linear_colour_grows_tall_trees_only() -> None:
 
 def test_no_edges_no_trees() -> None:
     """Colours that see nothing have single vertices only."""
-    assert counts_upto(
-        Admissible.of(2, [[False, False], [False, False]]), 3
-    ) == [
+    assert counts_upto(Admissible.of(2, [[False, False], [False, False]]), 3) == [
         (1, 1),
         (0, 0),
         (0, 0),
@@ -102,10 +74,7 @@ def test_no_edges_no_trees() -> None:
     ],
 )
 def test_senseless_questions_are_refused(
-    colours: int,
-    order: int,
-    edges: list[list[bool]] | None,
-    linear: tuple[int, ...],
+    colours: int, order: int, edges: list[list[bool]] | None, linear: tuple[int, ...]
 ) -> None:
     """No colours, order 0, a matrix of the wrong shape, an unknown linear colour: each a
     ValueError.
@@ -121,17 +90,8 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     for n in range(1, order):
         grown = []
         for colour in colours:
-            t = [
-                0,
-                *(
-                    sum(forests[m][k] for m in admissible.branches[colour])
-                    for k in range(n)
-                ),
-            ]
-            c = [
-                sum(d * t[d] for d in range(1, k + 1) if k % d == 0)
-                for k in range(n + 1)
-            ]
+            t = [0, *(sum(forests[m][k] for m in admissible.branches[colour]) for k in range(n))]
+            c = [sum(d * t[d] for d in range(1, k + 1) if k % d == 0) for k in range(n + 1)]
             total = sum(c[k] * forests[colour][n - k] for k in range(1, n + 1))
             assert colour in admissible.linear or total % n == 0
             grown.append(t[n] if colour in admissible.linear else total // n)
@@ -140,12 +100,7 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     return [tuple(f[n] for f in forests) for n in range(order)]
 
 
-@given(
-    data=st.data(),
-    colours=st.integers(1, 3),
-    order=st.integers(1, 30),
-    short=st.integers(1, 7),
-)
+@given(data=st.data(), colours=st.integers(1, 3), order=st.integers(1, 30), short=st.integers(1, 7))
 @settings(max_examples=30, deadline=None)
 def test_blocks_make_no_difference(
     data: st.DataObject, colours: int, order: int, short: int
@@ -185,7 +140,4 @@ def test_thousands_of_vertices_are_soon_counted() -> None:
     for d in range(1, order + 1):
         for k in range(d, order + 1, d):
             c[k] += d * t[d]
-    assert (
-        sum(c[k] * f[order - k] for k in range(1, order + 1))
-        == order * f[order]
-    )
+    assert sum(c[k] * f[order - k] for k in range(1, order + 1)) == order * f[order]

@@ -15,9 +15,7 @@ from garkcli.trees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 11)),
-    lambda inner: st.builds(
-        Tree, st.integers(0, 11), st.lists(inner, max_size=4)
-    ),
+    lambda inner: st.builds(Tree, st.integers(0, 11), st.lists(inner, max_size=4)),
     max_leaves=15,
 )
 
@@ -26,10 +24,7 @@ PICTURES = [
     ("[[]_2]_1", ["●2", "│", "●1"]),
     ("[[]_2,[]_2]_1", ["●2 ●2", "╰┬─╯", " ●1"]),
     ("[[]_1,[]_2,[]_3]_1", ["●1 ●2 ●3", "╰──┼──╯", "   ●1"]),
-    (
-        "[[[]_3,[]_4]_5,[]_8]_12",
-        ["●3 ●4", "╰┬─╯", " ●5   ●8", " ╰─┬──╯", "   ●12"],
-    ),
+    ("[[[]_3,[]_4]_5,[]_8]_12", ["●3 ●4", "╰┬─╯", " ●5   ●8", " ╰─┬──╯", "   ●12"]),
 ]
 
 
@@ -43,12 +38,8 @@ def test_lying_where_there_is_no_room() -> None:
     """Too wide a tree is drawn on its side, one vertex a line."""
     u = parse_tree("[[[]_3,[]_4]_5,[]_8]_2")
     assert draw_text(u, width=7) == ["●2", "├─●5", "│ ├─●3", "│ ╰─●4", "╰─●8"]
-    assert draw_text(Tree(0, [Tree(0)] * 40), colours=False, width=80)[
-        0
-    ] == " ".join(["●"] * 40)
-    assert (
-        len(draw_text(Tree(0, [Tree(0)] * 41), colours=False, width=80)) == 42
-    )
+    assert draw_text(Tree(0, [Tree(0)] * 40), colours=False, width=80)[0] == " ".join(["●"] * 40)
+    assert len(draw_text(Tree(0, [Tree(0)] * 41), colours=False, width=80)) == 42
 
 
 @given(trees)
@@ -58,10 +49,7 @@ def test_every_vertex_is_drawn(tree: Tree) -> None:
     """
     for width in (80, 1):
         lines = draw_text(tree, width=width)
-        found = sorted(
-            int(number) - 1
-            for number in re.findall(r"●(\d+)", "\n".join(lines))
-        )
+        found = sorted(int(number) - 1 for number in re.findall(r"●(\d+)", "\n".join(lines)))
         assert found == sorted(u.root for u in tree.vertices())
         assert max(map(len, lines)) <= 80
     assert "\n".join(draw_text(tree, colours=False)).count("●") == tree.order
@@ -93,15 +81,10 @@ def test_large_trees_are_drawn() -> None:
 def test_svg_sheet() -> None:
     """The sheet is well-formed XML that draws inside its frame, with σ, γ and escaped captions."""
     trees_of_sheet = [parse_tree(text) for text, _ in PICTURES]
-    sheet = draw_svg_sheet(
-        trees_of_sheet, ["a < b & c"] * len(PICTURES), columns=2
-    )
+    sheet = draw_svg_sheet(trees_of_sheet, ["a < b & c"] * len(PICTURES), columns=2)
     picture = ET.fromstring(sheet)
     space = "{http://www.w3.org/2000/svg}"
-    width, height = (
-        float(picture.attrib["width"]),
-        float(picture.attrib["height"]),
-    )
+    width, height = (float(picture.attrib["width"]), float(picture.attrib["height"]))
     dots = picture.findall(f"{space}circle")
     assert len(dots) == sum(u.order for u in trees_of_sheet)
     for dot in dots:
@@ -122,10 +105,7 @@ def test_svg_sheet_of_nothing() -> None:
 def luminance(colour: str) -> float:
     """Relative luminance of the Web Content Accessibility Guidelines 2.1."""
     channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    linear = [
-        c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4
-        for c in channels
-    ]
+    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 

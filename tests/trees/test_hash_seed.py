@@ -12,22 +12,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 RUNS = [
     ("tableau", "methods/three-colours.gark.yaml", "--format", "json"),
-    (
-        "conjugate",
-        "methods/interpolation.gark.yaml",
-        "--pair",
-        "--format",
-        "latex",
-    ),
+    ("conjugate", "methods/interpolation.gark.yaml", "--pair", "--format", "latex"),
     ("trees", "-N", "2", "-n", "4"),
     ("conditions", "-N", "2", "-n", "3", "--symplectic"),
-    (
-        "conditions",
-        "methods/semi-separable.gark.yaml",
-        "-n",
-        "3",
-        "--symplectic",
-    ),
+    ("conditions", "methods/semi-separable.gark.yaml", "-n", "3", "--symplectic"),
 ]
 SCRIPT = (
     "import sys\n"

@@ -20,20 +20,14 @@ from garkcli.trees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 11)),
-    lambda inner: st.builds(
-        Tree, st.integers(0, 11), st.lists(inner, max_size=4)
-    ),
+    lambda inner: st.builds(Tree, st.integers(0, 11), st.lists(inner, max_size=4)),
     max_leaves=15,
 )
 
 # The paper's Table 1, "Order conditions for GARK methods up to order 4", its macros written out.
 TABLE_1 = [
     ("[]", "b{l}ᵀ𝟙 = 1", r"{b^{\{l\}}}^T 1^{\{l\}} = 1"),
-    (
-        "[[]]",
-        "b{l}ᵀA{l,m}𝟙 = 1/2",
-        r"{b^{\{l\}}}^T A^{\{l,m\}} 1^{\{m\}} = \frac12",
-    ),
+    ("[[]]", "b{l}ᵀA{l,m}𝟙 = 1/2", r"{b^{\{l\}}}^T A^{\{l,m\}} 1^{\{m\}} = \frac12"),
     (
         "[[],[]]",
         "b{l}ᵀ((A{l,m}𝟙) ⊙ (A{l,n}𝟙)) = 1/3",
@@ -74,9 +68,7 @@ def test_table_1_of_the_paper(tree: str, text: str, latex: str) -> None:
     u = parse_tree(tree)
     letters = vertex_letters(u)
     assert condition_text(u, letters) == text
-    assert condition_latex(u, letters) == latex.replace(
-        " 1^", r" \mathbbm{1}^"
-    )
+    assert condition_latex(u, letters) == latex.replace(" 1^", r" \mathbbm{1}^")
     assert format_tree(u, colours=False) == tree
 
 
@@ -115,9 +107,9 @@ def test_shapes_round_trip(tree: Tree) -> None:
     shape = parse_tree(format_tree(tree, colours=False))
     assert shape.colours == {0}
     assert (shape.order, shape.density) == (tree.order, tree.density)
-    assert format_tree(
-        parse_tree(format_tree(shape)), colours=False
-    ) == format_tree(shape, colours=False)
+    assert format_tree(parse_tree(format_tree(shape)), colours=False) == format_tree(
+        shape, colours=False
+    )
 
 
 def test_latex_of_the_paper() -> None:

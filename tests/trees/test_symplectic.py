@@ -14,20 +14,9 @@ from flint import fmpq
 
 from garkcli.exact.matrix import Matrix, add, scale
 from garkcli.families.registry import diagonal_method
-from garkcli.order.conditions import (
-    Condition,
-    conditions,
-    coupling_graph,
-    elementary_weight,
-)
+from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
 from garkcli.tableau.conjugate import conjugate, is_symplectic
-from garkcli.tableau.forms import (
-    gark,
-    pair,
-    spelled_out,
-    symplectic_pair,
-    with_linear,
-)
+from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
 from garkcli.trees.count import count_trees
@@ -71,10 +60,7 @@ listed = pytest.mark.parametrize(("kind", "highest"), LISTED)
 
 def classes(kind: Structure, order: int) -> list[ConditionClass]:
     """All classes of one order, the superfluous ones last."""
-    return [
-        *independent_classes(kind, order),
-        *superfluous_classes(kind, order),
-    ]
+    return [*independent_classes(kind, order), *superfluous_classes(kind, order)]
 
 
 def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
@@ -86,23 +72,16 @@ def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
         return fmpq(dice.choice([-3, -2, -1, 1, 2, 3]), dice.randint(1, 4))
 
     def block(rows: int, columns: int) -> Matrix:
-        return tuple(
-            tuple(number() for _ in range(columns)) for _ in range(rows)
-        )
+        return tuple(tuple(number() for _ in range(columns)) for _ in range(rows))
 
     free = spelled_out(
-        [[block(r, k) for k in s] for r in s],
-        [block(1, k)[0] for k in s],
-        [None] * colours,
+        [[block(r, k) for k in s] for r in s], [block(1, k)[0] for k in s], [None] * colours
     )
     if kind == "pair":
         return pair(free)
     if kind == "self-conjugate":
         other = conjugate(free).blocks
-        means = {
-            edge: scale(fmpq(1, 2), add(A, other[edge]))
-            for edge, A in free.blocks.items()
-        }
+        means = {edge: scale(fmpq(1, 2), add(A, other[edge])) for edge, A in free.blocks.items()}
         return replace(free, blocks=means)
     if kind == "semi-separable":
         return symplectic_pair(free, [0], [0, 1])
@@ -113,10 +92,7 @@ def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
 @pytest.mark.parametrize(
     ("kind", "counts"),
     [
-        (
-            structure_of("pair", 1),
-            [1, 1, 3, 8, 27, 91, 350, 1376, 5743, 24635],
-        ),
+        (structure_of("pair", 1), [1, 1, 3, 8, 27, 91, 350, 1376, 5743, 24635]),
         (
             structure_of("separable"),
             [2, 1, 2, 3, 6, 10, 22, 42, 94, 203, 470, 1082, 2602, 6270, 15482],
@@ -133,16 +109,14 @@ def test_counts(kind: Structure, counts: list[int]) -> None:
     """Oriented trees (OEIS A000238), bicoloured trees (A122086), and the numbers of symplectic RK,
     for a start.
     """
-    assert [
-        count_classes(kind, n) for n in range(1, len(counts) + 1)
-    ] == counts
+    assert [count_classes(kind, n) for n in range(1, len(counts) + 1)] == counts
 
 
 def test_the_documented_counts() -> None:
     """The table of counts in the documentation is what is counted, with a row for each kind."""
-    text = (
-        Path(__file__).parents[2] / "docs" / "symplectic-conditions.md"
-    ).read_text(encoding="utf-8")
+    text = (Path(__file__).parents[2] / "docs" / "symplectic-conditions.md").read_text(
+        encoding="utf-8"
+    )
     rows = [
         [cell.strip() for cell in line.strip("|").split("|")]
         for line in text.splitlines()
@@ -151,13 +125,8 @@ def test_the_documented_counts() -> None:
     counts = [row for row in rows if row[0] in KINDS and len(row) == 10]
     assert {row[0] for row in counts} == set(KINDS)
     for kind in KINDS:
-        for colours, *shown in (
-            map(int, row[1:]) for row in counts if row[0] == kind
-        ):
-            assert shown == [
-                count_classes(structure_of(kind, colours), n)
-                for n in range(1, 9)
-            ]
+        for colours, *shown in (map(int, row[1:]) for row in counts if row[0] == kind):
+            assert shown == [count_classes(structure_of(kind, colours), n) for n in range(1, 9)]
 
 
 @listed
@@ -175,16 +144,10 @@ def test_counts_of_high_order() -> None:
     """Order 60, exactly: bicoloured free trees are those of one colour twice, less the symmetric
     ones.
     """
-    separable, one = (
-        structure_of("separable"),
-        structure_of("self-conjugate", 1),
-    )
+    separable, one = (structure_of("separable"), structure_of("self-conjugate", 1))
     for n in range(2, 61):
         symmetric = 0 if n % 2 else count_trees(1, n // 2)
-        assert (
-            count_classes(separable, n)
-            == 2 * count_classes(one, n) + symmetric
-        )
+        assert count_classes(separable, n) == 2 * count_classes(one, n) + symmetric
 
 
 @listed
@@ -195,9 +158,7 @@ def test_members_partition_the_trees(kind: Structure, highest: int) -> None:
     table = TreeTable.of(kind.admissible, highest)
     for order in range(1, highest + 1):
         members = [u for c in classes(kind, order) for u in c.members]
-        assert sorted(members, key=Tree.sort_key) == [
-            table.tree(i) for i in table.ids(order)
-        ]
+        assert sorted(members, key=Tree.sort_key) == [table.tree(i) for i in table.ids(order)]
 
 
 @listed
@@ -205,9 +166,7 @@ def test_class_of_a_tree(kind: Structure, highest: int) -> None:
     """From any member the class is found again, with its representative among the members."""
     for c in classes(kind, min(highest, 5)):
         assert c.representative in c.members
-        assert all(
-            class_of(kind, u) == c and u.order == c.order for u in c.members
-        )
+        assert all(class_of(kind, u) == c and u.order == c.order for u in c.members)
 
 
 @listed
@@ -216,9 +175,7 @@ def test_superfluous_is_said(kind: Structure, highest: int) -> None:
     ones.
     """
     for order in range(1, highest + 1):
-        assert not any(
-            c.is_superfluous for c in independent_classes(kind, order)
-        )
+        assert not any(c.is_superfluous for c in independent_classes(kind, order))
         superfluous = list(superfluous_classes(kind, order))
         assert all(c.is_superfluous for c in superfluous)
         assert not (superfluous and kind.is_directed)
@@ -227,22 +184,14 @@ def test_superfluous_is_said(kind: Structure, highest: int) -> None:
 def test_superfluous_by_hand() -> None:
     """With one colour the superfluous trees of order 4 are the two rootings of the path."""
     (path,) = superfluous_classes(structure_of("self-conjugate", 1), 4)
-    assert [format_tree(u, colours=False) for u in path.members] == [
-        "[[[]],[]]",
-        "[[[[]]]]",
-    ]
+    assert [format_tree(u, colours=False) for u in path.members] == ["[[[]],[]]", "[[[[]]]]"]
 
 
 def test_a_class_by_hand() -> None:
     """For N = 1, bᵀ(Â𝟙 ⊙ Â𝟙) and bᵀAÂ𝟙 are one condition, with either colour of the root."""
     c = class_of(structure_of("pair", 1), parse_tree("[[[]_2]_1]_1"))
     written = [format_tree(u) for u in c.members]
-    assert written == [
-        "[[]_2,[]_2]_1",
-        "[[[]_2]_1]_1",
-        "[[]_2,[]_2]_2",
-        "[[[]_2]_1]_2",
-    ]
+    assert written == ["[[]_2,[]_2]_1", "[[[]_2]_1]_1", "[[]_2,[]_2]_2", "[[[]_2]_1]_2"]
     assert format_tree(c.representative) == "[[]_2,[]_2]_1"
 
 
@@ -260,13 +209,8 @@ def test_the_structure_is_that_of_the_tableau(kind: Kind, seed: int) -> None:
         tuple(m for m in range(tableau.size) if row[m]) for row in edges
     )
     assert admissible.linear == linear
-    quadratic = frozenset(
-        colour.space for colour in tableau.colours if colour.is_linear
-    )
-    told = Structure(
-        tuple((colour.space, colour.part) for colour in tableau.colours),
-        quadratic,
-    )
+    quadratic = frozenset(colour.space for colour in tableau.colours if colour.is_linear)
+    told = Structure(tuple((colour.space, colour.part) for colour in tableau.colours), quadratic)
     assert told.admissible == admissible
     assert count_classes(told, 6) == count_classes(structure_of(kind), 6)
 
@@ -285,9 +229,7 @@ def test_the_structure_is_that_of_the_tableau(kind: Kind, seed: int) -> None:
     ],
 )
 @pytest.mark.parametrize("seed", range(2))
-def test_moving_the_root(
-    kind: Kind, colours: int, order: int, seed: int
-) -> None:
+def test_moving_the_root(kind: Kind, colours: int, order: int, seed: int) -> None:
     """Φ(u∘v) + Φ(v∘u) = Φ(u) Φ(v), exactly, for every edge of every tree and random methods; 1/γ
     does the same.
 
@@ -296,29 +238,15 @@ def test_moving_the_root(
     formal = replace(structure_of(kind, colours), quadratic=frozenset())
     method = random_method(kind, colours, seed)
     method = replace(
-        method,
-        colours=tuple(
-            replace(colour, is_linear=False) for colour in method.colours
-        ),
+        method, colours=tuple(replace(colour, is_linear=False) for colour in method.colours)
     )
-    for tree in (
-        u
-        for n in range(2, order + 1)
-        for c in classes(formal, n)
-        for u in c.members
-    ):
+    for tree in (u for n in range(2, order + 1) for c in classes(formal, n) for u in c.members):
         for index, v in enumerate(tree.branches):
-            u = Tree(
-                tree.root, tree.branches[:index] + tree.branches[index + 1 :]
-            )
+            u = Tree(tree.root, tree.branches[:index] + tree.branches[index + 1 :])
             moved = formal.move_root(tree, index)
-            values = [
-                elementary_weight(method, x) for x in (tree, moved, u, v)
-            ]
+            values = [elementary_weight(method, x) for x in (tree, moved, u, v)]
             assert values[0] + values[1] == values[2] * values[3]
-            assert fmpq(1, tree.density) + fmpq(1, moved.density) == fmpq(
-                1, u.density * v.density
-            )
+            assert fmpq(1, tree.density) + fmpq(1, moved.density) == fmpq(1, u.density * v.density)
 
 
 def lobatto_pair() -> Tableau:
@@ -329,10 +257,7 @@ def lobatto_pair() -> Tableau:
 def mixed(velocities: list[int], forces: list[int]) -> Tableau:
     """Gauss 2 and Lobatto IIIA 3 with collocation between them, of order 4."""
     methods = [diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3)]
-    blocks = {
-        (0, 1): collocation(*methods),
-        (1, 0): collocation(*reversed(methods)),
-    }
+    blocks = {(0, 1): collocation(*methods), (1, 0): collocation(*reversed(methods))}
     return symplectic_pair(gark(methods, blocks), velocities, forces)
 
 
@@ -344,18 +269,8 @@ def mixed(velocities: list[int], forces: list[int]) -> Tableau:
         ("semi-separable", 2, lambda: mixed([0], [0, 1]), 4),
         ("separable", 2, lambda: mixed([0], [1]), 4),
         ("nystrom", 2, lambda: with_linear(mixed([0], [1]), ["V1"]), 4),
-        (
-            "self-conjugate",
-            1,
-            lambda: gark([diagonal_method("gauss", 2)], {}),
-            4,
-        ),
-        (
-            "self-conjugate",
-            1,
-            lambda: gark([diagonal_method("gauss", 1)], {}),
-            2,
-        ),
+        ("self-conjugate", 1, lambda: gark([diagonal_method("gauss", 2)], {}), 4),
+        ("self-conjugate", 1, lambda: gark([diagonal_method("gauss", 1)], {}), 2),
     ],
 )
 def test_members_fail_together(
@@ -387,9 +302,7 @@ def test_superfluous_conditions_hold() -> None:
     midpoint = gark([diagonal_method("gauss", 1)], {})
     made = structure_of("self-conjugate", 1)
     (path,) = superfluous_classes(made, 4)
-    assert Condition(
-        path.centred, elementary_weight(midpoint, path.centred)
-    ).holds
+    assert Condition(path.centred, elementary_weight(midpoint, path.centred)).holds
     (star,) = independent_classes(made, 4)
     assert not any(x.holds for x in conditions(midpoint, star.members))
 
@@ -404,9 +317,7 @@ def test_superfluous_conditions_hold() -> None:
         lambda: Structure(((0, "q"), (1, "y"))),
         lambda: count_classes(structure_of("pair", 1), 0),
         lambda: next(independent_classes(structure_of("pair", 1), 0)),
-        lambda: next(
-            superfluous_classes(structure_of("self-conjugate", 1), 0)
-        ),
+        lambda: next(superfluous_classes(structure_of("self-conjugate", 1), 0)),
         lambda: class_of(structure_of("separable"), Tree(0, [Tree(0)])),
         lambda: class_of(structure_of("nystrom"), Tree(0, [Tree(1), Tree(1)])),
         lambda: class_of(structure_of("separable"), Tree(2)),

@@ -35,18 +35,13 @@ class Dual:
     slope: NDArray[np.int64]
 
     def __add__(self, other: Dual) -> Dual:
-        return Dual(
-            (self.value + other.value) % P, (self.slope + other.slope) % P
-        )
+        return Dual((self.value + other.value) % P, (self.slope + other.slope) % P)
 
     def __rsub__(self, constant: int) -> Dual:
         return Dual((constant - self.value) % P, -self.slope % P)
 
     def __mul__(self, other: Dual) -> Dual:
-        slope = (
-            self.value[..., None] * other.slope
-            + other.value[..., None] * self.slope
-        )
+        slope = self.value[..., None] * other.slope + other.value[..., None] * self.slope
         return Dual(self.value * other.value % P, slope % P)
 
     def __getitem__(self, index: Any) -> Dual:
@@ -54,12 +49,8 @@ class Dual:
 
     def inverse(self) -> Dual:
         """One over each entry."""
-        inverse = np.vectorize(
-            lambda x: pow(int(x), -1, P), otypes=[np.int64]
-        )(self.value)
-        return Dual(
-            inverse, -(inverse * inverse % P)[..., None] * self.slope % P
-        )
+        inverse = np.vectorize(lambda x: pow(int(x), -1, P), otypes=[np.int64])(self.value)
+        return Dual(inverse, -(inverse * inverse % P)[..., None] * self.slope % P)
 
     def total(self) -> Dual:
         """The sum along the last axis."""
@@ -94,9 +85,7 @@ class Method:
     blocks: dict[tuple[int, int], Dual]
 
 
-def pair_method(
-    made: Structure, stages: dict[int, int], coefficients: Coefficients
-) -> Method:
+def pair_method(made: Structure, stages: dict[int, int], coefficients: Coefficients) -> Method:
     """A random symplectic pair: free A^{l,m} and b^l, conjugate Â^{l,m}."""
     weights = {term: coefficients.new(s) for term, s in stages.items()}
     forward: dict[tuple[int, int], Dual] = {}
@@ -105,9 +94,7 @@ def pair_method(
         for m in made.admissible.branches[made.leaders[term]]:
             other, part = made.colours[m]
             if part == "q":
-                A = forward[term, other] = coefficients.new(
-                    stages[term], stages[other]
-                )
+                A = forward[term, other] = coefficients.new(stages[term], stages[other])
                 ratio = (
                     A.transposed() * weights[other].inverse()[:, None]
                 )  # a_{ji} / b_i, for Â^{other, term}
@@ -133,8 +120,7 @@ def self_conjugate_method(
     b = coefficients.new(size)
     upper = coefficients.new(size * (size - 1) // 2)
     z = Dual(
-        np.zeros((size, size), np.int64),
-        np.zeros((size, size, upper.slope.shape[-1]), np.int64),
+        np.zeros((size, size), np.int64), np.zeros((size, size, upper.slope.shape[-1]), np.int64)
     )
     above = np.triu_indices(size, 1)
     z.value[above], z.slope[above] = upper.value, upper.slope
@@ -142,9 +128,7 @@ def self_conjugate_method(
     A = (1 - (half - z + z.transposed())) * b[None]
     parts = [slice(start, end) for start, end in pairwise(ends)]
     blocks = {
-        (l, m): A[here, there]
-        for l, here in enumerate(parts)
-        for m, there in enumerate(parts)
+        (l, m): A[here, there] for l, here in enumerate(parts) for m, there in enumerate(parts)
     }
     return Method([b[parts[term]] for term, _ in made.colours], blocks)
 
@@ -155,9 +139,7 @@ def free_partitioned_method(s: int, coefficients: Coefficients) -> Method:
     """
     b = coefficients.new(s)
     blocks = [coefficients.new(s, s), coefficients.new(s, s)]
-    return Method(
-        [b, b], {(l, m): blocks[m] for l in range(2) for m in range(2)}
-    )
+    return Method([b, b], {(l, m): blocks[m] for l in range(2) for m in range(2)})
 
 
 def jacobian(method: Method, table: TreeTable) -> NDArray[np.int64]:
@@ -165,19 +147,13 @@ def jacobian(method: Method, table: TreeTable) -> NDArray[np.int64]:
     vectors: list[Dual] = []
     rows = []
     for stem, branch, root in zip(
-        table.stem.tolist(),
-        table.branch.tolist(),
-        table.root.tolist(),
-        strict=True,
+        table.stem.tolist(), table.branch.tolist(), table.root.tolist(), strict=True
     ):
         b = method.b[root]
         if branch < 0:
             vector = Dual(np.ones_like(b.value), np.zeros_like(b.slope))
         else:
-            below = (
-                method.blocks[root, int(table.root[branch])]
-                * vectors[branch][None]
-            )
+            below = method.blocks[root, int(table.root[branch])] * vectors[branch][None]
             vector = vectors[stem] * below.total()
         vectors.append(vector)
         rows.append((b * vector).total().slope)
@@ -213,12 +189,7 @@ CASES = [
     (structure_of("separable"), 8, (9, 9), 88),
     (structure_of("nystrom"), 9, (14, 14), 67),
     (Structure.pair([0], [0], quadratic=[0]), 6, (10,), 35),
-    (
-        Structure.pair([0, 1], [0, 2]),
-        4,
-        (8, 8, 8),
-        87,
-    ),  # H(q, p) + T(p) + U(q)
+    (Structure.pair([0, 1], [0, 2]), 4, (8, 8, 8), 87),  # H(q, p) + T(p) + U(q)
 ]
 """Structures, highest orders, stages of each term (enough of them), and the number of classes up to
 that order.
@@ -251,9 +222,7 @@ def test_rank_is_the_number_of_classes(
     build = pair_method if made.is_directed else self_conjugate_method
     method = build(made, of_terms, coefficients)
     assert coefficients.used == size > classes
-    assert (
-        rank(jacobian(method, TreeTable.of(made.admissible, order))) == classes
-    )
+    assert rank(jacobian(method, TreeTable.of(made.admissible, order))) == classes
     assert sum(count_classes(made, n) for n in range(1, order + 1)) == classes
 
 
@@ -262,11 +231,5 @@ def test_without_symplecticity_the_rank_is_larger() -> None:
     roots, not 13.
     """
     coefficients = Coefficients(4, 7 + 2 * 49)
-    jacobian_of_all = jacobian(
-        free_partitioned_method(7, coefficients), TreeTable.upto(2, 4)
-    )
-    assert (
-        rank(jacobian_of_all)
-        == sum(count_trees(2, n) for n in range(1, 5)) // 2
-        == 36
-    )
+    jacobian_of_all = jacobian(free_partitioned_method(7, coefficients), TreeTable.upto(2, 4))
+    assert rank(jacobian_of_all) == sum(count_trees(2, n) for n in range(1, 5)) // 2 == 36

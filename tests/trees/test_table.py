@@ -19,11 +19,7 @@ def partitions(n: int, largest: int) -> list[list[int]]:
     """The partitions of n into parts of at most ``largest``."""
     if n == 0:
         return [[]]
-    return [
-        [k, *rest]
-        for k in range(min(n, largest), 0, -1)
-        for rest in partitions(n - k, k)
-    ]
+    return [[k, *rest] for k in range(min(n, largest), 0, -1) for rest in partitions(n - k, k)]
 
 
 @cache
@@ -33,22 +29,18 @@ def brute_force(colours: int, order: int) -> frozenset[Tree]:
     for parts in partitions(order - 1, order - 1):
         choices = [
             combinations_with_replacement(
-                sorted(brute_force(colours, k), key=Tree.sort_key),
-                parts.count(k),
+                sorted(brute_force(colours, k), key=Tree.sort_key), parts.count(k)
             )
             for k in sorted(set(parts))
         ]
         for groups in product(*choices):
             found.update(
-                Tree(root, [u for group in groups for u in group])
-                for root in range(colours)
+                Tree(root, [u for group in groups for u in group]) for root in range(colours)
             )
     return frozenset(found)
 
 
-def admissible(
-    tree: Tree, edges: list[list[bool]], linear: tuple[int, ...]
-) -> bool:
+def admissible(tree: Tree, edges: list[list[bool]], linear: tuple[int, ...]) -> bool:
     """Whether every parent sees its branches, and linear vertices have one branch at most."""
     return all(
         all(edges[v.root][u.root] for u in v.branches)
@@ -57,9 +49,7 @@ def admissible(
     )
 
 
-@pytest.mark.parametrize(
-    ("colours", "order"), [(1, 9), (2, 6), (3, 5), (4, 4)]
-)
+@pytest.mark.parametrize(("colours", "order"), [(1, 9), (2, 6), (3, 5), (4, 4)])
 def test_every_tree_once(colours: int, order: int) -> None:
     """The table has exactly the trees of the brute force, in the order of Tree, with their σ, γ, ρ
     and root.
@@ -77,9 +67,7 @@ def test_every_tree_once(colours: int, order: int) -> None:
     assert table.root.tolist() == [u.root for u in trees]
 
 
-@pytest.mark.parametrize(
-    ("colours", "order"), [(1, 14), (2, 9), (3, 8), (4, 7), (5, 6)]
-)
+@pytest.mark.parametrize(("colours", "order"), [(1, 14), (2, 9), (3, 8), (4, 7), (5, 6)])
 def test_labelled_trees_add_up(colours: int, order: int) -> None:
     """Σ n!/(σ γ) over the trees of order n is Nⁿ (n - 1)!, the number of increasing labelled
     N-trees.
@@ -88,8 +76,7 @@ def test_labelled_trees_add_up(colours: int, order: int) -> None:
     for n in range(1, order + 1):
         ids = table.ids(n)
         labellings = factorial(n) // (
-            table.sigma[ids.start : ids.stop]
-            * table.gamma[ids.start : ids.stop]
+            table.sigma[ids.start : ids.stop] * table.gamma[ids.start : ids.stop]
         )
         assert labellings.sum() == colours**n * factorial(n - 1)
 
@@ -100,10 +87,7 @@ def test_columns_say_how_a_tree_is_made() -> None:
     """
     table = TreeTable.upto(2, 6)
     for i in range(2, len(table)):
-        stem, branch = (
-            table.tree(int(table.stem[i])),
-            table.tree(int(table.branch[i])),
-        )
+        stem, branch = (table.tree(int(table.stem[i])), table.tree(int(table.branch[i])))
         assert table.tree(i) == Tree(stem.root, [*stem.branches, branch])
         assert table.branch[i] >= table.branch[table.stem[i]]
         assert table.multiplicity[i] == table.tree(i).branches.count(branch)
@@ -115,9 +99,7 @@ def test_restrictions(linear: tuple[int, ...]) -> None:
     table = TreeTable.upto(3, 6, EDGES, linear)
     for n, counts in enumerate(counts_upto(table.admissible, 6), 1):
         made = {table.tree(i) for i in table.ids(n)}
-        assert made == {
-            u for u in brute_force(3, n) if admissible(u, EDGES, linear)
-        }
+        assert made == {u for u in brute_force(3, n) if admissible(u, EDGES, linear)}
         assert counts == tuple(len(table.ids(n, root)) for root in range(3))
 
 
@@ -126,17 +108,7 @@ def test_nystrom_trees() -> None:
     branch.
     """
     table = TreeTable.upto(2, 9, [[False, True], [True, False]], linear=[0])
-    assert [len(table.ids(n, root=1)) for n in range(1, 10)] == [
-        1,
-        1,
-        2,
-        3,
-        6,
-        10,
-        20,
-        36,
-        72,
-    ]
+    assert [len(table.ids(n, root=1)) for n in range(1, 10)] == [1, 1, 2, 3, 6, 10, 20, 36, 72]
 
 
 @pytest.mark.parametrize("colours", [True, False])
@@ -146,12 +118,8 @@ def test_notation_of_many_trees(colours: bool) -> None:
     """
     table = TreeTable.upto(2, 7)
     some = np.arange(len(table))[::-7]
-    assert table.notation(some, colours) == [
-        format_tree(table.tree(int(i)), colours) for i in some
-    ]
-    everything = [
-        format_tree(table.tree(i), colours) for i in range(len(table))
-    ]
+    assert table.notation(some, colours) == [format_tree(table.tree(int(i)), colours) for i in some]
+    everything = [format_tree(table.tree(i), colours) for i in range(len(table))]
     assert table.notation(range(len(table)), colours) == everything
     assert table.notation([], colours) == []
 
@@ -166,9 +134,7 @@ def test_exact_beyond_64_bits() -> None:
         u = table.tree(i)
         assert (table.sigma[i], table.gamma[i]) == (u.symmetry, u.density)
     assert table.gamma.max() == factorial(26)
-    assert all(
-        isinstance(value, int) for value in [*table.gamma, *table.sigma]
-    )
+    assert all(isinstance(value, int) for value in [*table.gamma, *table.sigma])
 
 
 def test_bushes_beyond_64_bits() -> None:
@@ -188,16 +154,12 @@ def test_columns_are_read_only() -> None:
 def test_too_large_a_table_is_refused_at_once() -> None:
     """More than MAX_TREES trees are counted, not made."""
     with pytest.raises(
-        TableTooLarge,
-        match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}",
+        TableTooLarge, match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}"
     ):
         TreeTable.upto(4, 30)
     total = sum(map(sum, counts_upto(Admissible.of(4), 30)))
     assert 10**28 < total < 10**29
-    with pytest.raises(
-        TableTooLarge,
-        match="196268698287 trees of order up to 29 with 1 colour ",
-    ):
+    with pytest.raises(TableTooLarge, match="196268698287 trees of order up to 29 with 1 colour "):
         TreeTable.upto(1, 29)
 
 

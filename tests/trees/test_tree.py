@@ -11,9 +11,7 @@ from garkcli.trees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 3)),
-    lambda inner: st.builds(
-        Tree, st.integers(0, 3), st.lists(inner, max_size=4)
-    ),
+    lambda inner: st.builds(Tree, st.integers(0, 3), st.lists(inner, max_size=4)),
     max_leaves=12,
 )
 
@@ -25,9 +23,7 @@ def test_symmetry_sees_colours() -> None:
 
 
 @given(trees, st.randoms(use_true_random=False))
-def test_the_order_of_branches_does_not_matter(
-    tree: Tree, dice: random.Random
-) -> None:
+def test_the_order_of_branches_does_not_matter(tree: Tree, dice: random.Random) -> None:
     """A tree is equal to, and hashes as, any shuffling of its branches at every vertex."""
 
     def shuffled(u: Tree) -> Tree:
@@ -37,11 +33,7 @@ def test_the_order_of_branches_does_not_matter(
     other = shuffled(tree)
     assert other == tree
     assert hash(other) == hash(tree)
-    assert (other.symmetry, other.density, other.order) == (
-        tree.symmetry,
-        tree.density,
-        tree.order,
-    )
+    assert (other.symmetry, other.density, other.order) == (tree.symmetry, tree.density, tree.order)
 
 
 @given(trees)

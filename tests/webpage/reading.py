@@ -46,10 +46,7 @@ def by_id(root: Element, place: str) -> Element:
 def rows_of(table: Element) -> list[list[Element]]:
     """The cells of the rows of its body."""
     (body,) = elements(table, "tbody")
-    return [
-        [x for x in row if name_of(x) in ("td", "th")]
-        for row in elements(body, "tr")
-    ]
+    return [[x for x in row if name_of(x) in ("td", "th")] for row in elements(body, "tr")]
 
 
 def number_of(math: Element) -> str:

@@ -9,9 +9,7 @@ import pytest
 from tests.browser.machine import NoBrowser, find_browser
 
 
-def test_no_browser_is_said_with_the_cure(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_no_browser_is_said_with_the_cure(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Without a Chromium there is one sentence, which tells how to get one."""
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("GARK_BROWSER", raising=False)
@@ -22,9 +20,7 @@ def test_no_browser_is_said_with_the_cure(
         find_browser()
 
 
-def test_the_named_browser_is_taken(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_the_named_browser_is_taken(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """GARK_BROWSER goes before the PATH."""
     chrome = tmp_path / "chrome"
     chrome.write_text("")

@@ -11,12 +11,7 @@ from hypothesis import given, settings, strategies
 
 import garkcli
 from garkcli.trees.notation import condition_latex, parse_tree
-from garkcli.webpage.mathml import (
-    typeset,
-    typeset_cell,
-    typeset_condition,
-    typeset_number,
-)
+from garkcli.webpage.mathml import typeset, typeset_cell, typeset_condition, typeset_number
 from tests.webpage.reading import number_of
 
 FRACTIONS = strategies.fractions(max_denominator=10**6)

@@ -35,15 +35,7 @@ from garkcli.webpage.registry import SECTIONS
 from garkcli.webpage.reported import Reported, reported
 from garkcli.webpage.sections import pictures, properties, stability
 from tests.cli.harness import ROOT, gark
-from tests.webpage.reading import (
-    by_id,
-    elements,
-    name_of,
-    number_of,
-    read,
-    rows_of,
-    text_of,
-)
+from tests.webpage.reading import by_id, elements, name_of, number_of, read, rows_of, text_of
 
 VERLET = "methods/stoermer-verlet.gark.yaml"
 RECTANGULAR = "methods/rectangular.gark.yaml"
@@ -140,11 +132,7 @@ def test_nothing_is_fetched(method: str) -> None:
     assert not re.search(r"url\(|@import|</", style.text or "")
     (script,) = elements(root, "script")
     digest = b64encode(sha256((script.text or "").encode()).digest())
-    (policy,) = [
-        x.get("content") or ""
-        for x in elements(root, "meta")
-        if x.get("http-equiv")
-    ]
+    (policy,) = [x.get("content") or "" for x in elements(root, "meta") if x.get("http-equiv")]
     assert "default-src 'none'" in policy
     assert f"script-src 'sha256-{digest.decode()}'" in policy
 
@@ -162,9 +150,7 @@ def test_orders_are_those_of_the_check(method: str) -> None:
     data = checked(method)
     found = {}
     for card in section(method, "orders").iter("div"):
-        if (card.get("class") or "").startswith("order "[:5]) and (
-            card.get("class") != "orders"
-        ):
+        if (card.get("class") or "").startswith("order "[:5]) and (card.get("class") != "orders"):
             (head,) = elements(card, "h3")
             label, _, number = text_of(head).partition("order ")
             found[label.strip()] = number, card
@@ -193,9 +179,7 @@ def test_orders_are_those_of_the_check(method: str) -> None:
 def test_the_witness_is_exact() -> None:
     """Value, required and residual of the classical method, as numbers in MathML."""
     witness = checked("rk4")["witness"]
-    numbers = [
-        number_of(x) for x in elements(section("rk4", "orders"), "math")
-    ]
+    numbers = [number_of(x) for x in elements(section("rk4", "orders"), "math")]
     assert numbers[1:4] == ["0", "(1)/(120)", "-(1)/(120)"]
     assert witness["residual"] == "-1/120"
 
@@ -205,10 +189,7 @@ def test_the_tableau_can_be_read_back(method: str) -> None:
     """Its entries in MathML make the method again, exactly: A, b and c."""
     table = next(elements(section(method, "tableau"), "table"))
     (body,) = elements(table, "tbody")
-    rows = [
-        [number_of(x) for x in elements(row, "math")]
-        for row in elements(body, "tr")
-    ]
+    rows = [[number_of(x) for x in elements(row, "math")] for row in elements(body, "tr")]
     nodes = [row[0] for row in rows]
     weights = [
         number_of(x)
@@ -224,10 +205,7 @@ def test_blocks_have_their_places() -> None:
     """A method for positions and momenta is Q and P; colours have names and numbers, blocks that do
     not exist are blank; the dense output and the embedded weights are there.
     """
-    captions = [
-        text_of(x)
-        for x in elements(section(RECTANGULAR, "tableau"), "caption")
-    ]
+    captions = [text_of(x) for x in elements(section(RECTANGULAR, "tableau"), "caption")]
     assert [caption[0] for caption in captions] == ["Q", "P"]
     heads = [
         text_of(x)
@@ -250,22 +228,11 @@ def test_simplifying_assumptions_are_those_of_the_check(method: str) -> None:
     """B, C and D, cell by cell: the number stands in the cell."""
     data = checked(method)["simplifying"]
     tables = [*elements(section(method, "simplifying"), "table")]
-    for table, wanted in zip(
-        tables, ([data["B"]], data["C"], data["D"]), strict=True
-    ):
-        shown = [
-            [text_of(x) for x in row if name_of(x) == "td"]
-            for row in rows_of(table)
-        ]
-        numbers = [
-            ["–" if n is None else str(n) for n in row] for row in wanted
-        ]
-        assert [
-            [cell.removeprefix("≥ ") for cell in row] for row in shown
-        ] == numbers
-    assert f"order ≥ {data['bound']}" in text_of(
-        section(method, "simplifying")
-    )
+    for table, wanted in zip(tables, ([data["B"]], data["C"], data["D"]), strict=True):
+        shown = [[text_of(x) for x in row if name_of(x) == "td"] for row in rows_of(table)]
+        numbers = [["–" if n is None else str(n) for n in row] for row in wanted]
+        assert [[cell.removeprefix("≥ ") for cell in row] for row in shown] == numbers
+    assert f"order ≥ {data['bound']}" in text_of(section(method, "simplifying"))
 
 
 @pytest.mark.parametrize("method", [*METHODS, FAILING, FAMILY])
@@ -277,11 +244,7 @@ def test_claims_are_those_of_the_check(method: str) -> None:
         assert "claims nothing" in text_of(shown)
         return
     (table,) = elements(shown, "table")
-    rows = [
-        [text_of(cell) for cell in row]
-        for row in rows_of(table)
-        if len(row) > 1
-    ]
+    rows = [[text_of(cell) for cell in row] for row in rows_of(table) if len(row) > 1]
     assert rows == [
         [
             claim["claim"],
@@ -516,9 +479,7 @@ def test_exit_codes_are_those_of_the_check(tmp_path: Path) -> None:
     """
     for method, code in (("rk4", 0), (FAILING, 1), (UNREADABLE, 2)):
         target = tmp_path / "page.html"
-        run = gark(
-            "report", method, "--no-pictures", "-n", "2", "-o", str(target)
-        )
+        run = gark("report", method, "--no-pictures", "-n", "2", "-o", str(target))
         assert (run.code, run.out) == (code, "")
         assert ("error" in run.err) == (code == 2)
         written = target.read_text(encoding="utf-8")

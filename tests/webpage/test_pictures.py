@@ -16,12 +16,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from garkcli import from_arrays, load, loads
-from garkcli.webpage.pictures import (
-    STYLE,
-    Picture,
-    compared_pictures,
-    pictures,
-)
+from garkcli.webpage.pictures import STYLE, Picture, compared_pictures, pictures
 from garkcli.webpage.pictures.contours import Point, outlines
 from garkcli.webpage.pictures.drawing import colour, shortened
 from garkcli.webpage.pictures.scales import linear_marks
@@ -114,9 +109,7 @@ def test_marks_are_round_and_few(low: float, width: float, most: int) -> None:
     assert all(low - around <= x.at <= low + width + around for x in marks)
 
 
-def test_pictures_stand_in_a_page(
-    of_rk4: dict[str, Picture], of_pair: dict[str, Picture]
-) -> None:
+def test_pictures_stand_in_a_page(of_rk4: dict[str, Picture], of_pair: dict[str, Picture]) -> None:
     """Well-formed, small, named for a screen reader, without ids, addresses or fixed letters, in
     colours that the page may set.
     """
@@ -146,17 +139,13 @@ def test_pictures_stand_in_a_page(
     assert "--picture-4:" in STYLE
 
 
-def test_the_same_method_gives_the_same_pictures(
-    of_rk4: dict[str, Picture],
-) -> None:
+def test_the_same_method_gives_the_same_pictures(of_rk4: dict[str, Picture]) -> None:
     """Nothing is drawn by lot or by the clock."""
     again = pictures(from_arrays(RK4, WEIGHTS))
     assert again == list(of_rk4.values())
 
 
-def test_the_outline_of_the_region_is_where_r_has_modulus_one(
-    of_rk4: dict[str, Picture],
-) -> None:
+def test_the_outline_of_the_region_is_where_r_has_modulus_one(of_rk4: dict[str, Picture]) -> None:
     """Points of the outline, taken back through the marks of both axes, have |R(z)| = 1 for the
     polynomial that everybody knows.
     """
@@ -206,20 +195,14 @@ def test_a_small_region_is_seen_from_near(name: str) -> None:
     assert "too many stages" in found["energy"].note
 
 
-def test_dots_of_the_convergence_picture_have_the_slope(
-    of_rk4: dict[str, Picture],
-) -> None:
+def test_dots_of_the_convergence_picture_have_the_slope(of_rk4: dict[str, Picture]) -> None:
     """Between the two smallest steps the error falls as the order says, by the scales of the
     marks.
     """
     svg = parsed(of_rk4["convergence"])
     marks = {str(x.text): x for x in svg.findall("text")}
-    half = float(str(marks["1/8"].get("x"))) - float(
-        str(marks["1/16"].get("x"))
-    )
-    up = float(str(marks["10⁻¹²"].get("y"))) - float(
-        str(marks["10⁻¹⁰"].get("y"))
-    )
+    half = float(str(marks["1/8"].get("x"))) - float(str(marks["1/16"].get("x")))
+    up = float(str(marks["10⁻¹²"].get("y"))) - float(str(marks["10⁻¹⁰"].get("y")))
     nested = svg.find("svg")
     assert nested is not None
     dots = nested.findall("circle")
@@ -326,10 +309,7 @@ def test_several_methods_are_in_one_picture() -> None:
 def lightness(colour: str) -> float:
     """The relative luminance of ``#rrggbb``, as WCAG 2 defines it."""
     parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    red, green, blue = (
-        x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
-        for x in parts
-    )
+    red, green, blue = (x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4 for x in parts)
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
@@ -338,10 +318,7 @@ def test_curves_are_seen_on_any_page(paper: str) -> None:
     """A page without our styles, such as a notebook, may be light or dark: the colours that curves
     then have differ from both by 3 to 1, as WCAG 2 asks of pictures.
     """
-    found = {
-        re.sub(r"^var\(--picture-\d,(.*)\)$", r"\1", colour(k))
-        for k in range(4)
-    }
+    found = {re.sub(r"^var\(--picture-\d,(.*)\)$", r"\1", colour(k)) for k in range(4)}
     assert len(found) == 4
     for one in found:
         low, high = sorted([lightness(one), lightness(paper)])

@@ -47,11 +47,7 @@ _ONE = re.compile(r"[-+]?[0-9]{1,400}(?:\.[0-9]*)?(?:[eE][-+]?[0-9]{1,4})?")
 
 
 def _note(
-    found: list[FoundTable],
-    source: str,
-    line: int,
-    rows: list[Row],
-    parts: dict[str, Row],
+    found: list[FoundTable], source: str, line: int, rows: list[Row], parts: dict[str, Row]
 ) -> None:
     """A table that has ended, where it is a whole one."""
     b = parts.get("b", ())
@@ -76,9 +72,4 @@ def _note(
     )
 
 
-READER = Reader(
-    NAME,
-    "what ARKodeButcherTable_Write prints",
-    (".txt", ".log", ".out"),
-    find,
-)
+READER = Reader(NAME, "what ARKodeButcherTable_Write prints", (".txt", ".log", ".out"), find)

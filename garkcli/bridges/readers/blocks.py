@@ -5,20 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from garkcli.bridges.readers.found import (
-    FoundTable,
-    Grid,
-    Row,
-    Rows,
-    Unreadable,
-)
-from garkcli.bridges.readers.scalars import (
-    Value,
-    is_matrix,
-    is_row,
-    rows_of,
-    whole,
-)
+from garkcli.bridges.readers.found import FoundTable, Grid, Row, Rows, Unreadable
+from garkcli.bridges.readers.scalars import Value, is_matrix, is_row, rows_of, whole
 from garkcli.bridges.readers.shaping import weights
 
 MAX_COLOURS = 60
@@ -26,11 +14,7 @@ MAX_COLOURS = 60
 
 
 def table_of_blocks(
-    values: Mapping[str, Value],
-    source: str,
-    format: str,
-    name: str,
-    line: int = 1,
+    values: Mapping[str, Value], source: str, format: str, name: str, line: int = 1
 ) -> FoundTable | None:
     """The method whose blocks are ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``.
 
@@ -97,9 +81,7 @@ def _has_blocks(value: Value) -> bool:
         if not isinstance(row, list) or not row:
             return False
         for block in row:
-            is_block = isinstance(block, list) and all(
-                isinstance(x, list) for x in block
-            )
+            is_block = isinstance(block, list) and all(isinstance(x, list) for x in block)
             if block is not None and not is_block:
                 return False
     return True

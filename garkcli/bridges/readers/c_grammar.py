@@ -22,17 +22,7 @@ _ROOTS = {
 _PASSED = (
     *("SUN_RCONST", "RCONST", "ARK_RCONST", "REAL", "REAL_C", "sunrealtype"),
     *("realtype", "double", "float", "long", "int", "PetscReal", "PetscInt"),
-    *(
-        "PetscRealConstant",
-        "real",
-        "Real",
-        "T",
-        "Scalar",
-        "amrex",
-        "const",
-        "RC",
-        "GARK_REAL_C",
-    ),
+    *("PetscRealConstant", "real", "Real", "T", "Scalar", "amrex", "const", "RC", "GARK_REAL_C"),
     *("value_type", "real_t", "_rt", "number", "size_t", "unsigned", "auto"),
 )
 GRAMMAR = Grammar(

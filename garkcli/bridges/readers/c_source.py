@@ -13,12 +13,7 @@ from garkcli.bridges.readers.found import MAX_STAGES, Unreadable
 from garkcli.bridges.readers.lexing import C, Token, tokens_of, without
 from garkcli.bridges.readers.naming import Scope, role_of
 from garkcli.bridges.readers.parsing import ValueParser
-from garkcli.bridges.readers.scalars import (
-    Scalar,
-    Value,
-    number,
-    whole,
-)
+from garkcli.bridges.readers.scalars import Scalar, Value, number, whole
 
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
@@ -43,9 +38,7 @@ class Block:
 
     scope: Scope
     line: int
-    members: dict[str, dict[tuple[int, ...], Value]] = field(
-        default_factory=dict
-    )
+    members: dict[str, dict[tuple[int, ...], Value]] = field(default_factory=dict)
     member_lines: dict[str, int] = field(default_factory=dict)
     cells: dict[str, Cells] = field(default_factory=dict)
 
@@ -93,12 +86,7 @@ class CSource:
         closed: told of each block when it ends, with what is known there.
     """
 
-    def __init__(
-        self,
-        text: str,
-        wanted: frozenset[str],
-        closed: Callable[[Block], None],
-    ) -> None:
+    def __init__(self, text: str, wanted: frozenset[str], closed: Callable[[Block], None]) -> None:
         code, self._definitions = _without_directives(text)
         self._tokens = without(tokens_of(code, C), "comment", "line")
         self._wanted = wanted
@@ -245,9 +233,7 @@ class CSource:
             end += 1
         return (-1 if value is None else value), end + 1
 
-    def _assign(
-        self, name: str, indices: tuple[int, ...], value: Value, line: int
-    ) -> None:
+    def _assign(self, name: str, indices: tuple[int, ...], value: Value, line: int) -> None:
         block = self._blocks[-1]
         plain = name.rpartition("->")[2]
         is_entry = isinstance(value, Scalar) and bool(indices)

@@ -143,11 +143,7 @@ def _of_members(block: Block, base: str, source: str) -> FoundTable | None:
     empty = FoundTable(source, line, NAME, block.scope.title, (), ())
     if not entries or "b" not in roles:
         return None
-    sizes = [
-        1 + max(index, default=0)
-        for name in ("A", "b", "c")
-        for index in roles.get(name, ())
-    ]
+    sizes = [1 + max(index, default=0) for name in ("A", "b", "c") for index in roles.get(name, ())]
     stages = max(sizes)
     try:
         A = _matrix(entries, stages)
@@ -185,9 +181,7 @@ def _matrix(entries: _Entries, stages: int) -> Rows:
     if stages > MAX_STAGES or any(len(index) != 2 for index in entries):
         raise Unreadable("entries with two indices are expected")
     numbers = range(stages)
-    return tuple(
-        tuple(_entry(entries, (i, j)) for j in numbers) for i in numbers
-    )
+    return tuple(tuple(_entry(entries, (i, j)) for j in numbers) for i in numbers)
 
 
 def _row(entries: _Entries, stages: int) -> Row:

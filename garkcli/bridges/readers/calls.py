@@ -50,9 +50,7 @@ def reshaped(values: Sequence[Value]) -> Value:
     entries = values[0]
     if rows is None or columns is None or rows * columns != len(entries):
         raise Unreadable("a shape that does not fit")
-    return [
-        [entries[j * rows + i] for j in range(columns)] for i in range(rows)
-    ]
+    return [[entries[j * rows + i] for j in range(columns)] for i in range(rows)]
 
 
 def root_value(kind: str, values: Sequence[Value]) -> Value:
@@ -96,8 +94,5 @@ def end_of_argument(tokens: Sequence[Token], place: int) -> int:
 
 _OPENERS = frozenset("([{")
 _CLOSERS = frozenset(")]}")
-SHAPES: Mapping[str, Callable[[Sequence[Value]], Value]] = {
-    "zeros": _zeros,
-    "reshape": reshaped,
-}
+SHAPES: Mapping[str, Callable[[Sequence[Value]], Value]] = {"zeros": _zeros, "reshape": reshaped}
 """Functions that make lists."""

@@ -38,9 +38,7 @@ class Cells:
         entries = self._entries
         blocks = entries.get("A")
         if not blocks:
-            return table_of_blocks(
-                self._whole, source, format, name, self.line
-            )
+            return table_of_blocks(self._whole, source, format, name, self.line)
         if all(isinstance(x, Scalar) for x in blocks.values()):
             return self._of_numbers(source, format, name)
         values: dict[str, Value] = dict(self._whole)
@@ -50,9 +48,7 @@ class Cells:
                 values[role] = _listed(entries[role])
         return table_of_blocks(values, source, format, name, self.line)
 
-    def _of_numbers(
-        self, source: str, format: str, name: str
-    ) -> FoundTable | None:
+    def _of_numbers(self, source: str, format: str, name: str) -> FoundTable | None:
         """One matrix whose entries are assigned."""
         scope = Scope(name)
         for role, value in self._whole.items():

@@ -9,12 +9,7 @@ from pathlib import PurePath
 
 from garkcli.bridges.readers.blocks import MAX_COLOURS
 from garkcli.bridges.readers.cells import Cells
-from garkcli.bridges.readers.found import (
-    MAX_STAGES,
-    FoundTable,
-    Reader,
-    Row,
-)
+from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row
 from garkcli.bridges.readers.scalars import Scalar, Value
 
 NAME = "csv"
@@ -58,18 +53,14 @@ def _cells(line: str) -> list[str]:
     return []
 
 
-def _table(
-    rows: Sequence[tuple[int, list[str]]], source: str, name: str
-) -> FoundTable | None:
+def _table(rows: Sequence[tuple[int, list[str]]], source: str, name: str) -> FoundTable | None:
     first, head = rows[0]
     if [x.lower() for x in head] == COLUMNS:
         return _of_entries(rows, source, name)
     return _printed([row for _, row in rows], source, name, first)
 
 
-def _of_entries(
-    rows: Sequence[tuple[int, list[str]]], source: str, name: str
-) -> FoundTable | None:
+def _of_entries(rows: Sequence[tuple[int, list[str]]], source: str, name: str) -> FoundTable | None:
     """``part,l,m,i,j,value``: an entry a row; colours and stages count from 1."""
     arrays: dict[tuple[str, str, str], dict[tuple[int, ...], Value]] = {}
     for _, row in rows[1:]:
@@ -137,9 +128,4 @@ def _full(row: Row | list[str], length: int) -> Row:
     return tuple(x or "0" for x in row) + ("0",) * missing
 
 
-READER = Reader(
-    NAME,
-    "CSV: gark's export, or a tableau as it is printed",
-    (".csv",),
-    find,
-)
+READER = Reader(NAME, "CSV: gark's export, or a tableau as it is printed", (".csv",), find)

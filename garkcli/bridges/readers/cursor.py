@@ -26,10 +26,7 @@ class Cursor:
     """
 
     def __init__(
-        self,
-        tokens: Sequence[Token],
-        grammar: Grammar,
-        names: Mapping[str, Value],
+        self, tokens: Sequence[Token], grammar: Grammar, names: Mapping[str, Value]
     ) -> None:
         self.tokens = tokens
         self.grammar = grammar

@@ -129,19 +129,7 @@ def troubled(table: FoundTable, trouble: str) -> FoundTable:
     )
 
 
-def unlike_a_table(
-    source: str, line: int, format: str, name: str, trouble: str
-) -> FoundTable:
+def unlike_a_table(source: str, line: int, format: str, name: str, trouble: str) -> FoundTable:
     """Arrays with the names of a method that make none; nothing says that they are meant to."""
     empty: Rows = ()
-    return FoundTable(
-        source,
-        line,
-        format,
-        name,
-        (),
-        empty,
-        (),
-        is_sure=False,
-        trouble=trouble,
-    )
+    return FoundTable(source, line, format, name, (), empty, (), is_sure=False, trouble=trouble)

@@ -65,9 +65,7 @@ def _has_matrix(mapping: Mapping[str, Any]) -> bool:
     return any(key in mapping for key in ("A", "a", "Amat"))
 
 
-def _mappings(
-    document: object, title: str, depth: int
-) -> Iterator[tuple[str, dict[str, Any]]]:
+def _mappings(document: object, title: str, depth: int) -> Iterator[tuple[str, dict[str, Any]]]:
     """The objects that may be tables, each with its name."""
     if depth > MAX_DEPTH:
         return
@@ -81,9 +79,7 @@ def _mappings(
             inner = key if depth or len(document) > 1 else title
             blocks = key in {"blocks", "tableau", "methods", "tables"}
             yield from _mappings(
-                _with_head(document, value),
-                title if blocks and title else inner,
-                depth + 1,
+                _with_head(document, value), title if blocks and title else inner, depth + 1
             )
     elif isinstance(document, list):
         for value in document:
@@ -103,21 +99,11 @@ def _with_head(document: Mapping[str, Any], value: object) -> object:
     return {**head, **value}
 
 
-def _table(
-    mapping: Mapping[str, Any], source: str, title: str, line: int
-) -> FoundTable | None:
+def _table(mapping: Mapping[str, Any], source: str, title: str, line: int) -> FoundTable | None:
     values: dict[str, Value] = {}
     for key, content in mapping.items():
         role = _KEYS.get(key, key)
-        if role in {
-            "A",
-            "b",
-            "c",
-            "embedded",
-            "dense",
-            "order",
-            "embedded_order",
-        }:
+        if role in {"A", "b", "c", "embedded", "dense", "order", "embedded_order"}:
             values.setdefault(role, _value(content, 0))
         if role == "error":
             values[role] = _value(content, 0)
@@ -181,16 +167,9 @@ def _told(mapping: Mapping[str, Any]) -> dict[str, Any]:
     if drives == ["q", "p"]:
         found["parts"] = ("q", "p")
     numbered = enumerate(colours)
-    found["linear"] = tuple(
-        l for l, x in numbered if isinstance(x, dict) and x.get("linear")
-    )
+    found["linear"] = tuple(l for l, x in numbered if isinstance(x, dict) and x.get("linear"))
     return found
 
 
 _STRUCTURES = {"separable", "semi-separable", "nystrom"}
-READER = Reader(
-    NAME,
-    "JSON: gark's export, or any object with A and b",
-    (".json",),
-    find,
-)
+READER = Reader(NAME, "JSON: gark's export, or any object with A and b", (".json",), find)

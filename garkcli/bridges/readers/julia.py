@@ -9,12 +9,7 @@ from garkcli.bridges.readers.assignments import Assigned, Called, Walk
 from garkcli.bridges.readers.blocks import assembled, table_of_blocks
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.found import (
-    FoundTable,
-    Reader,
-    Unreadable,
-    troubled,
-)
+from garkcli.bridges.readers.found import FoundTable, Reader, Unreadable, troubled
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import JULIA, Token, tokens_of, without
 from garkcli.bridges.readers.naming import ROLES
@@ -83,9 +78,7 @@ class _Finder(Finder):
     def end(self) -> None:
         """The tables of the function; those that a constructor takes are found once."""
         found = list(self._scope.tables(self._source, NAME))
-        blocks = table_of_blocks(
-            self._values, self._source, NAME, self._scope.title, self._line
-        )
+        blocks = table_of_blocks(self._values, self._source, NAME, self._scope.title, self._line)
         self._values = {}
         if blocks is not None:
             found = [blocks]
@@ -113,9 +106,7 @@ class _Finder(Finder):
 
     def called(self, event: Called) -> None:
         """A tableau was made."""
-        empty = FoundTable(
-            self._source, event.line, NAME, self._scope.title, (), ()
-        )
+        empty = FoundTable(self._source, event.line, NAME, self._scope.title, (), ())
         places = [value for key, value in event.arguments if not key]
         named = {key: value for key, value in event.arguments if key}
         if not places:
@@ -129,9 +120,7 @@ class _Finder(Finder):
             self._made.append(table)
 
 
-def _explicit(
-    empty: FoundTable, values: list[Value], named: _Arguments
-) -> FoundTable | None:
+def _explicit(empty: FoundTable, values: list[Value], named: _Arguments) -> FoundTable | None:
     """``ExplicitRKTableau(A, c, α, order; αEEst, adaptiveorder, fsal)``: nodes before weights."""
     if len(values) < 4 or not all(isinstance(x, list) for x in values[:3]):
         return None
@@ -158,9 +147,7 @@ def _explicit(
     )
 
 
-def _rooted_trees(
-    empty: FoundTable, values: list[Value], named: _Arguments
-) -> FoundTable | None:
+def _rooted_trees(empty: FoundTable, values: list[Value], named: _Arguments) -> FoundTable | None:
     """``RungeKuttaMethod(A, b, c)`` of RootedTrees.jl."""
     del named
     if len(values) < 2 or not all(isinstance(x, list) for x in values[:2]):
@@ -171,9 +158,7 @@ def _rooted_trees(
     return replace(empty, A=((A,),), b=(b,), c=(c,))
 
 
-def _additive(
-    empty: FoundTable, values: list[Value], named: _Arguments
-) -> FoundTable | None:
+def _additive(empty: FoundTable, values: list[Value], named: _Arguments) -> FoundTable | None:
     """``AdditiveRungeKuttaMethod([A1, A2, …], [b1, b2, …], [c1, c2, …])``."""
     del named
     if len(values) < 2 or not all(isinstance(x, list) for x in values[:2]):
@@ -193,9 +178,7 @@ def _additive(
     return assembled(replace(empty, A=(blocks,), b=b, c=(c,)))
 
 
-def _runge_kutta_jl(
-    empty: FoundTable, values: list[Value], named: _Arguments
-) -> FoundTable | None:
+def _runge_kutta_jl(empty: FoundTable, values: list[Value], named: _Arguments) -> FoundTable | None:
     """``Tableau(name, order, a, b, c)`` of RungeKutta.jl."""
     del named
     if len(values) < 5 or not is_row(values[3]):
@@ -218,8 +201,5 @@ MAKERS: Mapping[str, _Make] = {
 }
 """What makes tableaus, and what the arguments are."""
 READER = Reader(
-    NAME,
-    "Julia: matrices with //, ExplicitRKTableau, RungeKuttaMethod",
-    (".jl",),
-    find,
+    NAME, "Julia: matrices with //, ExplicitRKTableau, RungeKuttaMethod", (".jl",), find
 )

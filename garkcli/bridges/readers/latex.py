@@ -108,9 +108,7 @@ def _letter(before: str) -> str:
 def _groups(columns: str) -> list[int]:
     """How many columns stand between the bars, without that of the nodes."""
     repeated = re.sub(
-        r"\*\{([0-9]{1,3})\}\{([clr|]{1,9})\}",
-        lambda x: x[2] * min(int(x[1]), MAX_STAGES),
-        columns,
+        r"\*\{([0-9]{1,3})\}\{([clr|]{1,9})\}", lambda x: x[2] * min(int(x[1]), MAX_STAGES), columns
     )
     without = re.sub(r"[@!><]\{[^{}]*\}|[^clr|]", "", repeated)
     parts = [len(part) for part in without.split("|")]
@@ -207,9 +205,7 @@ def _blocks(
     return tuple(grid), tuple(nodes)
 
 
-def _table(
-    line: int, columns: str, body: str, source: str
-) -> FoundTable | None:
+def _table(line: int, columns: str, body: str, source: str) -> FoundTable | None:
     try:
         groups, stages, weights = _read(columns, body)
         if len(stages) == 1 and len(groups) > 1:
@@ -225,14 +221,7 @@ def _table(
         return None
     rows = [tuple(map(_filled, _split(row, groups))) for row in weights]
     return FoundTable(
-        source,
-        line,
-        NAME,
-        "",
-        grid,
-        rows[0],
-        nodes,
-        embedded=rows[1] if len(rows) == 2 else None,
+        source, line, NAME, "", grid, rows[0], nodes, embedded=rows[1] if len(rows) == 2 else None
     )
 
 
@@ -245,9 +234,7 @@ def _fits(grid: Grid, groups: list[int], is_shared: bool) -> bool:
     return True
 
 
-def _pair(
-    first: _Array, second: _Array, source: str, is_general: bool
-) -> FoundTable | None:
+def _pair(first: _Array, second: _Array, source: str, is_general: bool) -> FoundTable | None:
     """The arrays Q and P of a partitioned method, with columns of one vector field each."""
     try:
         of_q = _read(first[2], first[3])
@@ -283,9 +270,7 @@ def _pair(
     )
 
 
-def _semi_separable(
-    line: int, of_q: _Parts, of_p: _Parts, source: str
-) -> FoundTable | None:
+def _semi_separable(line: int, of_q: _Parts, of_p: _Parts, source: str) -> FoundTable | None:
     """A pair whose second Hamiltonian is of q alone: vector fields V1, F1 and F2.
 
     V1 and F1 have the stages of the first rows of Q, which are those of P; F2 has the others,

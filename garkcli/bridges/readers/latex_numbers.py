@@ -35,9 +35,7 @@ _TOKEN = re.compile(
     r"(?P<number>[0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
     r"|(?P<command>\\[A-Za-z]+)|(?P<sign>[-+*/^{}()\[\]]|−)"
 )
-_FRACTIONS = frozenset(
-    {r"\frac", r"\tfrac", r"\dfrac", r"\nicefrac", r"\sfrac", r"\cfrac"}
-)
+_FRACTIONS = frozenset({r"\frac", r"\tfrac", r"\dfrac", r"\nicefrac", r"\sfrac", r"\cfrac"})
 _PRODUCTS = frozenset({r"\cdot", r"\times", "*"})
 
 
@@ -129,13 +127,7 @@ class _Parser:
         if not token:
             return False
         is_number = token[0].isdigit() or token[0] == "."
-        return is_number or token in {
-            "(",
-            "{",
-            r"\sqrt",
-            r"\rootof",
-            *_FRACTIONS,
-        }
+        return is_number or token in {"(", "{", r"\sqrt", r"\rootof", *_FRACTIONS}
 
     def _factor(self) -> Value:
         self._depth += 1

@@ -55,21 +55,14 @@ C = Language(
     suffix=r"(?:[fFlLqQ]|_[A-Za-z]\w*)?(?!\w)",
 )
 MATLAB = Language(
-    comments=(
-        r"(?m:^)[ \t]*%\{[ \t]*\n[\s\S]*?(?:\n[ \t]*%\}|\Z)",
-        r"[%#][^\n]*",
-    ),
+    comments=(r"(?m:^)[ \t]*%\{[ \t]*\n[\s\S]*?(?:\n[ \t]*%\}|\Z)", r"[%#][^\n]*"),
     # behind an operand the sign ' transposes
     texts=(_TEXT, r"(?<![\w)\]}'.])'(?:[^'\n]|'')*+'?+"),
     joined=r"\.\.\.[^\n]*\n",
 )
 JULIA = Language(
     comments=(r"#=[\s\S]*?(?:=#|\Z)", r"#[^\n]*"),
-    texts=(
-        r'"""[\s\S]*?(?:"""|\Z)',
-        _TEXT,
-        r"'(?:[^'\\\n]|\\.)'",
-    ),
+    texts=(r'"""[\s\S]*?(?:"""|\Z)', _TEXT, r"'(?:[^'\\\n]|\\.)'"),
     names="[^\\W\\d][\\w!\u0302\u0303\u0304]*",
 )
 MATHEMATICA = Language(

@@ -7,26 +7,11 @@ from dataclasses import replace
 from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.blocks import table_of_blocks
 from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.found import (
-    FoundTable,
-    Reader,
-    Unreadable,
-)
+from garkcli.bridges.readers.found import FoundTable, Reader, Unreadable
 from garkcli.bridges.readers.grammar import Grammar
-from garkcli.bridges.readers.lexing import (
-    MATHEMATICA,
-    Token,
-    tokens_of,
-    without,
-)
+from garkcli.bridges.readers.lexing import MATHEMATICA, Token, tokens_of, without
 from garkcli.bridges.readers.naming import ROLES
-from garkcli.bridges.readers.scalars import (
-    Scalar,
-    Value,
-    is_matrix,
-    is_row,
-    row_of,
-)
+from garkcli.bridges.readers.scalars import Scalar, Value, is_matrix, is_row, row_of
 from garkcli.bridges.readers.shaping import difference, square, weights
 
 NAME = "mathematica"
@@ -46,18 +31,13 @@ GRAMMAR = Grammar(
     is_implicit=True,
 )
 _ENDS = frozenset({";", ",", "|", "}", "]", "&"})
-_ORDERS = {
-    "DifferenceOrder": "order",
-    "EmbeddedDifferenceOrder": "embedded_order",
-}
+_ORDERS = {"DifferenceOrder": "order", "EmbeddedDifferenceOrder": "embedded_order"}
 
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Mathematica source."""
     tokens = without(tokens_of(text, MATHEMATICA), "comment")
-    walk = Walk(
-        _with_names(_on_their_lines(tokens)), GRAMMAR, {}, _ENDS, _title
-    )
+    walk = Walk(_with_names(_on_their_lines(tokens)), GRAMMAR, {}, _ENDS, _title)
     walk.names["x"] = Scalar("x")
     return tables_of(walk, _Finder(source))
 
@@ -116,9 +96,7 @@ class _Finder(Finder):
         """The tables of what has ended."""
         title = self._scope.title
         found = list(self._scope.tables(self._source, NAME))
-        blocks = table_of_blocks(
-            self._values, self._source, NAME, title, max(self._line, 1)
-        )
+        blocks = table_of_blocks(self._values, self._source, NAME, title, max(self._line, 1))
         if blocks is not None:
             found = [blocks]
         # the lists of {amat, bvec, cvec} are often named before
@@ -177,8 +155,5 @@ def _coefficients(event: Assigned, source: str) -> FoundTable | None:
 
 
 READER = Reader(
-    NAME,
-    "Mathematica: lists by their names, coefficients of NDSolve",
-    (".wl", ".m", ".wls"),
-    find,
+    NAME, "Mathematica: lists by their names, coefficients of NDSolve", (".wl", ".m", ".wls"), find
 )

@@ -7,14 +7,7 @@ from dataclasses import dataclass
 from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.found import (
-    MAX_STAGES,
-    FoundTable,
-    Reader,
-    Row,
-    Rows,
-    Unreadable,
-)
+from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row, Rows, Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import MATLAB, Token, tokens_of, without
 from garkcli.bridges.readers.naming import Scope
@@ -32,9 +25,7 @@ GRAMMAR = Grammar(
         "power": "power",
         "rdivide": "rational",
     },
-    passed=frozenset(
-        {"sym", "vpa", "double", "single", "mp", "str2sym", "full", "num2cell"}
-    ),
+    passed=frozenset({"sym", "vpa", "double", "single", "mp", "str2sym", "full", "num2cell"}),
 )
 _ENDS = frozenset({";", ","})
 _TITLES = frozenset({"function", "case", "if", "elseif"})
@@ -179,9 +170,4 @@ def _order(text: str) -> int | None:
     return int(whole) if whole.isdigit() and len(whole) < 3 else None
 
 
-READER = Reader(
-    NAME,
-    "MATLAB and Octave: matrices, structures, RKLab's blocks",
-    (".m",),
-    find,
-)
+READER = Reader(NAME, "MATLAB and Octave: matrices, structures, RKLab's blocks", (".m",), find)

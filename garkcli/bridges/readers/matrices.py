@@ -21,9 +21,7 @@ def joined(rows: list[list[Value]], has_semicolons: bool) -> Value:
     blocks: list[Value] = []
     for row in rows:
         beside = _side_by_side(row)
-        if isinstance(beside, list) and any(
-            isinstance(x, list) for x in beside
-        ):
+        if isinstance(beside, list) and any(isinstance(x, list) for x in beside):
             blocks += beside
         else:
             blocks.append(beside)
@@ -34,10 +32,7 @@ def _side_by_side(items: list[Value]) -> Value:
     """Columns and blocks beside each other; a list of lists stays as it is."""
     if all(isinstance(x, Scalar) for x in items):
         return list(items)
-    has_matrix = any(
-        isinstance(x, list) and any(isinstance(y, list) for y in x)
-        for x in items
-    )
+    has_matrix = any(isinstance(x, list) and any(isinstance(y, list) for y in x) for x in items)
     lists = [x for x in items if isinstance(x, list)]
     if has_matrix and len(lists) == len(items):
         heights = {len(x) for x in lists}

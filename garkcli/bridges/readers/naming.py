@@ -6,20 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from garkcli.bridges.readers.found import (
-    FoundTable,
-    Row,
-    Rows,
-    Unreadable,
-    unlike_a_table,
-)
-from garkcli.bridges.readers.scalars import (
-    Value,
-    is_matrix,
-    is_row,
-    rows_of,
-    whole,
-)
+from garkcli.bridges.readers.found import FoundTable, Row, Rows, Unreadable, unlike_a_table
+from garkcli.bridges.readers.scalars import Value, is_matrix, is_row, rows_of, whole
 from garkcli.bridges.readers.shaping import difference, square, weights
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
@@ -45,9 +33,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
 }
 ROLES = {word: role for role, words in _WORDS.items() for word in words}
 """From the name of an array to what it is."""
-_PREFIX = re.compile(
-    r"(?P<word>[AaBbCcEd]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)"
-)
+_PREFIX = re.compile(r"(?P<word>[AaBbCcEd]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bhat|b_hat|bembed|b2|order"
     r"|embedded_order|embedded|nodes|weights|stages|fsal|name)"
@@ -162,9 +148,7 @@ def _is_column(value: Value) -> bool:
     return len(rows) == 1 or is_thin
 
 
-def _table(
-    group: Group, source: str, format: str, name: str
-) -> FoundTable | None:
+def _table(group: Group, source: str, format: str, name: str) -> FoundTable | None:
     if not group.is_complete:
         return None
     values = group.values
@@ -197,9 +181,7 @@ def _table(
     )
 
 
-def _dense(
-    values: Mapping[str, Value], stages: int
-) -> tuple[Rows, ...] | None:
+def _dense(values: Mapping[str, Value], stages: int) -> tuple[Rows, ...] | None:
     """A row of coefficients for each stage, where that is what it is."""
     value = values.get("dense")
     if not isinstance(value, list) or len(value) != stages:
@@ -207,9 +189,7 @@ def _dense(
     return (rows_of(value),)
 
 
-def _optional(
-    values: Mapping[str, Value], role: str, stages: int
-) -> Row | None:
+def _optional(values: Mapping[str, Value], role: str, stages: int) -> Row | None:
     if role not in values:
         return None
     row = weights(values[role])

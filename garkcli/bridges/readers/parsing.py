@@ -7,12 +7,7 @@ them before; no function is ever called.
 
 from __future__ import annotations
 
-from garkcli.bridges.readers.calls import (
-    SHAPES,
-    end_of_argument,
-    passed_on,
-    root_value,
-)
+from garkcli.bridges.readers.calls import SHAPES, end_of_argument, passed_on, root_value
 from garkcli.bridges.readers.cursor import Cursor
 from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.matrices import joined

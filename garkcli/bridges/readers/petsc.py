@@ -17,12 +17,7 @@ from garkcli.bridges.readers.found import (
     troubled,
 )
 from garkcli.bridges.readers.scalars import Scalar, Value, combined, whole
-from garkcli.bridges.readers.shaping import (
-    is_zero,
-    square,
-    symplectic,
-    weights,
-)
+from garkcli.bridges.readers.shaping import is_zero, square, symplectic, weights
 
 NAME = "petsc"
 
@@ -100,9 +95,7 @@ def _arkimex(empty: FoundTable, values: tuple[Value, ...]) -> FoundTable:
     row = (explicit, implicit)
     if all(map(is_zero, (*b_explicit, *chain.from_iterable(explicit)))):
         # nothing is explicit: the way to register an implicit method
-        return _table(
-            empty, ((implicit,),), (b_implicit,), (c_implicit,), of_implicit
-        )
+        return _table(empty, ((implicit,),), (b_implicit,), (c_implicit,), of_implicit)
     grid: Grid = (row,)
     c: tuple[Row, ...] = (c_explicit,)
     if values[8] is None and values[5] is not None:
@@ -112,15 +105,7 @@ def _arkimex(empty: FoundTable, values: tuple[Value, ...]) -> FoundTable:
         grid = (row, row)
         c = (c_explicit, c_implicit)
     return FoundTable(
-        empty.source,
-        empty.line,
-        NAME,
-        empty.name,
-        grid,
-        b,
-        c,
-        embedded=embedded,
-        order=empty.order,
+        empty.source, empty.line, NAME, empty.name, grid, b, c, embedded=embedded, order=empty.order
     )
 
 

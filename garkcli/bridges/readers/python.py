@@ -8,28 +8,11 @@ from collections import ChainMap
 from collections.abc import Mapping, Sequence
 
 from garkcli.bridges.readers.blocks import table_of_blocks
-from garkcli.bridges.readers.found import (
-    MAX_TABLES,
-    FoundTable,
-    Reader,
-    Row,
-    Unreadable,
-    troubled,
-)
+from garkcli.bridges.readers.found import MAX_TABLES, FoundTable, Reader, Row, Unreadable, troubled
 from garkcli.bridges.readers.naming import Scope
-from garkcli.bridges.readers.python_values import (
-    Literals,
-    as_number,
-    called,
-    targets_of,
-)
+from garkcli.bridges.readers.python_values import Literals, as_number, called, targets_of
 from garkcli.bridges.readers.scalars import Value, whole
-from garkcli.bridges.readers.shaping import (
-    is_zero,
-    square,
-    total,
-    weights,
-)
+from garkcli.bridges.readers.shaping import is_zero, square, total, weights
 
 NAME = "python"
 SCIPY = frozenset({"RungeKutta"})
@@ -64,12 +47,7 @@ class _Finder:
         self._lines: dict[str, int] = {}
         self._depth = 0
 
-    def body(
-        self,
-        statements: Sequence[ast.stmt],
-        scope: Scope,
-        node: ast.ClassDef | None,
-    ) -> None:
+    def body(self, statements: Sequence[ast.stmt], scope: Scope, node: ast.ClassDef | None) -> None:
         """One scope: a module, a class, a function."""
         self._depth += 1
         if self._depth > MAX_NESTING:
@@ -89,9 +67,7 @@ class _Finder:
         self._names.maps.pop(0)
         self._depth -= 1
 
-    def _statements(
-        self, statements: Sequence[ast.stmt], scope: Scope
-    ) -> None:
+    def _statements(self, statements: Sequence[ast.stmt], scope: Scope) -> None:
         for node in statements:
             match node:
                 case ast.ClassDef(name=name, body=body):
@@ -109,9 +85,7 @@ class _Finder:
             if isinstance(node, _WITH_VALUE):
                 self._tableaus(node, scope)
 
-    def _assignment(
-        self, node: ast.Assign | ast.AnnAssign, scope: Scope
-    ) -> None:
+    def _assignment(self, node: ast.Assign | ast.AnnAssign, scope: Scope) -> None:
         if node.value is None:
             return
         for target in targets_of(node):
@@ -120,9 +94,7 @@ class _Finder:
             except Unreadable:
                 continue
 
-    def _assign(
-        self, target: ast.expr, expression: ast.expr, scope: Scope, line: int
-    ) -> None:
+    def _assign(self, target: ast.expr, expression: ast.expr, scope: Scope, line: int) -> None:
         match target, expression:
             case ast.Tuple(elts=names), ast.Tuple(elts=values):
                 if len(names) == len(values):
@@ -211,9 +183,7 @@ def _listed(value: Value) -> Value:
     return as_number(value) if isinstance(value, list) else value
 
 
-def _set(
-    array: list[Value], place: ast.expr, value: Value, literals: Literals
-) -> None:
+def _set(array: list[Value], place: ast.expr, value: Value, literals: Literals) -> None:
     if not isinstance(place, ast.Slice):
         index = whole(literals.value(place))
         if index is None or not 0 <= index < len(array):
@@ -269,9 +239,7 @@ def _assigned(node: ast.ClassDef) -> set[str]:
     return found
 
 
-def _scipy(
-    node: ast.ClassDef, values: Mapping[str, Value], source: str
-) -> FoundTable:
+def _scipy(node: ast.ClassDef, values: Mapping[str, Value], source: str) -> FoundTable:
     """A subclass of scipy's RungeKutta: E has one entry more, that of f(t + h, y_new).
 
     E is b̂ − b in the classes of scipy. The other sign, which some have, changes no order.
@@ -319,8 +287,5 @@ def _scipy(
 
 
 READER = Reader(
-    NAME,
-    "Python: NumPy arrays, lists, Fractions, scipy's RungeKutta",
-    (".py", ".pyi"),
-    find,
+    NAME, "Python: NumPy arrays, lists, Fractions, scipy's RungeKutta", (".py", ".pyi"), find
 )

@@ -32,12 +32,7 @@ _SAME = frozenset(
 )
 _FRACTIONS = frozenset({"Fraction", "Rational", "fmpq", "mpq", "QQ", "R"})
 _ROOTS = {"sqrt": 2, "cbrt": 3}
-_SIGNS: Mapping[type[ast.operator], str] = {
-    ast.Add: "+",
-    ast.Sub: "-",
-    ast.Mult: "*",
-    ast.Div: "/",
-}
+_SIGNS: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 
 class Literals:

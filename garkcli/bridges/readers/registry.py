@@ -9,12 +9,7 @@ from importlib import import_module
 from pathlib import PurePath
 
 from garkcli.bridges import readers
-from garkcli.bridges.readers.found import (
-    MAX_CHARACTERS,
-    MAX_TABLES,
-    FoundTable,
-    Reader,
-)
+from garkcli.bridges.readers.found import MAX_CHARACTERS, MAX_TABLES, FoundTable, Reader
 from garkcli.errors import UsageProblem, did_you_mean
 
 
@@ -38,9 +33,7 @@ def reader_named(name: str) -> Reader:
     """
     known = all_readers()
     if name not in known:
-        raise UsageProblem(
-            f"no format {name!r}", did_you_mean(name, list(known))
-        )
+        raise UsageProblem(f"no format {name!r}", did_you_mean(name, list(known)))
     return known[name]
 
 
@@ -56,9 +49,7 @@ def readers_for(path: str) -> Sequence[Reader]:
     return [x for x in everyone if suffix in x.suffixes] or everyone
 
 
-def find_tables(
-    text: str, source: str, chosen: Sequence[Reader]
-) -> list[FoundTable]:
+def find_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
     """The tables of a source in the order of its lines; what several readers find is found once.
 
     Args:
@@ -72,9 +63,7 @@ def find_tables(
     return [x for x in found if not _is_unlike(x)][:MAX_TABLES]
 
 
-def unlike_tables(
-    text: str, source: str, chosen: Sequence[Reader]
-) -> list[FoundTable]:
+def unlike_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
     """Arrays of a source that have the names of a method and shapes that do not go together; the
     arguments are those of ``find_tables``.
     """
@@ -89,9 +78,7 @@ def _is_unlike(table: FoundTable) -> bool:
     return bool(table.trouble) and not table.is_sure
 
 
-def _found(
-    text: str, source: str, chosen: Sequence[Reader]
-) -> list[FoundTable]:
+def _found(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
     if len(chosen) == len(all_readers()):
         return _by_the_best(text, source, chosen)
     found: list[FoundTable] = []
@@ -100,9 +87,7 @@ def _found(
     return sorted(found, key=lambda x: x.line)
 
 
-def _by_the_best(
-    text: str, source: str, chosen: Sequence[Reader]
-) -> list[FoundTable]:
+def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
     """The tables of the reader that finds most in a text of an unknown format."""
     best: list[FoundTable] = []
     unlike: list[FoundTable] = []

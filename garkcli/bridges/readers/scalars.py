@@ -6,11 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, Union
 
-from garkcli.bridges.readers.found import (
-    MAX_LENGTH,
-    MAX_STAGES,
-    Unreadable,
-)
+from garkcli.bridges.readers.found import MAX_LENGTH, MAX_STAGES, Unreadable
 from garkcli.errors import ExpressionError
 from garkcli.exact.expression import parse
 from garkcli.exact.polynomial import Polynomial

@@ -5,20 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from garkcli.bridges.readers.found import (
-    MAX_STAGES,
-    FoundTable,
-    Row,
-    Rows,
-    Unreadable,
-)
-from garkcli.bridges.readers.scalars import (
-    Value,
-    combined,
-    is_row,
-    number,
-    row_of,
-)
+from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Row, Rows, Unreadable
+from garkcli.bridges.readers.scalars import Value, combined, is_row, number, row_of
 
 ZERO = "0"
 
@@ -157,9 +145,7 @@ def is_zero(text: str) -> bool:
     return not text.strip("-0. ")
 
 
-def symplectic(
-    empty: FoundTable, drifts: Row, kicks: Row, is_force_first: bool
-) -> FoundTable:
+def symplectic(empty: FoundTable, drifts: Row, kicks: Row, is_force_first: bool) -> FoundTable:
     """The partitioned method of kicks of the momenta and drifts of the positions in turns.
 
     Args:

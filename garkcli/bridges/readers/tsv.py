@@ -66,9 +66,4 @@ def _number(word: str) -> str:
     return word if _NUMBER.fullmatch(word) else ""
 
 
-READER = Reader(
-    NAME,
-    "tables of RungeKutta.jl: # order stages Type",
-    (".tsv", ".txt"),
-    find,
-)
+READER = Reader(NAME, "tables of RungeKutta.jl: # order stages Type", (".tsv", ".txt"), find)

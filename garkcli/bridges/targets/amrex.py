@@ -17,10 +17,7 @@ _UNUSED = "AMReX reads the extended weights, which are the embedded ones, and ma
 def write(payload: Payload) -> str:
     """The keys of ``integration.rk``; the rows of the lower triangle have their diagonal."""
     found = explicit_table(payload, "amrex")
-    rows = [
-        payload.numbers(row[: i + 1], DECIMALS)
-        for i, row in enumerate(found.A)
-    ]
+    rows = [payload.numbers(row[: i + 1], DECIMALS) for i, row in enumerate(found.A)]
     entries = "  ".join(" ".join(row) for row in rows)
     notes = [] if found.embedded is None else [_UNUSED]
     lines = HASH.lines(head(payload, *notes))

@@ -8,11 +8,7 @@ from garkcli.bridges.lines import filled
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge, Written
-from garkcli.bridges.tables import (
-    below_diagonal,
-    error_weights,
-    explicit_table,
-)
+from garkcli.bridges.tables import below_diagonal, error_weights, explicit_table
 from garkcli.bridges.trials import trial_of
 from garkcli.tableau.pointwise import Row
 

@@ -31,8 +31,7 @@ def write(payload: Payload) -> str:
     name = f"gark_{payload.identifier}"
     guard = f"{name.upper()}_H"
     notes = (
-        "Numbers are double; long double with -DGARK_LONG_DOUBLE, __float128 with "
-        "-DGARK_FLOAT128.",
+        "Numbers are double; long double with -DGARK_LONG_DOUBLE, __float128 with -DGARK_FLOAT128.",
     )
     lines = heading(payload, *notes)
     lines += [f"#ifndef {guard}", f"#define {guard}", "", _TYPE, ""]
@@ -47,9 +46,7 @@ def write(payload: Payload) -> str:
     return "\n".join([*lines, "", f"#endif /* {guard} */"]) + "\n"
 
 
-def _one(
-    payload: Payload, declaration: str, rows: Sequence[Row], is_matrix: bool
-) -> list[str]:
+def _one(payload: Payload, declaration: str, rows: Sequence[Row], is_matrix: bool) -> list[str]:
     """A vector, or a matrix with braces around its rows."""
     if not is_matrix:
         return array(payload, declaration, rows, STYLE)

@@ -38,9 +38,7 @@ def _rows(payload: Payload) -> Iterator[str]:
         yield from _matrix(payload, f"dense,{l},", rows)
 
 
-def _matrix(
-    payload: Payload, place: str, rows: Sequence[Row]
-) -> Iterator[str]:
+def _matrix(payload: Payload, place: str, rows: Sequence[Row]) -> Iterator[str]:
     for i, row in enumerate(rows, start=1):
         for j, text in enumerate(_texts(payload, row), start=1):
             yield f"{place},{i},{j},{text}"

@@ -11,11 +11,7 @@ from garkcli.bridges.lines import filled
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
 from garkcli.bridges.structure import Rows, Table, vanishes
-from garkcli.bridges.tables import (
-    imex_tables,
-    with_first_stage,
-    with_last_stage,
-)
+from garkcli.bridges.tables import imex_tables, with_first_stage, with_last_stage
 from garkcli.bridges.targets.numpy_arrays import PYTHON
 from garkcli.exact.field import ONE
 from garkcli.tableau.pointwise import Row

@@ -116,9 +116,7 @@ def _of_two(payload: Payload, explicit: Table, implicit: Table) -> str:
         lines += _tableau(payload, found, 3)
         lines.append("        ),")
     lines.append("    )")
-    jacobian = (
-        _IMEX[-1] if is_implicit else _IMEX[-1].replace("every_stage", "never")
-    )
+    jacobian = _IMEX[-1] if is_implicit else _IMEX[-1].replace("every_stage", "never")
     lines += [*_IMEX[:-1], jacobian]
     if is_implicit:
         lines += _ROOTS
@@ -139,24 +137,13 @@ def kind_of(found: Table) -> str:
 
 def has_cubic(found: Table) -> bool:
     """Whether the first and the last stage are the slopes at both ends."""
-    return (
-        begins_at_start(found)
-        and found.A[-1] == found.b
-        and found.c[-1] == ONE
-    )
+    return begins_at_start(found) and found.A[-1] == found.b and found.c[-1] == ONE
 
 
-def _start(
-    payload: Payload, use: str, is_implicit: bool, cubic: bool
-) -> list[str]:
+def _start(payload: Payload, use: str, is_implicit: bool, cubic: bool) -> list[str]:
     """The head and the imports."""
-    between = (
-        "the cubic through both ends and their slopes" if cubic else "linear"
-    )
-    notes = [
-        use.format(name=payload.class_name),
-        f"Between steps: {between}.",
-    ]
+    between = "the cubic through both ends and their slopes" if cubic else "linear"
+    notes = [use.format(name=payload.class_name), f"Between steps: {between}."]
     lines = HASH.lines(head(payload, *notes))
     lines += ["", "from typing import ClassVar", "", "import diffrax"]
     lines.append("import numpy as np")
@@ -202,9 +189,7 @@ def _check_nodes(payload: Payload, found: Table) -> None:
             )
 
 
-def _arrays(
-    payload: Payload, name: str, rows: Sequence[Row], margin: str
-) -> list[str]:
+def _arrays(payload: Payload, name: str, rows: Sequence[Row], margin: str) -> list[str]:
     lines = [f"{margin}{name}=("]
     for row in rows:
         lines += _array(payload, margin + _INDENT, row)
@@ -237,20 +222,12 @@ def _linear() -> list[str]:
 def _methods(payload: Payload) -> list[str]:
     """The order, that of the error estimate, and the step where there is none."""
     orders = payload.orders
-    lines = [
-        "",
-        "    def order(self, terms):",
-        f"        return {orders.effective}",
-    ]
+    lines = ["", "    def order(self, terms):", f"        return {orders.effective}"]
     if orders.embedded is None:
         return [*lines, *_WITHOUT]
     least = min(orders.effective, orders.embedded) + 1
     if least != orders.effective:
-        lines += [
-            "",
-            "    def error_order(self, terms):",
-            f"        return {least}",
-        ]
+        lines += ["", "    def error_order(self, terms):", f"        return {least}"]
     return lines
 
 

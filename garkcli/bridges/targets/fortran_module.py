@@ -12,12 +12,7 @@ from garkcli.bridges.registry import Bridge
 from garkcli.bridges.tables import named_arrays
 from garkcli.tableau.pointwise import Row
 
-STYLE = Style(
-    digits=39,
-    longest=80,
-    fraction="{p}.0_wp/{q}.0_wp",
-    decimal="{x}_wp",
-)
+STYLE = Style(digits=39, longest=80, fraction="{p}.0_wp/{q}.0_wp", decimal="{x}_wp")
 """39 digits are enough for real128; a longer number would not fit a line."""
 WIDTH = 98
 
@@ -25,9 +20,7 @@ WIDTH = 98
 def write(payload: Payload) -> str:
     """The module; several vector fields have arrays ``A_1_2``, ``b_2`` with their numbers."""
     name = f"gark_{payload.identifier}"
-    note = (
-        "Change wp for another precision; the digits are enough for real128."
-    )
+    note = "Change wp for another precision; the digits are enough for real128."
     lines = BANG.lines(head(payload, note))
     lines += [
         f"module {name}",
@@ -44,11 +37,7 @@ def write(payload: Payload) -> str:
         lines.append(f"  integer, parameter :: {stages_name} = {stages}")
     for part, rows in named_arrays(payload, "_"):
         is_matrix = part.startswith(("A", "dense"))
-        lines += (
-            _matrix(payload, part, rows)
-            if is_matrix
-            else _vector(payload, part, rows[0])
-        )
+        lines += _matrix(payload, part, rows) if is_matrix else _vector(payload, part, rows[0])
     return "\n".join([*lines, f"end module {name}"]) + "\n"
 
 
@@ -57,17 +46,9 @@ def _number(payload: Payload, l: int) -> str:
     return "" if payload.size == 1 else f"_{l}"
 
 
-def _vector(
-    payload: Payload, name: str, row: Row, access: str = ""
-) -> list[str]:
+def _vector(payload: Payload, name: str, row: Row, access: str = "") -> list[str]:
     begin = f"  real(wp), parameter{access} :: {name}({len(row)}) = [ &"
-    numbers = filled(
-        payload.numbers(row, STYLE),
-        "      ",
-        " ]",
-        continuation=" &",
-        width=WIDTH,
-    )
+    numbers = filled(payload.numbers(row, STYLE), "      ", " ]", continuation=" &", width=WIDTH)
     return [begin, *numbers]
 
 

@@ -34,9 +34,7 @@ def write(payload: Payload) -> str:
         row = found.embedded
         lines += _row(payload, "bhat = np.array([", row, "], dtype=float)")
     lines += _row(payload, "c = np.array([", found.c, "], dtype=float)")
-    arguments = (
-        f"A, b, {embedded}, c, {orders.effective}, {orders.embedded}, {gamma}"
-    )
+    arguments = f"A, b, {embedded}, c, {orders.effective}, {orders.embedded}, {gamma}"
     lines.append(f"{payload.identifier} = ButcherTableau({arguments})")
     return "\n".join(lines) + "\n"
 

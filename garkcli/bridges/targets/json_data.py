@@ -103,28 +103,15 @@ _REPORT: Record[Payload] = Record(
     Field("problems", TEXT, problem_class),
     Field("order", COUNT, lambda x: x.orders.order),
     Field("embedded_order", nullable(COUNT), lambda x: x.orders.embedded),
-    Field(
-        "nonautonomous_order",
-        nullable(COUNT),
-        lambda x: x.orders.nonautonomous,
-    ),
+    Field("nonautonomous_order", nullable(COUNT), lambda x: x.orders.nonautonomous),
     Field("tolerance", nullable(TEXT), _tolerance),
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
     Field("c", _ONE_ROW, lambda x: _rows(x, x.c)),
-    Field(
-        "A",
-        one_of(_MATRIX, array(array(nullable(_MATRIX)))),
-        _blocks,
-    ),
+    Field("A", one_of(_MATRIX, array(array(nullable(_MATRIX)))), _blocks),
     Field("b", _ONE_ROW, lambda x: _rows(x, x.b)),
-    Field(
-        "embedded",
-        _ONE_ROW,
-        lambda x: _rows(x, x.embedded),
-        is_optional=True,
-    ),
+    Field("embedded", _ONE_ROW, lambda x: _rows(x, x.embedded), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _dense, is_optional=True),
 )
 BRIDGES = (

@@ -97,9 +97,7 @@ def _blocks(payload: Payload) -> list[str]:
     return [*lines, "    ],"]
 
 
-def _rows(
-    payload: Payload, begin: str, rows: Sequence[Row], is_single: bool
-) -> list[str]:
+def _rows(payload: Payload, begin: str, rows: Sequence[Row], is_single: bool) -> list[str]:
     """A vector, or a vector of vectors."""
     if is_single:
         return vector(payload, begin, rows[0], ",")
@@ -144,21 +142,12 @@ def write_ordinarydiffeq(payload: Payload) -> str:
     found = explicit_table(payload, "ordinarydiffeq")
     orders = payload.orders
     name = payload.identifier
-    usage = (
-        f"solve(problem, ExplicitRK(tableau = {name}())), with OrdinaryDiffEq"
-    )
+    usage = f"solve(problem, ExplicitRK(tableau = {name}())), with OrdinaryDiffEq"
     notes = [f"Use: {usage}."]
     if found.embedded is None:
-        notes.append(
-            "There are no embedded weights: adaptive = false, dt = h."
-        )
+        notes.append("There are no embedded weights: adaptive = false, dt = h.")
     lines = HASH.lines(head(payload, *notes))
-    lines += [
-        "",
-        "import DiffEqBase",
-        "",
-        f"function {name}(::Type{{T}} = Float64) where {{T}}",
-    ]
+    lines += ["", "import DiffEqBase", "", f"function {name}(::Type{{T}} = Float64) where {{T}}"]
     lines += matrix(payload, "    A = T", found.A, "")
     lines += vector(payload, "    c = T", found.c, "")
     lines += vector(payload, "    b = T", found.b, "")

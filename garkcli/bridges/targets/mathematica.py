@@ -135,9 +135,7 @@ def _blocks(payload: Payload) -> list[str]:
     return [*lines, "  },"]
 
 
-def _matrix(
-    payload: Payload, begin: str, rows: Block | Sequence[Row], end: str
-) -> list[str]:
+def _matrix(payload: Payload, begin: str, rows: Block | Sequence[Row], end: str) -> list[str]:
     if rows is None:
         return [f"{begin}None{end}"]
     lines = []

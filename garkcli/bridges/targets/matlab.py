@@ -97,11 +97,7 @@ def write_rklab(payload: Payload) -> str:
     if found.embedded is not None:
         embedded = payload.numbers(found.embedded, MATLAB)
         numbers.append([str(orders.embedded), *embedded])
-    lines = PERCENT.lines(
-        head(
-            payload, "Rows [c A], then [order b], then [embedded order bhat]."
-        )
-    )
+    lines = PERCENT.lines(head(payload, "Rows [c A], then [order b], then [embedded order bhat]."))
     indent = " " * len("B = [")
     for i, line in enumerate(numbers):
         begin = indent if i else "B = ["
@@ -155,18 +151,8 @@ def _fields(payload: Payload) -> list[str]:
     return [f"@(t, y) [{first}; {second}]" for first, second in sides]
 
 
-_WORDS = {
-    "y1": "y(1)",
-    "y2": "y(2)",
-    "t": "t",
-    "sin": "sin",
-    "cos": "cos",
-}
-_SINGLE = (
-    "if ~iscell(m.A)",
-    "  m.A = {m.A}; m.b = {m.b}; m.c = {m.c};",
-    "end",
-)
+_WORDS = {"y1": "y(1)", "y2": "y(2)", "t": "t", "sin": "sin", "cos": "cos"}
+_SINGLE = ("if ~iscell(m.A)", "  m.A = {m.A}; m.b = {m.b}; m.c = {m.c};", "end")
 _LOOP = (
     "  h = t_end/n;",
     "  for k = 0:n-1",

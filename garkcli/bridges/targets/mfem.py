@@ -29,12 +29,7 @@ def write(payload: Payload) -> str:
     stages = found.stages
     lower = tuple(x for row in below_diagonal(found) for x in row)
     lines = C.lines(head(payload, "The caller deletes the solver."))
-    lines += [
-        "#pragma once",
-        '#include "mfem.hpp"',
-        "",
-        f"inline mfem::ODESolver *{name}() {{",
-    ]
+    lines += ["#pragma once", '#include "mfem.hpp"', "", f"inline mfem::ODESolver *{name}() {{"]
     # an array in C++ has one number at least
     lines += _array(payload, "a", lower or found.b)
     lines += _array(payload, "b", found.b)

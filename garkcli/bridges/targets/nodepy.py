@@ -23,11 +23,7 @@ def _rational(x: fmpq) -> str:
 
 def _root(radicand: str, index: int) -> str:
     # the principal root of a negative number is no real one
-    return (
-        f"sqrt({radicand})"
-        if index == 2
-        else f"real_root({radicand}, {index})"
-    )
+    return f"sqrt({radicand})" if index == 2 else f"real_root({radicand}, {index})"
 
 
 def _algebraic(root: AlgebraicRoot) -> str:
@@ -79,9 +75,7 @@ def write(payload: Payload) -> str:
     lines += _row(payload, "b = np.array([", found.b, "], dtype=object)")
     if len(arguments) > 3:
         embedded = found.embedded or ()
-        lines += _row(
-            payload, "bhat = np.array([", embedded, "], dtype=object)"
-        )
+        lines += _row(payload, "bhat = np.array([", embedded, "], dtype=object)")
     made = f"{payload.identifier} = {kind}({', '.join(arguments)})"
     return "\n".join([*lines, made]) + "\n"
 

@@ -54,9 +54,7 @@ def _notes(payload: Payload) -> list[str]:
             "A[l][m] has the weights with which the stages of vector field l see vector field m."
         )
     if payload.dense is not None:
-        notes.append(
-            "dense: the coefficients of theta, theta^2, ... of b_i(theta), a row a stage."
-        )
+        notes.append("dense: the coefficients of theta, theta^2, ... of b_i(theta), a row a stage.")
     return notes
 
 
@@ -70,31 +68,23 @@ def _blocks(payload: Payload) -> list[str]:
     return [*lines, "]"]
 
 
-def _list(
-    name: str, rows: Sequence[Row | Sequence[Row]], payload: Payload
-) -> list[str]:
+def _list(name: str, rows: Sequence[Row | Sequence[Row]], payload: Payload) -> list[str]:
     lines = [f"{name} = ["]
     for row in rows:
         lines += _item(row, payload, 4)
     return [*lines, "]"]
 
 
-def _item(
-    cells: Block | Row | Sequence[Row], payload: Payload, indent: int
-) -> list[str]:
+def _item(cells: Block | Row | Sequence[Row], payload: Payload, indent: int) -> list[str]:
     """An array in a list, or None."""
     margin = " " * indent
     if cells is None:
         return [f"{margin}None,"]
     lines = _array("", cells, payload)
-    return [f"{margin}{line}" for line in lines[:-1]] + [
-        f"{margin}{lines[-1]},"
-    ]
+    return [f"{margin}{line}" for line in lines[:-1]] + [f"{margin}{lines[-1]},"]
 
 
-def _array(
-    name: str, cells: Row | Sequence[Row], payload: Payload
-) -> list[str]:
+def _array(name: str, cells: Row | Sequence[Row], payload: Payload) -> list[str]:
     """An assignment of an array, or the array alone."""
     begin = f"{name} = np.array(" if name else "np.array("
     if cells and not isinstance(cells[0], tuple):

@@ -83,14 +83,11 @@ def _arkimex(payload: Payload, implicit: Table, explicit: Table) -> str:
         embedded = "NULL, NULL"
     name = method_name(payload)
     call = (
-        f'TSARKIMEXRegister("{name}", {order}, {s}, At, bt, ct, A, b, c, {embedded}, '
-        "0, NULL, NULL)"
+        f'TSARKIMEXRegister("{name}", {order}, {s}, At, bt, ct, A, b, c, {embedded}, 0, NULL, NULL)'
     )
     use = f"-ts_type arkimex -ts_arkimex_type {name}"
     if payload.kind == "rk":
-        note = (
-            "; the whole problem is the IFunction, and there is no RHSFunction"
-        )
+        note = "; the whole problem is the IFunction, and there is no RHSFunction"
         return _file(payload, use + note, arrays, call)
     pair = pair_of(payload, "petsc")
     note = f"; f{pair.implicit + 1} is in the IFunction, f{pair.explicit + 1} the RHSFunction"
@@ -103,9 +100,7 @@ def _symplectic(payload: Payload) -> str:
         raise no_composition(payload, "basicsymplectic")
     name = method_name(payload)
     order = payload.orders.order
-    lines = [
-        "#if PETSC_VERSION_LT(3, 20, 0) /* kicks with c, then drifts with d */"
-    ]
+    lines = ["#if PETSC_VERSION_LT(3, 20, 0) /* kicks with c, then drifts with d */"]
     lines += _steps(payload, found.kicks, found.drifts)
     lines += ["#else /* drifts with c, then kicks with d */"]
     lines += _steps(payload, *found.drift_first)
@@ -126,10 +121,7 @@ def _steps(payload: Payload, c: Row, d: Row) -> list[str]:
 
 
 def _file(
-    payload: Payload,
-    use: str,
-    arrays: Sequence[tuple[str, Sequence[Row]]],
-    call: str,
+    payload: Payload, use: str, arrays: Sequence[tuple[str, Sequence[Row]]], call: str
 ) -> str:
     """The function with its arrays and its one call."""
     lines: list[str] = []
@@ -138,9 +130,7 @@ def _file(
     return _function(payload, use, lines, call)
 
 
-def _function(
-    payload: Payload, use: str, body: Sequence[str], call: str
-) -> str:
+def _function(payload: Payload, use: str, body: Sequence[str], call: str) -> str:
     """The function that registers the method."""
     function = f"gark_{payload.identifier}_register"
     note = f"Use: call {function} after PetscInitialize, then {use}"

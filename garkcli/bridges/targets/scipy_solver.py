@@ -71,13 +71,9 @@ def _notes(payload: Payload, found: Table) -> list[str]:
             "Give first_step and max_step."
         )
     if found.is_fsal:
-        notes.append(
-            "The last stage is the first of the next step, which SciPy evaluates itself."
-        )
+        notes.append("The last stage is the first of the next step, which SciPy evaluates itself.")
     if found.dense is None:
-        notes.append(
-            "The method has no dense output: P is the cubic through both ends of a step."
-        )
+        notes.append("The method has no dense output: P is the cubic through both ends of a step.")
     return notes
 
 
@@ -188,10 +184,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
             "    before = error",
         ]
     )
-    return [
-        Written("_test.py", text + "\n"),
-        Written("_problem.yaml", trial.file),
-    ]
+    return [Written("_test.py", text + "\n"), Written("_problem.yaml", trial.file)]
 
 
 BRIDGES = (

@@ -11,14 +11,7 @@ from garkcli.bridges.c_text import array, c_style, heading
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge, Written
-from garkcli.bridges.structure import (
-    Table,
-    composition,
-    no_composition,
-    shared,
-    table,
-    vanishes,
-)
+from garkcli.bridges.structure import Table, composition, no_composition, shared, table, vanishes
 from garkcli.bridges.sundials_driver import driver
 
 STYLE = c_style("SUN_RCONST")
@@ -74,11 +67,7 @@ def _one(payload: Payload) -> str:
     call = f"ERKStepSetTable(arkode_mem, {name}_table)"
     if stepper == "ARKStep":
         q, p = _orders(payload)
-        both = (
-            f"NULL, {name}_table"
-            if found.is_explicit
-            else f"{name}_table, NULL"
-        )
+        both = f"NULL, {name}_table" if found.is_explicit else f"{name}_table, NULL"
         call = f"ARKStepSetTables(arkode_mem, {q}, {p}, {both})"
     return _joined(lines + _setter(name, [f"{name}_table"], [name], call))
 
@@ -105,9 +94,7 @@ def _pair(payload: Payload) -> str:
     lines += ["#include <arkode/arkode_arkstep.h>", ""]
     lines += [f"ARKodeButcherTable {x}(void);" for x in names]
     lines += [f"int {name}_set(void *arkode_mem);", ""]
-    for function, colour in zip(
-        names, (pair.implicit, pair.explicit), strict=True
-    ):
+    for function, colour in zip(names, (pair.implicit, pair.explicit), strict=True):
         lines += _table_function(payload, function, pair.tables[colour])
         lines.append("")
     q, p = _orders(payload)
@@ -141,9 +128,7 @@ def pair_of(payload: Payload, target: str) -> Pair:
     return Pair(first, 1 - first, tables)
 
 
-def check_diagonal(
-    payload: Payload, tables: Sequence[Table], target: str
-) -> None:
+def check_diagonal(payload: Payload, tables: Sequence[Table], target: str) -> None:
     """Whether stages can be computed one after the other.
 
     Raises:
@@ -186,9 +171,7 @@ def _orders(payload: Payload) -> tuple[int, int]:
     return orders.effective, orders.embedded or 0
 
 
-def _table_function(
-    payload: Payload, function: str, found: Table
-) -> list[str]:
+def _table_function(payload: Payload, function: str, found: Table) -> list[str]:
     """A function that makes a table."""
     s = found.stages
     q, p = _orders(payload)
@@ -204,15 +187,9 @@ def _table_function(
     return [*lines, f"  return {call};", "}"]
 
 
-def _setter(
-    name: str, variables: Sequence[str], functions: Sequence[str], call: str
-) -> list[str]:
+def _setter(name: str, variables: Sequence[str], functions: Sequence[str], call: str) -> list[str]:
     """A function that gives tables, which are copied, to an integrator."""
-    lines = [
-        f"int {name}_set(void *arkode_mem)",
-        "{",
-        "  int flag = ARK_MEM_FAIL;",
-    ]
+    lines = [f"int {name}_set(void *arkode_mem)", "{", "  int flag = ARK_MEM_FAIL;"]
     for variable, function in zip(variables, functions, strict=True):
         lines.append(f"  ARKodeButcherTable {variable} = {function}();")
     condition = " && ".join(f"{x} != NULL" for x in variables)

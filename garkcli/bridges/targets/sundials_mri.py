@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 
 STYLE = c_style("SUN_RCONST")
 _EMBEDDING = (
-    "#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && "
-    "SUNDIALS_VERSION_MINOR >= 2)"
+    "#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 2)"
 )
 """From 7.2 on there is a row for the embedding."""
 
@@ -73,11 +72,7 @@ def write(payload: Payload) -> str:
         lines += array(payload, declaration, rows, STYLE, "  ")
     if slow.embedding is not None:
         row, _ = slow.embedding
-        lines += [
-            _EMBEDDING,
-            *array(payload, f"sunrealtype d[{s}]", (row,), STYLE, "  "),
-            "#endif",
-        ]
+        lines += [_EMBEDDING, *array(payload, f"sunrealtype d[{s}]", (row,), STYLE, "  "), "#endif"]
     lines += _assignments(slow)
     return "\n".join(lines) + "\n"
 
@@ -87,11 +82,7 @@ _CREATE = {
     "G": "MRIStepCreate(NULL, slow, ...)",
     "WG": "MRIStepCreate(explicit, implicit, ...)",
 }
-_TYPES = {
-    "W": "MRISTEP_EXPLICIT",
-    "G": "MRISTEP_IMPLICIT",
-    "WG": "MRISTEP_IMEX",
-}
+_TYPES = {"W": "MRISTEP_EXPLICIT", "G": "MRISTEP_IMPLICIT", "WG": "MRISTEP_IMEX"}
 
 
 def _notes(payload: Payload, slow: Slow, name: str) -> list[str]:

@@ -65,11 +65,7 @@ def _parameter(name: str, kind: str, value: str) -> str:
 
 def _list(name: str, body: Sequence[str]) -> list[str]:
     inner = [f"  {line}" for line in body]
-    return [
-        f"<ParameterList name={quoteattr(name)}>",
-        *inner,
-        "</ParameterList>",
-    ]
+    return [f"<ParameterList name={quoteattr(name)}>", *inner, "</ParameterList>"]
 
 
 BRIDGES = (

@@ -65,10 +65,7 @@ def write(payload: Payload) -> str:
     lines = HASH.lines(head(payload, *notes))
     lines += [*_IMPORTS, f"class {name}(RKAdaptiveStepsizeODESolver):"]
     orders = payload.orders
-    lines += [
-        f"    order = {orders.effective}",
-        "    tableau = _ButcherTableau(",
-    ]
+    lines += [f"    order = {orders.effective}", "    tableau = _ButcherTableau("]
     lines += _row(payload, "alpha=_row", found.c[1:])
     lines.append("        beta=[")
     for row in below_diagonal(found):
@@ -133,14 +130,7 @@ def _row(payload: Payload, begin: str, row: Row) -> list[str]:
 def test_driver(payload: Payload, file: str) -> list[Written]:
     """A program with tolerances that accept every step, and steps bounded by h."""
     first, second = trial_of(payload).formulas(0, _WORDS)
-    body = [
-        "",
-        "",
-        "def f(t, y):",
-        f"    return torch.stack([{first}, {second}])",
-        "",
-        "",
-    ]
+    body = ["", "", "def f(t, y):", f"    return torch.stack([{first}, {second}])", "", ""]
     final = [
         "run = odeint(",
         "    f, torch.tensor(y0, dtype=torch.float64),",

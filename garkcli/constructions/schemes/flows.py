@@ -52,9 +52,7 @@ def alternating(a: Sequence[str], b: Sequence[str]) -> tuple[FlowText, ...]:
     return tuple(flows)
 
 
-def _two(
-    a: Sequence[str], b: Sequence[str]
-) -> Callable[[int], tuple[FlowText, ...]]:
+def _two(a: Sequence[str], b: Sequence[str]) -> Callable[[int], tuple[FlowText, ...]]:
     flows = alternating(a, b)
     return lambda _: flows
 
@@ -70,9 +68,7 @@ def _mirrored(half: Sequence[str], count: int) -> tuple[str, ...]:
 
 _OF_BLANES = "S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002)"
 _S6 = (
-    _mirrored(
-        ("0.0792036964311957", "0.353172906049774", "-0.0420650803577195"), 7
-    ),
+    _mirrored(("0.0792036964311957", "0.353172906049774", "-0.0420650803577195"), 7),
     _mirrored(("0.209515106613362", "-0.143851773179818"), 6),
 )
 _S10 = (
@@ -87,13 +83,7 @@ _S10 = (
         11,
     ),
     _mirrored(
-        (
-            "0.148816447901042",
-            "-0.132385865767784",
-            "0.067307604692185",
-            "0.432666402578175",
-        ),
-        10,
+        ("0.148816447901042", "-0.132385865767784", "0.067307604692185", "0.432666402578175"), 10
     ),
 )
 SPLITTINGS = {
@@ -116,22 +106,10 @@ SPLITTINGS = {
             reference="R. Ruth, IEEE Trans. Nucl. Sci. 30 (1983)",
         ),
         Splitting(
-            "blanes-moan-4",
-            "4",
-            "13 flows, small error",
-            _two(*_S6),
-            2,
-            "1e-14",
-            _OF_BLANES,
+            "blanes-moan-4", "4", "13 flows, small error", _two(*_S6), 2, "1e-14", _OF_BLANES
         ),
         Splitting(
-            "blanes-moan-6",
-            "6",
-            "21 flows, small error",
-            _two(*_S10),
-            2,
-            "1e-14",
-            _OF_BLANES,
+            "blanes-moan-6", "6", "21 flows, small error", _two(*_S10), 2, "1e-14", _OF_BLANES
         ),
     )
 }

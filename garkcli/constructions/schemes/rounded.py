@@ -70,38 +70,10 @@ _OF_YOSHIDA = "H. Yoshida, Phys. Lett. A 150 (1990), solution A"
 _OF_KAHAN = "W. Kahan, R.-C. Li, Math. Comp. 66 (1997)"
 
 SCHEMES = (
-    Scheme(
-        "yoshida-6",
-        "6",
-        "7 substeps",
-        palindrome(_YOSHIDA_6),
-        "1e-38",
-        reference=_OF_YOSHIDA,
-    ),
-    Scheme(
-        "yoshida-8",
-        "8",
-        "15 substeps",
-        palindrome(_YOSHIDA_8),
-        "1e-36",
-        reference=_OF_YOSHIDA,
-    ),
-    Scheme(
-        "kahan-li-6",
-        "6",
-        "9 substeps",
-        palindrome(_KAHAN_LI_6),
-        "1e-24",
-        reference=_OF_KAHAN,
-    ),
-    Scheme(
-        "kahan-li-8",
-        "8",
-        "17 substeps",
-        palindrome(_KAHAN_LI_8),
-        "1e-24",
-        reference=_OF_KAHAN,
-    ),
+    Scheme("yoshida-6", "6", "7 substeps", palindrome(_YOSHIDA_6), "1e-38", reference=_OF_YOSHIDA),
+    Scheme("yoshida-8", "8", "15 substeps", palindrome(_YOSHIDA_8), "1e-36", reference=_OF_YOSHIDA),
+    Scheme("kahan-li-6", "6", "9 substeps", palindrome(_KAHAN_LI_6), "1e-24", reference=_OF_KAHAN),
+    Scheme("kahan-li-8", "8", "17 substeps", palindrome(_KAHAN_LI_8), "1e-24", reference=_OF_KAHAN),
     Scheme(
         "suzuki-umeno-8",
         "8",

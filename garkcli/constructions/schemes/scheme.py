@@ -46,9 +46,7 @@ def palindrome(half: Sequence[str]) -> Callable[[int, int], Parts]:
     return lambda _, __: parts
 
 
-def repeated(
-    fractions: Callable[[int], Sequence[str]],
-) -> Callable[[int, int], Parts]:
+def repeated(fractions: Callable[[int], Sequence[str]]) -> Callable[[int, int], Parts]:
     """A scheme that gains two orders, used as often as it takes.
 
     Args:

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from garkcli.conversion.sheet import (
-    CannotConvert,
-    Place,
-    Sheet,
-    of_weights,
-    regrouped,
-    sheet_of,
-)
+from garkcli.conversion.sheet import CannotConvert, Place, Sheet, of_weights, regrouped, sheet_of
 from garkcli.conversion.stage_order import in_solving_order
 from garkcli.conversion.target import Target
 from garkcli.conversion.targets.gark import without_parts
@@ -34,8 +27,7 @@ def as_ark(method: GarkMethod) -> Sheet:
     linear = [x.name for x in sheet.tableau.colours if x.is_linear]
     if linear:
         raise CannotConvert(
-            f"colour {linear[0]} is linear, which an additive method does not"
-            " say",
+            f"colour {linear[0]} is linear, which an additive method does not say",
             "--to gark keeps it",
         )
     together = shared(sheet)
@@ -66,8 +58,7 @@ def _are_alike(tableau: Tableau, one: int, other: int) -> bool:
     if tableau.spaces[one].nodes != tableau.spaces[other].nodes:
         return False
     return all(
-        tableau.blocks.get((one, m)) == tableau.blocks.get((other, m))
-        for m in range(tableau.size)
+        tableau.blocks.get((one, m)) == tableau.blocks.get((other, m)) for m in range(tableau.size)
     )
 
 

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.conversion.sheet import (
-    Sheet,
-    each_its_own,
-    of_weights,
-    sheet_of,
-)
+from garkcli.conversion.sheet import Sheet, each_its_own, of_weights, sheet_of
 from garkcli.conversion.stage_order import in_order
 from garkcli.conversion.target import Target
 from garkcli.conversion.targets.ark import shared
@@ -30,8 +25,4 @@ def as_canonical(method: GarkMethod) -> Sheet:
     return shared(smaller) or smaller
 
 
-TARGET = Target(
-    "canonical",
-    "reduced, spelled out, its stages sorted",
-    as_canonical,
-)
+TARGET = Target("canonical", "reduced, spelled out, its stages sorted", as_canonical)

@@ -28,6 +28,4 @@ def without_parts(sheet: Sheet) -> Sheet:
     return replace(sheet, tableau=tableau)
 
 
-TARGET = Target(
-    "gark", "every colour with stages of its own, block by block", as_gark
-)
+TARGET = Target("gark", "every colour with stages of its own, block by block", as_gark)

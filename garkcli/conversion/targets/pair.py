@@ -26,10 +26,6 @@ TARGET = Target(
     "pair",
     "the symplectic pair as one method of 2N colours",
     as_pair,
-    {
-        "pair-order": "order",
-        "pair-bound": "bound",
-        "pair-sharp-bound": "sharp-bound",
-    },
+    {"pair-order": "order", "pair-bound": "bound", "pair-sharp-bound": "sharp-bound"},
     makes_another=True,
 )

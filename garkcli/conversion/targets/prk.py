@@ -23,23 +23,20 @@ def as_prk(method: GarkMethod) -> Sheet:
     tableau = sheet.tableau
     if tableau.size != 2:
         raise CannotConvert(
-            "a partitioned method has two parts, this one has"
-            f" {counted(tableau.size, 'colour')}",
+            f"a partitioned method has two parts, this one has {counted(tableau.size, 'colour')}",
             "--to gark has every number of colours",
         )
     if not _is_separable(tableau):
         together = shared(sheet)
         if together is None:
             raise CannotConvert(
-                "the colours neither have the same stages nor leave"
-                " themselves unseen (null)",
+                "the colours neither have the same stages nor leave themselves unseen (null)",
                 "--to ark puts all stages together first",
             )
         sheet = together
     elif tableau.colours[1].is_linear:
         raise CannotConvert(
-            "the file of a partitioned method says that q is linear, not p",
-            "exchange the colours",
+            "the file of a partitioned method says that q is linear, not p", "exchange the colours"
         )
     return _with_parts(sheet)
 

@@ -21,9 +21,7 @@ MOST_DEGREE = 12
 """Polynomials of a larger degree are not projected: the work grows with its cube and more."""
 
 
-def is_nowhere_less(
-    numerator: fmpq_mpoly, denominator: fmpq_mpoly, m: fmpq
-) -> bool | None:
+def is_nowhere_less(numerator: fmpq_mpoly, denominator: fmpq_mpoly, m: fmpq) -> bool | None:
     """Whether N/D ≥ m on the plane; None where that would take too long.
 
     Args:
@@ -38,8 +36,7 @@ def is_nowhere_less(
     product = difference * _in_plane(denominator)
     everything = curves([product])
     return all(
-        _is_nowhere_negative(_on_line(product, t))
-        for t in _lines(projected(everything, []))
+        _is_nowhere_negative(_on_line(product, t)) for t in _lines(projected(everything, []))
     )
 
 

@@ -40,9 +40,7 @@ MOVES = 64
 """With one step: a value that is still better then may get better for ever, and it ends there."""
 
 
-def climbed(
-    rank: Rank, coordinates: int, deadline: float | None = None
-) -> Point | None:
+def climbed(rank: Rank, coordinates: int, deadline: float | None = None) -> Point | None:
     """A point that none of its neighbours is better than, or that ``MOVES`` moves led to; None
     where the grid has no method.
 

@@ -18,13 +18,7 @@ from garkcli.design.minimise.line import Conditions
 from garkcli.design.minimise.objective import Level, Objective, Size
 from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.repeats import without_repeats
-from garkcli.design.minimise.result import (
-    Candidate,
-    Extent,
-    Limit,
-    Minimum,
-    Proof,
-)
+from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.step import Found, Step
 from garkcli.exact.field import Number, NumberField
@@ -149,15 +143,9 @@ class Comparison(ABC):
         for name, x in part.values.items():
             over, under = fraction(x, part.ring)
             numerator = value_of(over, part.ring, solution.values)
-            values[name] = numerator / value_of(
-                under, part.ring, solution.values
-            )
+            values[name] = numerator / value_of(under, part.ring, solution.values)
         return Solution(
-            solution.modulus,
-            solution.field,
-            values,
-            solution.multiplicity,
-            solution.real,
+            solution.modulus, solution.field, values, solution.multiplicity, solution.real
         )
 
     def _add_admissible(self, solution: Solution) -> None:
@@ -166,11 +154,7 @@ class Comparison(ABC):
                 self.add(solution, index)
 
     def add(
-        self,
-        solution: Solution,
-        index: int,
-        is_constant: bool = False,
-        proof: Proof = "exact",
+        self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
         """A method with its value."""
         value = self.value_of(solution, index)
@@ -184,9 +168,7 @@ class Comparison(ABC):
         ring = self.design.family.ring
         return member(self.design.tableau, ring, values)
 
-    def tried(
-        self, part: Part, rank: Callable[[Size], Any]
-    ) -> tuple[fmpq, ...] | None:
+    def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[fmpq, ...] | None:
         """The coordinates of a good method of a part with several free ones, which proves nothing
         of others; None where none is found.
 
@@ -212,9 +194,7 @@ class Comparison(ABC):
 
     def at_point(self, part: Part, point: tuple[fmpq, ...]) -> Solution | None:
         """The method at rational coordinates; None where there is none within the ranges."""
-        values: dict[str, Number] = dict(
-            zip(part.ring.names, point, strict=True)
-        )
+        values: dict[str, Number] = dict(zip(part.ring.names, point, strict=True))
         if not all(value_of(p, part.ring, values) for p in part.nonzero):
             return None
         origin = RealRoot.rational(fmpq(0))
@@ -230,13 +210,8 @@ class Comparison(ABC):
         positive = [*family.positive]
         not_negative = [*family.not_negative, *self.ends()]
         signs = {}
-        for sign, polynomials in (
-            ("positive", positive),
-            ("not_negative", not_negative),
-        ):
-            signs[sign] = [
-                in_one(_sign_of(part, p, self.design)) for p in polynomials
-            ]
+        for sign, polynomials in (("positive", positive), ("not_negative", not_negative)):
+            signs[sign] = [in_one(_sign_of(part, p, self.design)) for p in polynomials]
         nonzero = [in_one(p) for p in part.nonzero]
         return Conditions(nonzero, **signs)
 
@@ -260,9 +235,7 @@ def _points(part: Part) -> Iterator[Solution]:
     if part.ideal.degree > MOST_POINTS:
         raise NotDecided
     for solution in solutions(part.ideal):
-        values = [
-            value_of(p, part.ring, solution.values) for p in part.nonzero
-        ]
+        values = [value_of(p, part.ring, solution.values) for p in part.nonzero]
         if all(values):
             yield solution
 

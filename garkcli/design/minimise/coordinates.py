@@ -32,10 +32,7 @@ class Changes:
         if not self.instead:
             return p
         context = self.ring.context
-        given = [
-            self.instead.get(i, context.gen(i))
-            for i in range(len(self.ring.names))
-        ]
+        given = [self.instead.get(i, context.gen(i)) for i in range(len(self.ring.names))]
         return p.compose(*given, ctx=context)
 
     def values(self) -> dict[str, Mixed]:
@@ -83,10 +80,7 @@ def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
             x = cast("Mixed", node)
             if not isinstance(x, Parametric) or not x.denominator.is_one():
                 continue
-            if (
-                x.numerator.total_degree() == 1
-                and len(_places(x.numerator)) > 1
-            ):
+            if x.numerator.total_degree() == 1 and len(_places(x.numerator)) > 1:
                 name = f"c{i}" if tableau.size == 1 else f"c{l}_{i}"
                 yield name, x.numerator
 

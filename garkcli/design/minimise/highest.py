@@ -41,11 +41,7 @@ class Highest(Comparison):
         return self.objective.value(member(self.design.tableau, ring, values))
 
     def add(
-        self,
-        solution: Solution,
-        index: int,
-        is_constant: bool = False,
-        proof: Proof = "exact",
+        self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
         """A method with its value; those of number fields that are too large are left out."""
         try:

@@ -18,15 +18,11 @@ def is_linear(tableau: Tableau) -> bool:
     """
     spaces = range(len(tableau.spaces))
     colours = range(tableau.size)
-    is_complete = all(
-        (k, m) in tableau.blocks for k in spaces for m in colours
-    )
+    is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
     return is_complete and not tableau.is_partitioned
 
 
-def fraction_in_plane(
-    tableau: Tableau, ring: Parameters
-) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """R = P/Q on the linear test equation, as polynomials in y for z and t.
 
     Raises:

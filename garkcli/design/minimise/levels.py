@@ -69,9 +69,7 @@ def height(level: Size) -> tuple[bool, RealRoot]:
 
 
 def on_levels(
-    level: Callable[[Number], Size],
-    polynomials: Sequence[fmpq_mpoly],
-    allowed: Conditions,
+    level: Callable[[Number], Size], polynomials: Sequence[fmpq_mpoly], allowed: Conditions
 ) -> Levels:
     """The candidates for the greatest level.
 
@@ -115,8 +113,7 @@ def on_levels(
             limits = tuple(
                 toward
                 for toward in _approached(level, found, allowed, critical)
-                if height(toward.value) > height(greatest)
-                and toward.end not in open_points
+                if height(toward.value) > height(greatest) and toward.end not in open_points
             )
             return Levels(best, limits, is_decided)
     # the sign of L − m decides between critical t, not what L is at one that was left out
@@ -183,9 +180,7 @@ def _is_in(x: RealRoot, left: RealRoot | None, right: RealRoot | None) -> bool:
     return (left is None or left < x) and (right is None or x < right)
 
 
-def _limits_at(
-    found: Iterable[fmpq_mpoly], end: RealRoot | None
-) -> fmpq_mpoly:
+def _limits_at(found: Iterable[fmpq_mpoly], end: RealRoot | None) -> fmpq_mpoly:
     """A polynomial in y with the limits of all branches as t tends to an end."""
     product = PLANE.constant(fmpq(1))
     for p in found:
@@ -197,10 +192,7 @@ def _limits_at(
             product *= PLANE.from_dict(terms)
         else:
             modulus = PLANE.from_dict(
-                {
-                    (0, k): fmpq(a)
-                    for k, a in enumerate(end.polynomial.coeffs())
-                }
+                {(0, k): fmpq(a) for k, a in enumerate(end.polynomial.coeffs())}
             )
             at_end = p.resultant(modulus, "t")
             product *= at_end if at_end else PLANE.constant(fmpq(1))
@@ -238,24 +230,18 @@ def _roots(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
     return sorted(roots)
 
 
-def _cells(
-    points: Sequence[RealRoot],
-) -> list[tuple[RealRoot | None, RealRoot | None]]:
+def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot | None]]:
     """The open intervals between points."""
     ends = [None, *points, None]
     return list(pairwise(ends))
 
 
-def _representatives(
-    attained: Iterable[HighAt], greatest: Size
-) -> tuple[HighAt, ...]:
+def _representatives(attained: Iterable[HighAt], greatest: Size) -> tuple[HighAt, ...]:
     """Those with the greatest level, one of each run of neighbours, of intervals the shortest
     number.
     """
     found = []
-    for is_greatest, run in groupby(
-        attained, key=lambda x: x.level == greatest
-    ):
+    for is_greatest, run in groupby(attained, key=lambda x: x.level == greatest):
         if is_greatest:
             found.append(min(run, key=_length))
     return tuple(found)
@@ -276,9 +262,7 @@ def _in_turn(points: Sequence[RealRoot]) -> Iterator[Point]:
             yield right
 
 
-def _crossing(
-    found: Iterable[fmpq_mpoly], level: RealRoot
-) -> list[Polynomial] | None:
+def _crossing(found: Iterable[fmpq_mpoly], level: RealRoot) -> list[Polynomial] | None:
     """Polynomials with all t at which a curve has a level; None where its degree is too large."""
     if level.exact is not None:
         _, t = PLANE.gens()
@@ -286,7 +270,5 @@ def _crossing(
         return [in_t(p.compose(y, t)) for p in found]
     if level.polynomial.degree() > MOST_DEGREE:
         return None
-    modulus = PLANE.from_dict(
-        {(k, 0): fmpq(a) for k, a in enumerate(level.polynomial.coeffs())}
-    )
+    modulus = PLANE.from_dict({(k, 0): fmpq(a) for k, a in enumerate(level.polynomial.coeffs())})
     return [_where_level(p, modulus) for p in found]

@@ -88,9 +88,7 @@ class OnLine:
     gradient: Polynomial
 
 
-def on_line(
-    numerator: Polynomial, denominator: Polynomial, allowed: Conditions
-) -> OnLine:
+def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Conditions) -> OnLine:
     """The candidates for the least value of N/D.
 
     Args:
@@ -109,10 +107,7 @@ def on_line(
             if allowed.hold(root):
                 attained[root] = At(value(root), root)
     for interval in allowed.intervals:
-        ends = (
-            (interval.start, interval.has_start, False),
-            (interval.end, interval.has_end, True),
-        )
+        ends = ((interval.start, interval.has_start, False), (interval.end, interval.has_end, True))
         for end, is_allowed, is_right in ends:
             if end is not None and is_allowed:
                 attained[end] = At(value(end), end)
@@ -149,10 +144,7 @@ def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
 
 
 def _limit(
-    N: Polynomial,
-    D: Polynomial,
-    end: RealRoot | None,
-    value: Callable[[RealRoot], RealRoot],
+    N: Polynomial, D: Polynomial, end: RealRoot | None, value: Callable[[RealRoot], RealRoot]
 ) -> RealRoot | None:
     """The limit of N/D at an end; None where it is infinite."""
     if end is not None:

@@ -44,9 +44,7 @@ def step_to_minimise(design: Design) -> Step:
 
 
 def minimise(
-    design: Design,
-    objective: str | Objective | Level | Either,
-    seconds: float | None = None,
+    design: Design, objective: str | Objective | Level | Either, seconds: float | None = None
 ) -> Minimum:
     """The methods of the highest order with the least value of an objective.
 
@@ -83,9 +81,7 @@ def minimise(
     return comparison.result()
 
 
-def _comparison(
-    design: Design, step: Step, objective: Objective | Level | Either
-) -> Comparison:
+def _comparison(design: Design, step: Step, objective: Objective | Level | Either) -> Comparison:
     """How methods are compared."""
     if isinstance(objective, Either):
         objective = objective.meant(design.tableau)

@@ -79,9 +79,7 @@ def parts_of(
     splitting = _Splitting(changed.ring, deadline)
     nonzero = _factors([changed.polynomial(p) for p in ideal.nonzero])
     polynomials = [changed.polynomial(p) for p in without_unit(ideal)]
-    yield from splitting.parts(
-        polynomials, nonzero, changed.values(), changed.ring.names
-    )
+    yield from splitting.parts(polynomials, nonzero, changed.values(), changed.ring.names)
 
 
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
@@ -184,15 +182,10 @@ class _Splitting:
         for p in basis:
             factors = [x for x in _factors([p]) if x not in nonzero]
             if len(factors) != 1:
-                yield from self._factored(
-                    factors, basis, nonzero, values, left
-                )
+                yield from self._factored(factors, basis, nonzero, values, left)
                 return
             zeros += factors
-        if any(
-            p.total_degree() > q.total_degree()
-            for p, q in zip(basis, zeros, strict=True)
-        ):
+        if any(p.total_degree() > q.total_degree() for p, q in zip(basis, zeros, strict=True)):
             yield from self.parts(zeros, nonzero, values, left)
             return
         linear = self._linear(zeros, nonzero, left)
@@ -205,9 +198,7 @@ class _Splitting:
             nonzero = [*nonzero, *_factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
-    def _without(
-        self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]
-    ) -> fmpq_mpoly:
+    def _without(self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
         """Each factor once, but those that are not zero."""
         product = self.ring.constant(fmpq(1))
         for factor in _factors([p]):
@@ -229,10 +220,7 @@ class _Splitting:
             yield from self.parts([*polynomials, factor], others, values, left)
 
     def _linear(
-        self,
-        zeros: Sequence[fmpq_mpoly],
-        nonzero: Sequence[fmpq_mpoly],
-        left: Sequence[str],
+        self, zeros: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly], left: Sequence[str]
     ) -> _Linear | None:
         """The simplest way to express an unknown by others; None where there is none."""
         found = []
@@ -297,10 +285,7 @@ class _Splitting:
         kept = [self.ring.names.index(name) for name in left]
 
         def moved(p: fmpq_mpoly) -> fmpq_mpoly:
-            terms = {
-                tuple(int(e[i]) for i in kept): a
-                for e, a in p.to_dict().items()
-            }
+            terms = {tuple(int(e[i]) for i in kept): a for e, a in p.to_dict().items()}
             return ring.context.from_dict(terms)
 
         def moved_value(x: Mixed) -> Mixed:

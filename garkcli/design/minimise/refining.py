@@ -13,11 +13,7 @@ from flint import arb, fmpq, fmpq_mpoly
 
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.points import Fixings, polished
-from garkcli.design.search.rational import (
-    RationalFunction,
-    as_ball,
-    as_float,
-)
+from garkcli.design.search.rational import RationalFunction, as_ball, as_float
 from garkcli.exact.parametric import Parameters
 
 if TYPE_CHECKING:
@@ -34,13 +30,9 @@ NEAR = fmpq(1, 100)
 class _Equations:
     """Polynomials that are to be zero, as ``Fixings`` takes them."""
 
-    def __init__(
-        self, polynomials: Sequence[fmpq_mpoly], ring: Parameters
-    ) -> None:
+    def __init__(self, polynomials: Sequence[fmpq_mpoly], ring: Parameters) -> None:
         one = ring.constant(fmpq(1))
-        self.functions = [
-            RationalFunction(ring.quotient(p, one), ring) for p in polynomials
-        ]
+        self.functions = [RationalFunction(ring.quotient(p, one), ring) for p in polynomials]
 
     def at(self, points: Array) -> tuple[Array, Array]:
         """Values, shape (equations, points), and derivatives, shape (equations, unknowns,

@@ -34,10 +34,7 @@ def _coordinates(candidate: Candidate) -> tuple[RealRoot, ...]:
     """The unknowns of a method, as real numbers."""
     solution = candidate.found.solution
     root = solution.real[candidate.index]
-    return tuple(
-        value_at(solution.values[name], root)
-        for name in sorted(solution.values)
-    )
+    return tuple(value_at(solution.values[name], root) for name in sorted(solution.values))
 
 
 def _joined(same: Sequence[Candidate]) -> Candidate:

@@ -135,9 +135,7 @@ class Smallest(Comparison):
         for toward in found.limits:
             self.limits.append(Limit(toward.value, name, toward))
 
-    def _over_interval(
-        self, part: Part, name: str, interval: Interval
-    ) -> None:
+    def _over_interval(self, part: Part, name: str, interval: Interval) -> None:
         """One method for an interval on which the objective is constant."""
         if interval.is_point:
             assert interval.start is not None
@@ -163,9 +161,7 @@ class Smallest(Comparison):
             self._by_trial(part)
             return
         for end in (*self.design.family.not_negative, *self.ends()):
-            edge, _ = fraction(
-                part.expressed(end, self.design.family.ring), part.ring
-            )
+            edge, _ = fraction(part.expressed(end, self.design.family.ring), part.ring)
             if not edge.is_constant():
                 self._over_smaller(part, [edge])
 

@@ -48,9 +48,7 @@ class Quotient:
     denominator: Entry
 
 
-def squared_error(
-    tableau: Tableau, order: int, ring: Parameters | None
-) -> Quotient:
+def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     """Σ e(u)² over all trees of an order.
 
     Args:
@@ -61,9 +59,7 @@ def squared_error(
     return _Sums(_Cleared.of(tableau, ring)).total(order)
 
 
-def squared_coupling_error(
-    tableau: Tableau, order: int, ring: Parameters | None
-) -> Quotient:
+def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     """The same over the trees of more than one colour."""
     cleared = _Cleared.of(tableau, ring)
     total = _Sums(cleared).total(order)
@@ -121,9 +117,7 @@ class _Cleared:
         blocks = {}
         if mine is not None:
             blocks[0, 0] = self.blocks[colour.space, l]
-        return replace(
-            self, tableau=tableau, blocks=blocks, weights=(self.weights[l],)
-        )
+        return replace(self, tableau=tableau, blocks=blocks, weights=(self.weights[l],))
 
 
 @dataclass(frozen=True)
@@ -145,9 +139,7 @@ class _Sums:
     def __init__(self, cleared: _Cleared) -> None:
         self.cleared = cleared
         tableau = cleared.tableau
-        self._algebras = [
-            TensorAlgebra(space, cleared.one) for space in tableau.spaces
-        ]
+        self._algebras = [TensorAlgebra(space, cleared.one) for space in tableau.spaces]
         self._forests: list[list[Tensor]] = []
         self._sums: list[list[Tensor]] = []
         self._branches: list[list[list[_Branch]]] = []
@@ -211,9 +203,7 @@ class _Sums:
         algebra = self._algebras[k]
         total = algebra.nothing
         for j in range(1, order + 1):
-            part = algebra.multiplied(
-                self._logarithm(k, j), self._forests[k][order - j]
-            )
+            part = algebra.multiplied(self._logarithm(k, j), self._forests[k][order - j])
             total = total.plus(part.times(fmpq(j, order)))
         return total
 
@@ -247,17 +237,13 @@ class _Sums:
             if block is None:
                 continue
             most = 1 if colour.is_linear else order
-            for forest in self._all_forests(
-                colour.space, order - 1, order - 1, most
-            ):
+            for forest in self._all_forests(colour.space, order - 1, order - 1, most):
                 v = _applied(block, forest.value.v)
                 w = forest.value.w * D
                 value = Pair(v, w * fmpq(1, order))
                 yield _Branch(value, forest.symmetry)
 
-    def _all_forests(
-        self, k: int, order: int, largest: int, most: int
-    ) -> Iterator[_Branch]:
+    def _all_forests(self, k: int, order: int, largest: int, most: int) -> Iterator[_Branch]:
         """Every forest of an order: trees of the largest order first, and of these each number."""
         algebra = self._algebras[k]
         if order == 0:
@@ -267,16 +253,12 @@ class _Sums:
             trees = self._all_branches(k, n)
             for count in range(1, min(order // n, most) + 1):
                 for chosen in _multisets(algebra, trees, count):
-                    rest = self._all_forests(
-                        k, order - n * count, n - 1, most - count
-                    )
+                    rest = self._all_forests(k, order - n * count, n - 1, most - count)
                     for forest in rest:
                         yield _joined(algebra, chosen, forest)
 
 
-def _multisets(
-    algebra: TensorAlgebra, trees: Sequence[_Branch], count: int
-) -> Iterator[_Branch]:
+def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> Iterator[_Branch]:
     """So many trees out of some, each as often as one likes."""
     if count == 0:
         yield _Branch(algebra.unit, 1)

@@ -42,17 +42,13 @@ class Tensor:
         """The sum."""
         rows = zip(self.vv, other.vv, strict=True)
         return Tensor(
-            tuple(_added(a, b) for a, b in rows),
-            _added(self.vw, other.vw),
-            self.ww + other.ww,
+            tuple(_added(a, b) for a, b in rows), _added(self.vw, other.vw), self.ww + other.ww
         )
 
     def times(self, factor: fmpq) -> Tensor:
         """A multiple."""
         return Tensor(
-            tuple(scaled(row, factor) for row in self.vv),
-            scaled(self.vw, factor),
-            self.ww * factor,
+            tuple(scaled(row, factor) for row in self.vv), scaled(self.vw, factor), self.ww * factor
         )
 
 

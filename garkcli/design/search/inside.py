@@ -31,14 +31,10 @@ class Inside:
         self.positive = self._functions(family.positive)
         self.not_negative = self._functions(family.not_negative)
 
-    def _functions(
-        self, polynomials: Sequence[fmpq_mpoly]
-    ) -> list[RationalFunction]:
+    def _functions(self, polynomials: Sequence[fmpq_mpoly]) -> list[RationalFunction]:
         ring = self.family.ring
         one = ring.constant(fmpq(1))
-        return [
-            RationalFunction(ring.quotient(p, one), ring) for p in polynomials
-        ]
+        return [RationalFunction(ring.quotient(p, one), ring) for p in polynomials]
 
     def decided(self, x: Array) -> Answer:
         """Whether all numbers near a point are so; open where only something that must not be

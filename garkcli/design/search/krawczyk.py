@@ -23,10 +23,7 @@ if TYPE_CHECKING:
 
 
 def is_proved(
-    system: Fixings,
-    point: Array,
-    bits: int,
-    nonzero: Sequence[RationalFunction] = (),
+    system: Fixings, point: Array, bits: int, nonzero: Sequence[RationalFunction] = ()
 ) -> bool:
     """Whether there is a solution of all equations within 2^(−bits/2) of a point.
 
@@ -55,9 +52,7 @@ def is_proved(
         except ZeroDivisionError:
             return False
         inverse = _midpoints(inverse)
-        unit = arb_mat(
-            [[int(i == j) for j in range(unknowns)] for i in range(unknowns)]
-        )
+        unit = arb_mat([[int(i == j) for j in range(unknowns)] for i in range(unknowns)])
         values = arb_mat([[value] for value in residuals[:, 0]])
         contraction = unit - inverse * _matrix(slopes)
         image = contraction * offsets - inverse * values  # K(X) − m

@@ -120,9 +120,7 @@ class _Run:
         self.age = np.where(fell, 0, self.age)
         within = np.max(np.abs(self.x), axis=0) < LARGE
         able = self.damping < MAX_DAMPING
-        promising: Array = (
-            within & able & (self.age < PATIENCE) & np.isfinite(self.squares)
-        )
+        promising: Array = within & able & (self.age < PATIENCE) & np.isfinite(self.squares)
         return promising
 
     def keep(self, stays: Array) -> None:
@@ -142,9 +140,7 @@ class _Run:
         residuals, jacobians = self.system(moved)
         squares = _sum_of_squares(residuals)
         better = squares < self.squares
-        predicted = _sum_of_squares(
-            self.residuals + _applied(self.jacobians, change)
-        )
+        predicted = _sum_of_squares(self.residuals + _applied(self.jacobians, change))
         gain = (self.squares - squares) / (self.squares - predicted)
         self.x = np.where(better, moved, self.x)
         self.residuals = np.where(better, residuals, self.residuals)
@@ -219,9 +215,7 @@ def _solve(matrices: Array, damping: Array, right: Array) -> Array:
     for k in range(size):
         matrices[k, k] += amount
     for k in range(size):
-        pivot = np.sqrt(
-            matrices[k, k]
-        )  # NaN where rounding has made it negative
+        pivot = np.sqrt(matrices[k, k])  # NaN where rounding has made it negative
         matrices[k, k] = pivot
         column = matrices[k + 1 :, k]
         column /= pivot

@@ -67,21 +67,15 @@ class Fixings:
             return values, gradients
         is_exact = points.dtype == object
         constant: Any = as_ball if is_exact else as_float
-        more = np.full(
-            (len(rows), points.shape[1]), constant(fmpq(0)), points.dtype
-        )
-        slopes = np.full(
-            (len(rows), *gradients.shape[1:]), constant(fmpq(0)), points.dtype
-        )
+        more = np.full((len(rows), points.shape[1]), constant(fmpq(0)), points.dtype)
+        slopes = np.full((len(rows), *gradients.shape[1:]), constant(fmpq(0)), points.dtype)
         for number, (function, wanted) in enumerate(rows):
             slope = function.at(points, constant)
             targets = np.array([constant(x) for x in wanted], points.dtype)
             more[number] = slope.value - targets
             for unknown, derivative in slope.derivatives:
                 slopes[number, unknown] = derivative
-        return np.concatenate([values, more]), np.concatenate(
-            [gradients, slopes]
-        )
+        return np.concatenate([values, more]), np.concatenate([gradients, slopes])
 
 
 @dataclass(frozen=True)
@@ -137,9 +131,7 @@ def balls(point: Sequence[Any]) -> Array:
     return made
 
 
-def polished(
-    system: Fixings, point: Sequence[float], bits: int
-) -> Array | None:
+def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None:
     """A solution near a point to many bits, a column of balls without radius.
 
     Newton's method on as many equations and unknowns as the rank; the other equations have to
@@ -183,12 +175,7 @@ def _newton(system: Fixings, x: Array, chosen: Rank) -> bool:
     if not len(chosen):
         return True
     residuals, jacobians = system.at(x)
-    matrix = arb_mat(
-        [
-            [jacobians[i, j, 0].mid() for j in chosen.columns]
-            for i in chosen.rows
-        ]
-    )
+    matrix = arb_mat([[jacobians[i, j, 0].mid() for j in chosen.columns] for i in chosen.rows])
     right = arb_mat([[residuals[i, 0].mid()] for i in chosen.rows])
     try:
         change = matrix.solve(right)

@@ -99,16 +99,13 @@ class RationalFunction:
         value = self._numerator.at(points, constant)
         if self._denominator is None:
             derivatives = [
-                (unknown, p.at(points, constant))
-                for unknown, (p, _) in self._derivatives
+                (unknown, p.at(points, constant)) for unknown, (p, _) in self._derivatives
             ]
             return Slope(value, tuple(derivatives))
         q = self._denominator.at(points, constant)
         value = value / q
         derivatives = []
         for unknown, (of_p, of_q) in self._derivatives:
-            change = of_p.at(points, constant) - value * of_q.at(
-                points, constant
-            )
+            change = of_p.at(points, constant) - value * of_q.at(points, constant)
             derivatives.append((unknown, change / q))
         return Slope(value, tuple(derivatives))

@@ -49,9 +49,7 @@ def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
         else:
             values[name] = value
     if not irrational:
-        return Recognised(
-            values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0))
-        )
+        return Recognised(values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0)))
     found = _generator(irrational, bits)
     if found is None:
         return None
@@ -109,9 +107,7 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
     return value
 
 
-def _generator(
-    irrational: Mapping[str, arb], bits: int
-) -> tuple[fmpz_poly, arb] | None:
+def _generator(irrational: Mapping[str, arb], bits: int) -> tuple[fmpz_poly, arb] | None:
     """The minimal polynomial of the number with the largest degree, and that number."""
     best: tuple[fmpz_poly, arb] | None = None
     for number in irrational.values():
@@ -138,10 +134,7 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
         if relation is not None:
             polynomial = fmpz_poly(relation)
             _, factors = polynomial.factor()
-            return min(
-                (f for f, _ in factors),
-                key=lambda f: _size_at(f, number, bits),
-            )
+            return min((f for f, _ in factors), key=lambda f: _size_at(f, number, bits))
     return None
 
 
@@ -160,9 +153,7 @@ def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
     size = len(numbers)
     kept = 7 * bits // 8
     with ctx.workprec(bits):
-        scaled = [
-            (x * arb(2) ** kept + arb(0.5)).floor().mid() for x in numbers
-        ]
+        scaled = [(x * arb(2) ** kept + arb(0.5)).floor().mid() for x in numbers]
     rows = []
     for k, x in enumerate(scaled):
         row = [fmpz(int(k == j)) for j in range(size)]
@@ -175,9 +166,7 @@ def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
     return relation if longest <= most and any(relation[1:]) else None
 
 
-def _coordinates(
-    number: arb, generator: arb, degree: int, bits: int
-) -> list[fmpq] | None:
+def _coordinates(number: arb, generator: arb, degree: int, bits: int) -> list[fmpq] | None:
     """A number as a polynomial in the generator."""
     with ctx.workprec(bits):
         powers = [generator**k for k in range(degree)]

@@ -12,13 +12,7 @@ from typing import TYPE_CHECKING, Any
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.search.rational import (
-    Constant,
-    RationalFunction,
-    Slope,
-    as_ball,
-    as_float,
-)
+from garkcli.design.search.rational import Constant, RationalFunction, Slope, as_ball, as_float
 from garkcli.exact.parametric import Parameters
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -42,11 +36,7 @@ class Residuals:
     """
 
     def __init__(
-        self,
-        tableau: Tableau,
-        ring: Parameters,
-        order: int,
-        more: Sequence[fmpq_mpoly] = (),
+        self, tableau: Tableau, ring: Parameters, order: int, more: Sequence[fmpq_mpoly] = ()
     ) -> None:
         from garkcli.trees.table import TreeTable
 
@@ -54,16 +44,11 @@ class Residuals:
         self.tableau = tableau
         self.unknowns = len(ring.names)
         self.table = TreeTable.upto(tableau.size, order, edges, linear)
-        self.blocks = {
-            key: _functions(block, ring)
-            for key, block in tableau.blocks.items()
-        }
+        self.blocks = {key: _functions(block, ring) for key, block in tableau.blocks.items()}
         weights = [colour.b for colour in tableau.colours]
         self.weights = [_functions([row], ring)[0] for row in weights]
         one = ring.constant(fmpq(1))
-        self.more = [
-            RationalFunction(ring.quotient(x, one), ring) for x in more
-        ]
+        self.more = [RationalFunction(ring.quotient(x, one), ring) for x in more]
 
     def __len__(self) -> int:
         return len(self.table) + len(self.more)
@@ -101,11 +86,7 @@ class Generators:
     """
 
     def __init__(
-        self,
-        tableau: Tableau,
-        ring: Parameters,
-        order: int,
-        more: Sequence[fmpq_mpoly] = (),
+        self, tableau: Tableau, ring: Parameters, order: int, more: Sequence[fmpq_mpoly] = ()
     ) -> None:
         one = ring.constant(fmpq(1))
         conditions = FamilyConditions(tableau, ring)
@@ -123,8 +104,7 @@ class Generators:
                 number = ring.quotient(monic, one)
                 self.functions.append(RationalFunction(number, ring))
         self.denominators = [
-            RationalFunction(ring.quotient(d, one), ring)
-            for d in conditions.denominators
+            RationalFunction(ring.quotient(d, one), ring) for d in conditions.denominators
         ]
 
     def at(self, points: Array) -> tuple[Array, Array]:
@@ -134,9 +114,7 @@ class Generators:
         zero = as_ball(fmpq(0))
         unknowns, count = points.shape
         values = np.full((len(self.functions), count), zero, object)
-        gradients = np.full(
-            (len(self.functions), unknowns, count), zero, object
-        )
+        gradients = np.full((len(self.functions), unknowns, count), zero, object)
         for number, function in enumerate(self.functions):
             slope = function.at(points, as_ball)
             values[number] = slope.value
@@ -145,9 +123,7 @@ class Generators:
         return values, gradients
 
 
-def _functions(
-    rows: Sequence[Sequence[object]], ring: Parameters
-) -> list[list[RationalFunction]]:
+def _functions(rows: Sequence[Sequence[object]], ring: Parameters) -> list[list[RationalFunction]]:
     return [[RationalFunction(x, ring) for x in row] for row in rows]
 
 
@@ -177,16 +153,10 @@ class _Evaluation:
         self.is_exact = points.dtype == object
         self.constant: Constant = as_ball if self.is_exact else as_float
         self.blocks = {
-            key: [
-                [x if x.is_zero else x.at(points, self.constant) for x in row]
-                for row in block
-            ]
+            key: [[x if x.is_zero else x.at(points, self.constant) for x in row] for row in block]
             for key, block in system.blocks.items()
         }
-        self.weights = [
-            [x.at(points, self.constant) for x in row]
-            for row in system.weights
-        ]
+        self.weights = [[x.at(points, self.constant) for x in row] for row in system.weights]
         self.vectors: dict[tuple[int, int], _Vectors] = {}
         self.applied: dict[tuple[int, int, int], _Vectors] = {}
         shape = len(system), points.shape[1]
@@ -222,9 +192,7 @@ class _Evaluation:
         values = self._zeros(1, space.stages, points)
         for i, x in enumerate(space.one):
             values[:, i] = self.constant(x)  # type: ignore[arg-type]
-        derivatives = self._zeros(
-            1, space.stages, self.system.unknowns, points
-        )
+        derivatives = self._zeros(1, space.stages, self.system.unknowns, points)
         return _Vectors(values, derivatives)
 
     def _apply(self, order: int) -> None:
@@ -263,9 +231,7 @@ class _Evaluation:
         first = segment.stems.start
         # vectors of an order and root colour are in the order of their ids
         stems = self.vectors[stem_order, root].part(table.stem[ids] - first)
-        applied = self.applied[
-            space, segment.branch_order, segment.branch_root
-        ]
+        applied = self.applied[space, segment.branch_order, segment.branch_root]
         branches = applied.part(table.branch[ids] - segment.branches.start)
         made = self._product(space, stems, branches)
         self._close(root, ids, made)
@@ -289,12 +255,8 @@ class _Evaluation:
             derivatives += u.values[:, :, None] * v.derivatives
             return _Vectors(values, derivatives)
         values = self._modular(stages, u.values, v.values)
-        derivatives = self._modular(
-            stages, u.derivatives, v.values[:, :, None]
-        )
-        derivatives += self._modular(
-            stages, v.derivatives, u.values[:, :, None]
-        )
+        derivatives = self._modular(stages, u.derivatives, v.values[:, :, None])
+        derivatives += self._modular(stages, v.derivatives, u.values[:, :, None])
         return _Vectors(values, derivatives)
 
     def _modular(self, space: PolynomialSpace, u: Array, v: Array) -> Array:
@@ -307,9 +269,7 @@ class _Evaluation:
                 out[:, i + j] += u[:, i] * v[:, j]
         for k in range(2 * s - 2, s - 1, -1):
             for j in range(s):
-                out[:, k - s + j] -= (
-                    self.constant(space.modulus[j]) * out[:, k]
-                )
+                out[:, k - s + j] -= self.constant(space.modulus[j]) * out[:, k]
         return out[:, :s]
 
     def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:

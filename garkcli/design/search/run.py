@@ -166,9 +166,7 @@ def results(
 class _Run:
     """What is known in the middle of a search."""
 
-    def __init__(
-        self, search: Search, workers: Workers[Task, Timed], most: int
-    ) -> None:
+    def __init__(self, search: Search, workers: Workers[Task, Timed], most: int) -> None:
         self.search = search
         self.workers = workers
         self.most = most
@@ -183,9 +181,7 @@ class _Run:
         first = self.result.starts + 1
         new: list[Solution] = []
         for place, timed in zip(parts, self._done(batches), strict=True):
-            self.result.starts = (
-                min(first + place + size, first + len(group)) - 1
-            )
+            self.result.starts = min(first + place + size, first + len(group)) - 1
             assert isinstance(timed.result, list)
             for k, point in timed.result:
                 self.result.successes += 1
@@ -209,9 +205,7 @@ class _Run:
         if len(self.result.methods) >= self.most:
             return False
         for other in self._seen:
-            if all(
-                abs(a - b) <= SAME for a, b in zip(point, other, strict=True)
-            ):
+            if all(abs(a - b) <= SAME for a, b in zip(point, other, strict=True)):
                 return False
         self._seen.append(point)
         return True

@@ -19,12 +19,7 @@ from garkcli.design.search.points import Fixings, polished
 from garkcli.design.search.rational import RationalFunction, as_float
 from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
-from garkcli.design.search.snap import (
-    fixed_nearby,
-    nodes_of,
-    snapped,
-    unknowns_of,
-)
+from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution
 from garkcli.design.step import Found
 from garkcli.problems.draw import Draw
@@ -80,9 +75,7 @@ class Search:
         ZeroWeight: there is no conjugate.
     """
 
-    def __init__(
-        self, family: Family, order: int, whose: Whose = "method"
-    ) -> None:
+    def __init__(self, family: Family, order: int, whose: Whose = "method") -> None:
         self.family = family
         self.order = order
         self.whose = whose
@@ -91,9 +84,7 @@ class Search:
     @cached_property
     def conditions(self) -> Residuals:
         """Of all trees, and the relations in the file."""
-        return Residuals(
-            self.tableau, self.family.ring, self.order, self._relations
-        )
+        return Residuals(self.tableau, self.family.ring, self.order, self._relations)
 
     @cached_property
     def batch(self) -> int:
@@ -112,14 +103,10 @@ class Search:
             for name in self.family.ring.names:
                 low, high = _ends(self.family.ranges.get(name), usual)
                 # a word has 64 bits, a float 53
-                start.append(
-                    low + (high - low) * ((draw.word() >> 11) / 2**53)
-                )
+                start.append(low + (high - low) * ((draw.word() >> 11) / 2**53))
             yield start
 
-    def solve(
-        self, starts: list[list[float]]
-    ) -> list[tuple[int, list[float]]]:
+    def solve(self, starts: list[list[float]]) -> list[tuple[int, list[float]]]:
         """The starts of a batch that succeed, each with its solution in floats."""
         import numpy as np
 
@@ -133,21 +120,14 @@ class Search:
 
     def _is_within(self, point: Array) -> bool:
         """Whether parameters are in their ranges and even roots positive, up to rounding."""
-        values = dict(
-            zip(self.family.ring.names, map(float, point), strict=True)
-        )
+        values = dict(zip(self.family.ring.names, map(float, point), strict=True))
         for name, (least, greatest) in self.family.ranges.items():
             if least is not None and values[name] < as_float(least) - 1e-9:
                 return False
-            if (
-                greatest is not None
-                and values[name] > as_float(greatest) + 1e-9
-            ):
+            if greatest is not None and values[name] > as_float(greatest) + 1e-9:
                 return False
         return all(
-            values[radical.name] > 0
-            for radical in self.family.radicals
-            if radical.is_positive
+            values[radical.name] > 0 for radical in self.family.radicals if radical.is_positive
         )
 
     def find(self, start: int, point: list[float]) -> Find | None:
@@ -171,9 +151,7 @@ class Search:
                 continue
             system, x = tried, made
             find = self._exact(start, made)
-            if find is not None and (
-                best is None or _degree(find) < _degree(best)
-            ):
+            if find is not None and (best is None or _degree(find) < _degree(best)):
                 best = find
             if best is not None and _degree(best) == 1:
                 break
@@ -194,9 +172,7 @@ class Search:
         generators = self._generators
         proving = Fixings(generators, system.fixed)
         proof: Proof = "numerical"
-        if answer == "yes" and is_proved(
-            proving, x, BITS, generators.denominators
-        ):
+        if answer == "yes" and is_proved(proving, x, BITS, generators.denominators):
             proof = "exists"
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
         return Find(start, proof, self.order, None, digits)
@@ -207,9 +183,7 @@ class Search:
 
     @cached_property
     def _generators(self) -> Generators:
-        return Generators(
-            self.tableau, self.family.ring, self.order, self._relations
-        )
+        return Generators(self.tableau, self.family.ring, self.order, self._relations)
 
     @property
     def _relations(self) -> list[fmpq_mpoly]:
@@ -246,17 +220,8 @@ class Search:
 
     def _certified(self, start: int, guess: Recognised) -> Find | None:
         """The method with these numbers, if the certificate says that it has the order."""
-        field = next(
-            (
-                x.field
-                for x in guess.values.values()
-                if not isinstance(x, fmpq)
-            ),
-            None,
-        )
-        solution = Solution(
-            guess.modulus, field, dict(guess.values), 1, (guess.root,)
-        )
+        field = next((x.field for x in guess.values.values() if not isinstance(x, fmpq)), None)
+        solution = Solution(guess.modulus, field, dict(guess.values), 1, (guess.root,))
         ring = self.family.ring
         if any(value_of(x, ring, solution.values) for x in self._relations):
             return None

@@ -58,9 +58,7 @@ def nodes_of(tableau: Tableau, ring: Parameters) -> Iterator[RationalFunction]:
 
 def unknowns_of(ring: Parameters) -> list[RationalFunction]:
     """The unknowns as functions of themselves."""
-    return [
-        RationalFunction(ring.parameter(name), ring) for name in ring.names
-    ]
+    return [RationalFunction(ring.parameter(name), ring) for name in ring.names]
 
 
 def snapped(
@@ -111,12 +109,7 @@ def fixed_nearby(
             break
         present = _value(function, x)
         value = next(
-            (
-                fmpq(round(present * q), q)
-                for q in DENOMINATORS
-                if _is_near(present, q)
-            ),
-            None,
+            (fmpq(round(present * q), q) for q in DENOMINATORS if _is_near(present, q)), None
         )
         if value is None:
             continue
@@ -139,11 +132,7 @@ def _value(function: RationalFunction, x: Array) -> float:
 
 
 def _is_independent(
-    conditions: Residuals,
-    fixed: Sequence[Fixed],
-    function: RationalFunction,
-    x: Array,
-    before: int,
+    conditions: Residuals, fixed: Sequence[Fixed], function: RationalFunction, x: Array, before: int
 ) -> bool:
     system = Fixings(conditions, fixed, function, [fmpq(0)])
     _, jacobians = system.at(x)
@@ -158,9 +147,7 @@ def values_near(present: float) -> Iterator[list[fmpq]]:
     """
     short = []
     for q in DENOMINATORS:
-        for p in range(
-            ceil((present - REACH) * q), floor((present + REACH) * q) + 1
-        ):
+        for p in range(ceil((present - REACH) * q), floor((present + REACH) * q) + 1):
             value = fmpq(p, q)
             if value not in short:
                 short.append(value)
@@ -196,9 +183,7 @@ def _moved(
         end = np.ascontiguousarray(minima.points[:, k : k + 1])
         if not minima.succeeded[k] or np.max(np.abs(end)) > LARGEST:
             continue
-        _, jacobians = Fixings(
-            conditions, [*fixed, Fixed(function, value)]
-        ).at(end)
+        _, jacobians = Fixings(conditions, [*fixed, Fixed(function, value)]).at(end)
         if len(rank(jacobians[:, :, 0])) > before:
             return value, end
     return None

@@ -15,11 +15,7 @@ from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError
 from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 
 DECIMALS = 40
@@ -101,9 +97,7 @@ def decimals(number: arb, count: int = DECIMALS) -> str:
     scaled = int(mantissa) * 10**count
     shift = int(exponent)
     # half up, in whole numbers
-    rounded = (
-        scaled << shift if shift >= 0 else ((scaled >> (-shift - 1)) + 1) >> 1
-    )
+    rounded = scaled << shift if shift >= 0 else ((scaled >> (-shift - 1)) + 1) >> 1
     digits = f"{abs(rounded):0{count + 1}d}"
     sign = "-" if rounded < 0 else ""
     return f"{sign}{digits[:-count]}.{digits[-count:]}"

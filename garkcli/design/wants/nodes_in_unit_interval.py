@@ -8,6 +8,4 @@ def _meaning(asked: Asked) -> Meaning:
     return Meaning(not_negative=(*nodes, *(1 - x for x in nodes)))
 
 
-WANT = Want(
-    "nodes-in-unit-interval", "flag", "every node is in [0, 1]", _meaning
-)
+WANT = Want("nodes-in-unit-interval", "flag", "every node is in [0, 1]", _meaning)

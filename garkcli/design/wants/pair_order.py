@@ -15,13 +15,9 @@ def _meaning(asked: Asked) -> Meaning:
     one = asked.ring.constant(fmpq(1))
     zeros: list[object] = []
     for k in range(1, cast("int", asked.value) + 1):
-        polynomials = [
-            condition.polynomial for condition in conditions.of_order(k)
-        ]
+        polynomials = [condition.polynomial for condition in conditions.of_order(k)]
         zeros += [asked.ring.quotient(p, one) for p in polynomials]
     return Meaning(tuple(zeros), conditions.denominators)
 
 
-WANT = Want(
-    "pair-order", "count", "the symplectic pair has that order", _meaning
-)
+WANT = Want("pair-order", "count", "the symplectic pair has that order", _meaning)

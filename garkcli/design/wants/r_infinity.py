@@ -36,9 +36,7 @@ def _meaning(asked: Asked) -> Meaning:
 
 
 def _minus_rows(A: Matrix, b: Vector) -> Matrix:
-    return tuple(
-        tuple(x - y for x, y in zip(row, b, strict=True)) for row in A
-    )
+    return tuple(tuple(x - y for x, y in zip(row, b, strict=True)) for row in A)
 
 
 def characteristic_coefficients(A: Matrix) -> list[Any]:
@@ -50,10 +48,7 @@ def characteristic_coefficients(A: Matrix) -> list[Any]:
     for k in range(1, s + 1):
         for i in stages:
             M[i][i] = M[i][i] + coefficients[-1]
-        M = [
-            [_dot(A[i], [M[n][j] for n in stages]) for j in stages]
-            for i in stages
-        ]
+        M = [[_dot(A[i], [M[n][j] for n in stages]) for j in stages] for i in stages]
         trace = sum((M[i][i] for i in stages), start=ZERO)
         coefficients.append(-trace / fmpq(k))
     return coefficients
@@ -67,7 +62,5 @@ def _dot(row: Vector, column: list[Any]) -> Any:
     return total
 
 
-WANT = Want(
-    "R-infinity", "number", "the stability function at infinity", _meaning
-)
+WANT = Want("R-infinity", "number", "the stability function at infinity", _meaning)
 """E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, sections IV.3 and IV.6."""

@@ -26,9 +26,7 @@ def _meaning(asked: Asked) -> Meaning:
             c, c_m = tableau.colours[l].c, tableau.colours[m].c
             for k in range(1, highest + 1):
                 for row, node in zip(block, c, strict=True):
-                    terms = (
-                        a * x ** (k - 1) for a, x in zip(row, c_m, strict=True)
-                    )
+                    terms = (a * x ** (k - 1) for a, x in zip(row, c_m, strict=True))
                     zeros.append(sum(terms, start=ZERO) - node**k / fmpq(k))
     return Meaning(tuple(zeros))
 

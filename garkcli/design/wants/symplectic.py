@@ -9,18 +9,12 @@ def _meaning(asked: Asked) -> Meaning:
     tableau = asked.tableau
     zeros = []
     if tableau.is_partitioned:
-        raise MethodError(
-            "design: symplectic is for methods without parts",
-            "ask for the pair",
-        )
+        raise MethodError("design: symplectic is for methods without parts", "ask for the pair")
     for l in asked.colours:
         for m in asked.colours:
             b, b_m = tableau.colours[l].b, tableau.colours[m].b
             asked.diagonal(l, "symplectic")
-            A, other = (
-                asked.block(l, m, "symplectic"),
-                asked.block(m, l, "symplectic"),
-            )
+            A, other = (asked.block(l, m, "symplectic"), asked.block(m, l, "symplectic"))
             for i, u in enumerate(b):
                 for j, v in enumerate(b_m):
                     zeros.append(u * A[i][j] + v * other[j][i] - u * v)

@@ -116,9 +116,7 @@ def stability(asked: Asked, kind: str) -> Meaning:
     return Meaning(stable=(Stability(kind, colour),))
 
 
-def numerators(
-    functions: Iterable[object], ring: Parameters
-) -> list[fmpq_mpoly]:
+def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:
     """Polynomials that are zero where rational functions are; without those that always are."""
     found = []
     for x in functions:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from garkcli.glossary.term import Term, paper
 
-_VARIATIONAL = (
-    "section 3, Variational derivation of Partitioned Symplectic GARK methods"
-)
+_VARIATIONAL = "section 3, Variational derivation of Partitioned Symplectic GARK methods"
 _GNI = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration"
 TERMS = (
     Term(
@@ -24,9 +22,7 @@ TERMS = (
         "The method that drives momenta where the given one drives positions, so that both together"
         " are symplectic. It exists where no weight is zero.",
         "Â^{l,m} = (𝟙𝟙ᵀ − (B^{l})⁻¹ (A^{m,l})ᵀ) B^{m}",
-        paper(
-            _VARIATIONAL + ", definition of symplectic conjugate GARK methods"
-        ),
+        paper(_VARIATIONAL + ", definition of symplectic conjugate GARK methods"),
         ("symplectic conjugate", "conjugate order", "Â", "A-hat"),
         ("pair", "weight"),
     ),

@@ -170,9 +170,7 @@ TERMS = (
         "consistent",
         "The nodes are the row sums of every block. Then all colours are taken at the same times.",
         "A^{l,m} 𝟙 = c^{l}",
-        paper(
-            "section 6.3, Consistency and simplifying conditions for transfer matrices"
-        ),
+        paper("section 6.3, Consistency and simplifying conditions for transfer matrices"),
         ("conjugate nodes", "consistency"),
         ("node", "non-autonomous order"),
     ),

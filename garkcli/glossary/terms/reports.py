@@ -97,11 +97,7 @@ TERMS = (
         " symmetric, with positive weights and so on. Each may be claimed.",
         "",
         _PROPERTIES,
-        (
-            "property",
-            "properties that differ",
-            "properties decided of one alone",
-        ),
+        ("property", "properties that differ", "properties decided of one alone"),
         ("explicit", "symmetric", "A-stable"),
     ),
     Term(
@@ -171,13 +167,7 @@ TERMS = (
         " and seconds of the processor, which hang on the machine.",
         "",
         _CONVERGENCE,
-        (
-            "evaluations",
-            "iterations",
-            "Jacobians",
-            "seconds",
-            "newton iterations",
-        ),
+        ("evaluations", "iterations", "Jacobians", "seconds", "newton iterations"),
         ("observed order",),
     ),
     Term(
@@ -257,15 +247,7 @@ TERMS = (
         " different.",
         "",
         _DIFF,
-        (
-            "identical",
-            "the same method",
-            "different",
-            "within-rounding",
-            "first",
-            "second",
-            "same",
-        ),
+        ("identical", "the same method", "different", "within-rounding", "first", "second", "same"),
         ("reducible method",),
     ),
     Term(

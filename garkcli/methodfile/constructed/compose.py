@@ -18,16 +18,8 @@ from garkcli.exact.expression import read_decimal
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Literal
 from garkcli.methodfile.coefficient_schema import Schema, closed
-from garkcli.methodfile.constructed.parts import (
-    METHOD,
-    PartReader,
-    tolerance_of,
-)
-from garkcli.methodfile.description import (
-    ConstructionText,
-    PartText,
-    Structure,
-)
+from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
+from garkcli.methodfile.description import ConstructionText, PartText, Structure
 from garkcli.methodfile.numbers import Entry
 from garkcli.methodfile.source import Entries
 from garkcli.tableau.tableau import Tableau
@@ -136,9 +128,7 @@ class _Composition:
         self._refuse_radicals(entries, scheme, base, wanted)
         return base, wanted
 
-    def _refuse_radicals(
-        self, entries: Entries, scheme: Scheme, base: int, wanted: int
-    ) -> None:
+    def _refuse_radicals(self, entries: Entries, scheme: Scheme, base: int, wanted: int) -> None:
         """Note an order for which the roots of all repetitions are too much together.
 
         The substeps that take a symmetric method of order p further have a root of degree p + 1.
@@ -146,16 +136,12 @@ class _Composition:
         degree = prod(order + 1 for order in range(base, wanted, 2))
         if degree <= MAX_DEGREE:
             return
-        message = (
-            f"{scheme.name} from order {base} to {wanted} has radicals of"
-        )
+        message = f"{scheme.name} from order {base} to {wanted} has radicals of"
         message += f" degree {degree} together (limit {MAX_DEGREE})"
         cure = "take fewer repetitions, or a rounded scheme, such as yoshida-8"
         self.source.fault(entries["order"], message, cure)
 
-    def _order(
-        self, entries: Entries, key: str, default: int, smallest: int
-    ) -> int:
+    def _order(self, entries: Entries, key: str, default: int, smallest: int) -> int:
         if key not in entries:
             return default
         node, where = entries[key], f"compose, {key}"
@@ -190,9 +176,7 @@ class _Composition:
         return ConstructionText(node, parts, numbers, make, tolerance)
 
 
-def read(
-    parts: PartReader, node: Node, _: Structure
-) -> ConstructionText | None:
+def read(parts: PartReader, node: Node, _: Structure) -> ConstructionText | None:
     """The methods and their substeps."""
     source = parts.source
     before = len(source.faults)
@@ -216,11 +200,7 @@ def read(
             return None
         for number, item in enumerate(items, start=1):
             made.step(item, f"compose, step {number}", whole)
-    if (
-        "steps" not in entries
-        and "scheme" not in entries
-        and whole is not None
-    ):
+    if "steps" not in entries and "scheme" not in entries and whole is not None:
         one = Entry(Literal(fmpq(1)), node, "compose")
         parts.numbers.entries.append(one)
         made.add(whole, one, False)
@@ -252,9 +232,7 @@ def _refuse_unclear(parts: PartReader, node: Node, entries: Entries) -> None:
             source.fault(entries[key], message, "leave it out")
 
 
-def _made(
-    steps: Sequence[_Step], tableaus: Sequence[Tableau], values: Vector
-) -> Tableau:
+def _made(steps: Sequence[_Step], tableaus: Sequence[Tableau], values: Vector) -> Tableau:
     turned: dict[int, Tableau] = {}
     substeps = []
     for step in steps:
@@ -273,10 +251,7 @@ def schema() -> Schema:
     step = {
         "anyOf": [
             number,
-            closed(
-                {"step": number, "of": METHOD, "adjoint": {"type": "boolean"}},
-                "step",
-            ),
+            closed({"step": number, "of": METHOD, "adjoint": {"type": "boolean"}}, "step"),
         ]
     }
     order = {"type": "integer", "minimum": 2, "maximum": MAX_ORDER}

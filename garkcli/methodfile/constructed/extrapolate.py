@@ -13,11 +13,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector
 from garkcli.families.extrapolated import SEQUENCES, sequence
 from garkcli.methodfile.coefficient_schema import Schema, closed
-from garkcli.methodfile.constructed.parts import (
-    METHOD,
-    PartReader,
-    tolerance_of,
-)
+from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
 from garkcli.methodfile.description import ConstructionText, Structure
 from garkcli.methodfile.source import Entries
 from garkcli.order.certificate import find_order
@@ -33,9 +29,7 @@ MAX_PARTS = 200
 _MOST_ROWS = 20
 
 
-def read(
-    parts: PartReader, node: Node, _: Structure
-) -> ConstructionText | None:
+def read(parts: PartReader, node: Node, _: Structure) -> ConstructionText | None:
     """The method and the numbers of its substeps."""
     source = parts.source
     before = len(source.faults)

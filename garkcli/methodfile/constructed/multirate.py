@@ -19,16 +19,8 @@ from garkcli.methodfile.constructed.multirate_makers import (
     of_mis,
     of_mri,
 )
-from garkcli.methodfile.constructed.parts import (
-    METHOD,
-    PartReader,
-    tolerance_of,
-)
-from garkcli.methodfile.description import (
-    ConstructionText,
-    PartText,
-    Structure,
-)
+from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
+from garkcli.methodfile.description import ConstructionText, PartText, Structure
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.source import Entries
 
@@ -46,9 +38,7 @@ _NAMES = ("lambda", "M")
 """Which small step it is, from 1, and how many there are, in coupling matrices."""
 
 
-def read(
-    parts: PartReader, node: Node, _: Structure
-) -> ConstructionText | None:
+def read(parts: PartReader, node: Node, _: Structure) -> ConstructionText | None:
     """The methods, and how they are coupled."""
     before = len(parts.source.faults)
     entries = parts.source.mapping(node, "multirate", _KEYS, form=_FORM)
@@ -75,12 +65,8 @@ class _Multirate:
         if len(ways) != 1:
             message = "multirate: the slow method is missing"
             if ways:
-                message = (
-                    f"multirate: the slow part is given by {ways[0]} already"
-                )
-            self.source.fault(
-                entries[ways[1]] if ways else self.node, message, _FORM
-            )
+                message = f"multirate: the slow part is given by {ways[0]} already"
+            self.source.fault(entries[ways[1]] if ways else self.node, message, _FORM)
             return None
         if "coupling" in entries and ways[0] != "slow":
             message = f"multirate: coupling does not go with {ways[0]}"
@@ -107,13 +93,9 @@ class _Multirate:
         self.source.fault(self.node, "multirate: steps missing", _FORM)
         return None
 
-    def _text(
-        self, parts: Sequence[PartText], numbers: Row, make: Make
-    ) -> ConstructionText:
+    def _text(self, parts: Sequence[PartText], numbers: Row, make: Make) -> ConstructionText:
         tolerance = tolerance_of(parts)
-        return ConstructionText(
-            self.node, tuple(parts), numbers, make, tolerance
-        )
+        return ConstructionText(self.node, tuple(parts), numbers, make, tolerance)
 
     def _coupled(
         self, entries: Entries, fast: PartText, slow: PartText, steps: int
@@ -130,27 +112,17 @@ class _Multirate:
                 return None
             return self._text(parts, (), named(word, steps))
         where = "multirate, coupling"
-        found = self.source.mapping(
-            node, where, _BLOCKS, form=_FORM_OF_COUPLING
-        )
+        found = self.source.mapping(node, where, _BLOCKS, form=_FORM_OF_COUPLING)
         for key in _BLOCKS:
             if key not in found and isinstance(node, MappingNode):
-                self.source.fault(
-                    node, f"{where}: {key} missing", _FORM_OF_COUPLING
-                )
+                self.source.fault(node, f"{where}: {key} missing", _FORM_OF_COUPLING)
                 return None
         if not found:
             return None
         blocks = [self._small_steps(found[key], key, steps) for key in _BLOCKS]
         if not all(blocks):
             return None
-        every = [
-            x
-            for block in blocks
-            for rows in block
-            for row in rows
-            for x in row
-        ]
+        every = [x for block in blocks for rows in block for row in rows for x in row]
         return self._text(parts, tuple(every), given(blocks))
 
     def _small_steps(self, node: Node, key: str, steps: int) -> list[Rows]:
@@ -166,9 +138,7 @@ class _Multirate:
             found.append(rows)
         return found
 
-    def _mri(
-        self, node: Node, fast: PartText | None, steps: int | None
-    ) -> ConstructionText | None:
+    def _mri(self, node: Node, fast: PartText | None, steps: int | None) -> ConstructionText | None:
         """Nodes, and matrices for the powers of τ."""
         where = "multirate, mri"
         keys = ("c", "gamma", "omega")
@@ -190,9 +160,7 @@ class _Multirate:
             for rows in matrices:
                 numbers += [x for row in rows for x in row]
         shapes = [len(matrices) for matrices in every]
-        return self._text(
-            [fast], tuple(numbers), of_mri(len(c), shapes, steps)
-        )
+        return self._text([fast], tuple(numbers), of_mri(len(c), shapes, steps))
 
     def _powers(self, node: Node, key: str, count: int) -> list[Rows]:
         """A matrix for each power of τ, with a row from each node to the next and a column a
@@ -280,11 +248,7 @@ def schema() -> Schema:
         **closed(
             {
                 "fast": METHOD,
-                "steps": {
-                    "type": "integer",
-                    "minimum": 1,
-                    "maximum": MAX_STEPS,
-                },
+                "steps": {"type": "integer", "minimum": 1, "maximum": MAX_STEPS},
                 "slow": METHOD,
                 "coupling": {"anyOf": [{"enum": list(COUPLINGS)}, blocks]},
                 "mis": METHOD,

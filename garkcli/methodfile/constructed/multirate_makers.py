@@ -71,9 +71,7 @@ def named(word: str, steps: int) -> Make:
 
 def given(blocks: Sequence[Sequence[Rows]]) -> Make:
     """Coupling matrices, from fast to slow and from slow to fast, one for each small step."""
-    lengths = [
-        [[len(row) for row in rows] for rows in every] for every in blocks
-    ]
+    lengths = [[[len(row) for row in rows] for rows in every] for every in blocks]
 
     def made(tableaus: Sequence[Tableau], values: Vector) -> Tableau:
         fast, slow = _both(tableaus)
@@ -87,9 +85,7 @@ def given(blocks: Sequence[Sequence[Rows]]) -> Make:
     return made
 
 
-def _check_shape(
-    key: str, matrix: Matrix, seeing: Method, seen: Method
-) -> None:
+def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None:
     """Refuse a coupling matrix of another shape than its methods.
 
     Raises:
@@ -122,9 +118,7 @@ def of_mri(count: int, powers: Sequence[int], steps: int) -> Make:
 
 def _filled(lengths: Sequence[int], rest: Iterator[Number]) -> Matrix:
     """A matrix with rows of these lengths."""
-    return tuple(
-        tuple(next(rest) for _ in range(length)) for length in lengths
-    )
+    return tuple(tuple(next(rest) for _ in range(length)) for length in lengths)
 
 
 def _both(tableaus: Sequence[Tableau]) -> tuple[Method, Method]:

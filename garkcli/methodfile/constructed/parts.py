@@ -68,9 +68,7 @@ class PartReader:
         self._written = written
         self._open = opened
 
-    def method(
-        self, node: Node, where: str, why: str = AT_POINTS
-    ) -> PartText | None:
+    def method(self, node: Node, where: str, why: str = AT_POINTS) -> PartText | None:
         """A method: a family, coefficients of any form, or a name.
 
         Args:
@@ -86,9 +84,7 @@ class PartReader:
             return None
         return _part(self.source, self.numbers, description, why)
 
-    def _named(
-        self, node: ScalarNode, where: str, why: str
-    ) -> PartText | None:
+    def _named(self, node: ScalarNode, where: str, why: str) -> PartText | None:
         """A single method of a family, or one of the catalogue."""
         name = self.source.scalar(node, where)
         if name is None or self._refused(node, where, name):
@@ -153,17 +149,13 @@ class PartReader:
         return None if word is None else word == "true"
 
 
-def _part(
-    source: Source, numbers: Numbers, description: Description, why: str
-) -> PartText:
+def _part(source: Source, numbers: Numbers, description: Description, why: str) -> PartText:
     families = families_of(description)
     nodes = nodes_to_spell_out(description, families, numbers, why)
     return PartText(source, description, families, nodes)
 
 
-def tolerance_of(
-    parts: Iterable[PartText | None], *others: fmpq | None
-) -> fmpq | None:
+def tolerance_of(parts: Iterable[PartText | None], *others: fmpq | None) -> fmpq | None:
     """The rounding of what is made from parts: the largest of theirs; None where all are exact."""
     known = [part.tolerance for part in parts if part is not None]
     found = [x for x in (*known, *others) if x is not None]

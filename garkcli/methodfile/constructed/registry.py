@@ -15,9 +15,7 @@ from garkcli.methodfile.description import ConstructionText, Structure
 class Construction(Protocol):
     """What the module of a construction has."""
 
-    def read(
-        self, parts: PartReader, node: Node, structure: Structure
-    ) -> ConstructionText | None:
+    def read(self, parts: PartReader, node: Node, structure: Structure) -> ConstructionText | None:
         """What stands under its key; None, with faults noted, where that makes no method."""
 
     def schema(self) -> Schema:

@@ -7,25 +7,14 @@ from collections.abc import Sequence
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, SequenceNode
 
-from garkcli.constructions.schemes.flows import (
-    SPLITTINGS,
-    FlowText,
-)
+from garkcli.constructions.schemes.flows import SPLITTINGS, FlowText
 from garkcli.constructions.splitting import drift_and_kick, split
 from garkcli.errors import MethodError
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.matrix import Vector
 from garkcli.methodfile.coefficient_schema import Schema, closed
-from garkcli.methodfile.constructed.parts import (
-    METHOD,
-    PartReader,
-    tolerance_of,
-)
-from garkcli.methodfile.description import (
-    ConstructionText,
-    PartText,
-    Structure,
-)
+from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
+from garkcli.methodfile.description import ConstructionText, PartText, Structure
 from garkcli.methodfile.numbers import Entry
 from garkcli.methodfile.source import Entries
 from garkcli.tableau.method import Method
@@ -43,9 +32,7 @@ MAX_FLOWS = 400
 class _Splitting:
     """One splitting as it is read."""
 
-    def __init__(
-        self, reader: PartReader, node: Node, structure: Structure
-    ) -> None:
+    def __init__(self, reader: PartReader, node: Node, structure: Structure) -> None:
         self.reader = reader
         self.source = reader.source
         self.node = node
@@ -74,9 +61,7 @@ class _Splitting:
         if isinstance(node, SequenceNode):
             terms = terms or len(items)
             if not 2 <= len(items) <= MAX_TERMS or len(items) != terms:
-                message = (
-                    f"splitting, of: {len(items)} methods for {terms} parts"
-                )
+                message = f"splitting, of: {len(items)} methods for {terms} parts"
                 self.source.fault(node, message, "give one for each part")
         for item in items:
             part = self.reader.method(item, "splitting, of")
@@ -98,11 +83,7 @@ class _Splitting:
                 text = str(key.value)
                 if text.isdigit() and len(text) < 3:
                     numbers.append(int(text))
-        return (
-            min(max(numbers), MAX_TERMS)
-            if max(numbers, default=0) > 1
-            else None
-        )
+        return min(max(numbers), MAX_TERMS) if max(numbers, default=0) > 1 else None
 
     def alternating(self, entries: Entries) -> None:
         """Part 1 for a_1, part 2 for b_1, and so on."""
@@ -136,9 +117,7 @@ class _Splitting:
         names = [str(l) for l in range(1, self.terms + 1)]
         for number, item in enumerate(items, start=1):
             where = f"splitting, flow {number}"
-            found = self.source.mapping(
-                item, where, names, form=_FORM_OF_FLOWS
-            )
+            found = self.source.mapping(item, where, names, form=_FORM_OF_FLOWS)
             for name, value in found.items():
                 entry = self.reader.number(value, where)
                 self.flow(int(name) - 1, entry)
@@ -192,9 +171,7 @@ def _diagonal(tableau: Tableau) -> Method:
     return Method("", tableau.space(0), block, tableau.colours[0].b)
 
 
-def read(
-    parts: PartReader, node: Node, structure: Structure
-) -> ConstructionText | None:
+def read(parts: PartReader, node: Node, structure: Structure) -> ConstructionText | None:
     """The parts and their flows."""
     source = parts.source
     before = len(source.faults)
@@ -203,9 +180,7 @@ def read(
         return None
     made = _Splitting(parts, node, structure)
     made.methods(entries)
-    ways: list[str] = [
-        key for key in ("a", "flows", "scheme") if key in entries
-    ]
+    ways: list[str] = [key for key in ("a", "flows", "scheme") if key in entries]
     if "b" in entries and "a" not in entries:
         ways.append("b")
     if len(ways) != 1:
@@ -250,11 +225,7 @@ def schema() -> Schema:
                 "b": row,
                 "flows": {"type": "array", "items": flow, "minItems": 1},
                 "scheme": {"enum": list(SPLITTINGS)},
-                "terms": {
-                    "type": "integer",
-                    "minimum": 2,
-                    "maximum": MAX_TERMS,
-                },
+                "terms": {"type": "integer", "minimum": 2, "maximum": MAX_TERMS},
             }
         ),
         "description": "The parts of a problem flow in turn.",

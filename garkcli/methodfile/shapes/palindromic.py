@@ -3,21 +3,14 @@
 import re
 from dataclasses import replace
 
-from garkcli.methodfile.shapes.layout import (
-    ZERO,
-    Layout,
-    Shape,
-    Texts,
-    refuse_shape,
-)
+from garkcli.methodfile.shapes.layout import ZERO, Layout, Shape, Texts, refuse_shape
 
 
 def _applied(layout: Layout) -> Layout:
     """b_{s+1−i} = b_i and a_{s+1−i,s+1−j} = b_j − a_ij."""
     if layout.kind != "tableau" or "gamma" in layout.unknowns:
         raise refuse_shape(
-            "palindromic goes with full, dirk and symplectic-dirk",
-            "leave one of them out",
+            "palindromic goes with full, dirk and symplectic-dirk", "leave one of them out"
         )
     s = layout.stages
     (weights,) = layout.b
@@ -48,10 +41,7 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
     k, l = last - i, last - j
     entry, opposite = rows[i][j], rows[k][l]
     if entry == ZERO and opposite == ZERO:
-        raise refuse_shape(
-            "no explicit shape is palindromic",
-            "take full, dirk or symplectic-dirk",
-        )
+        raise refuse_shape("no explicit shape is palindromic", "take full, dirk or symplectic-dirk")
     if not opposite.startswith("a"):
         return
     weight = b[j]

@@ -6,13 +6,7 @@ from collections.abc import Sequence
 from functools import cache
 from importlib import import_module
 
-from garkcli.methodfile.shapes.layout import (
-    Layout,
-    Shape,
-    full_layout,
-    refuse_shape,
-    with_nodes,
-)
+from garkcli.methodfile.shapes.layout import Layout, Shape, full_layout, refuse_shape, with_nodes
 
 SHAPES = (
     "full",
@@ -55,8 +49,6 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
     for place, name in enumerate(names):
         shape = find_shape(name)
         if shape.begins and place:
-            raise refuse_shape(
-                f"{name} stands after {names[0]}", f"begin with {name}"
-            )
+            raise refuse_shape(f"{name} stands after {names[0]}", f"begin with {name}")
         layout = shape.applied(layout)
     return with_nodes(layout)

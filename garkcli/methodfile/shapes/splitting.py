@@ -1,12 +1,6 @@
 """Splitting methods: the maps of two parts in turn."""
 
-from garkcli.methodfile.shapes.layout import (
-    ZERO,
-    Layout,
-    Shape,
-    TextRow,
-    Texts,
-)
+from garkcli.methodfile.shapes.layout import ZERO, Layout, Shape, TextRow, Texts
 
 
 def _lower(weights: tuple[str, ...], reach: int) -> Texts:
@@ -29,9 +23,4 @@ def _applied(layout: Layout) -> Layout:
     return Layout("prk", A, (drifts, kicks))
 
 
-SHAPE = Shape(
-    "splitting",
-    "a1 h of the first part, b1 h of the second, and so on",
-    _applied,
-    True,
-)
+SHAPE = Shape("splitting", "a1 h of the first part, b1 h of the second, and so on", _applied, True)

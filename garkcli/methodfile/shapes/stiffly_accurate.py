@@ -5,10 +5,7 @@ from garkcli.methodfile.shapes.layout import ZERO, Layout, Shape, refuse_shape
 
 def _applied(layout: Layout) -> Layout:
     if layout.kind == "prk":
-        raise refuse_shape(
-            "a partitioned shape is not stiffly accurate",
-            "leave one of them out",
-        )
+        raise refuse_shape("a partitioned shape is not stiffly accurate", "leave one of them out")
     last = layout.A[-1][-1]
     if last[-1] == ZERO:
         raise refuse_shape(

@@ -1,10 +1,6 @@
 """A-stability."""
 
-from garkcli.properties.linear import (
-    decide_within,
-    no_meaning,
-    obstacle_to_a_stability,
-)
+from garkcli.properties.linear import decide_within, no_meaning, obstacle_to_a_stability
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.subject import Subject
 

@@ -1,10 +1,6 @@
 """L-stability."""
 
-from garkcli.properties.linear import (
-    decide_within,
-    no_meaning,
-    obstacle_to_a_stability,
-)
+from garkcli.properties.linear import decide_within, no_meaning, obstacle_to_a_stability
 from garkcli.properties.naming import number_text
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.subject import Subject

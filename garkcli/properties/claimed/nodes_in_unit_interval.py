@@ -14,16 +14,10 @@ from garkcli.tableau.tableau import Tableau
 def _decide(subject: Subject) -> Verdict:
     for l, colour in enumerate(subject.tableau.colours):
         space = subject.tableau.space(l)
-        if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(
-            space.nodes
-        ):
+        if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
             reflected = space.modulus(fmpq_poly([1, -1]))
-            if roots_below(space.modulus, ZERO) or roots_below(
-                reflected, ZERO
-            ):
-                return Verdict(
-                    False, f"a node of colour {colour.name} is outside"
-                )
+            if roots_below(space.modulus, ZERO) or roots_below(reflected, ZERO):
+                return Verdict(False, f"a node of colour {colour.name} is outside")
             continue
         found = subject.points
         if found is None:

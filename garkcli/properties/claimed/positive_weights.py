@@ -15,10 +15,7 @@ def _decide(subject: Subject) -> Verdict:
         space = tableau.space(m)
         if not isinstance(space, PointSpace):
             if not are_positive(space, colour.b):
-                return Verdict(
-                    False,
-                    f"b{{{colour.name}}} has an entry that is not positive",
-                )
+                return Verdict(False, f"b{{{colour.name}}} has an entry that is not positive")
             is_open = is_open or bool(tolerance)
             continue
         for j, b in enumerate(colour.b):

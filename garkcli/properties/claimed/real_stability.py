@@ -19,8 +19,7 @@ def _decide(subject: Subject) -> Verdict:
 PROPERTY = Property(
     key="real-stability",
     text=(
-        "The length of the real stability interval: the largest x for which |R(z)| ≤ 1 on"
-        " [−x, 0]."
+        "The length of the real stability interval: the largest x for which |R(z)| ≤ 1 on [−x, 0]."
     ),
     source="E. Hairer, G. Wanner, Solving ODEs II, section IV.2",
     kind="number",

@@ -8,9 +8,7 @@ from garkcli.properties.subject import Subject
 def _decide(subject: Subject) -> Verdict:
     tableau = subject.tableau
     if is_plainly_irreducible(tableau, subject.tolerance):
-        return Verdict(
-            False, "every stage has a weight, and row sums of its own"
-        )
+        return Verdict(False, "every stage has a weight, and row sums of its own")
     smaller = reduced(tableau)
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")

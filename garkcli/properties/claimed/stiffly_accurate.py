@@ -1,10 +1,6 @@
 """Stiffly accurate methods."""
 
-from garkcli.properties.last_stage import (
-    is_stiffly_accurate,
-    missed_entries,
-    new_value,
-)
+from garkcli.properties.last_stage import is_stiffly_accurate, missed_entries, new_value
 from garkcli.properties.naming import entry_name, number_text, weight_name
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.subject import MISSING_BLOCKS, Subject

@@ -18,9 +18,7 @@ def _decide(subject: Subject) -> Verdict:
     if found.holds is None and subject.tolerance:
         return Verdict.undecided("rounding leaves the nodes open")
     if found.holds is None:
-        return Verdict.undecided(
-            f"there are more than {MOST_RENUMBERINGS} renumberings"
-        )
+        return Verdict.undecided(f"there are more than {MOST_RENUMBERINGS} renumberings")
     if found.holds:
         return Verdict(True)
     return _reduced_verdict(subject)
@@ -28,9 +26,7 @@ def _decide(subject: Subject) -> Verdict:
 
 def _reduced_verdict(subject: Subject) -> Verdict:
     """Where no renumbering does: stages that do nothing, and equal ones, may be in its way."""
-    obstacle = Verdict(
-        False, "no renumbering of the stages gives the adjoint method"
-    )
+    obstacle = Verdict(False, "no renumbering of the stages gives the adjoint method")
     tableau = subject.tableau
     if is_plainly_irreducible(tableau, subject.tolerance):
         return obstacle
@@ -42,9 +38,7 @@ def _reduced_verdict(subject: Subject) -> Verdict:
         return obstacle
     holds = symmetry(settled, subject.tolerance).holds
     if holds is None:
-        return Verdict.undecided(
-            "there are too many renumberings once it is reduced"
-        )
+        return Verdict.undecided("there are too many renumberings once it is reduced")
     if holds:
         return Verdict(True, "once it is reduced")
     return obstacle
@@ -59,11 +53,7 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
     matters = _that_matter(tableau)
-    idle = [
-        k
-        for k, space in enumerate(tableau.spaces)
-        if k not in matters and space.stages == 1
-    ]
+    idle = [k for k, space in enumerate(tableau.spaces) if k not in matters and space.stages == 1]
     for k, m in tableau.blocks:
         if k in idle:
             blocks[k, m] = (tuple(half * b for b in tableau.colours[m].b),)

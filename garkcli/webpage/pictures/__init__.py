@@ -4,7 +4,5 @@ from __future__ import annotations
 
 from garkcli.webpage.pictures.drawing import STYLE as STYLE
 from garkcli.webpage.pictures.picture import Picture as Picture
-from garkcli.webpage.pictures.registry import (
-    compared_pictures as compared_pictures,
-)
+from garkcli.webpage.pictures.registry import compared_pictures as compared_pictures
 from garkcli.webpage.pictures.registry import pictures as pictures

@@ -16,12 +16,7 @@ from garkcli.report.costs import curve
 from garkcli.stability.linear import stability_function
 from garkcli.stability.summary import directions
 from garkcli.webpage.pictures import region
-from garkcli.webpage.pictures.convergence import (
-    curve_of,
-    draw_curve,
-    frame_of,
-    step_marks,
-)
+from garkcli.webpage.pictures.convergence import curve_of, draw_curve, frame_of, step_marks
 from garkcli.webpage.pictures.drawing import COLOURS
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import decade_marks

@@ -142,9 +142,7 @@ def _description(result: Convergence) -> str:
 def _note(subject: Subject, result: Convergence) -> str:
     observed = order_text(result.observed_order)
     name = problem_name(result)
-    which = (
-        "the symplectic pair" if subject.is_stepped_as_pair else "the method"
-    )
+    which = "the symplectic pair" if subject.is_stepped_as_pair else "the method"
     text = (
         f"Numerical: {which} on the problem {name} to t = {result.t_end}. "
         f"Observed order {observed}, proved order {predicted(result)}: {_VERDICTS[result.verdict]}."

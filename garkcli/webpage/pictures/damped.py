@@ -81,11 +81,7 @@ def _pair(subject: Subject) -> tuple[ImexPair, StabilityFunction]:
 
 
 def _damped(
-    pair: ImexPair,
-    explicit: StabilityFunction,
-    edges: list[float],
-    bottom: float,
-    top: float,
+    pair: ImexPair, explicit: StabilityFunction, edges: list[float], bottom: float, top: float
 ) -> Iterator[Point]:
     """The ends of each run of squares of a row that are damped."""
     b = (bottom + top) / 2

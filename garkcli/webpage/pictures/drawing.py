@@ -11,14 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from garkcli.errors import printable
-from garkcli.webpage.pictures.elements import (
-    Point,
-    Value,
-    element,
-    number,
-    opened,
-    path_of,
-)
+from garkcli.webpage.pictures.elements import Point, Value, element, number, opened, path_of
 from garkcli.webpage.pictures.scales import Mark, Scale
 
 WIDTH = 360
@@ -208,32 +201,18 @@ class Frame:
         for mark in marks:
             x = self.x(mark.at)
             yield _rule((x, bottom), (x, bottom + 4))
-            yield element(
-                "text",
-                mark.label,
-                x=x,
-                y=bottom + 16,
-                text_anchor="middle",
-            )
+            yield element("text", mark.label, x=x, y=bottom + 16, text_anchor="middle")
 
     def _axis_beside(self, marks: Sequence[Mark]) -> Iterator[str]:
         left = self.x.start
         for mark in marks:
             y = self.y(mark.at)
             yield _rule((left - 4, y), (left, y))
-            yield element(
-                "text", mark.label, x=left - 7, y=y + 4, text_anchor="end"
-            )
+            yield element("text", mark.label, x=left - 7, y=y + 4, text_anchor="end")
 
     def _labels(self, below: str, beside: str) -> Iterator[str]:
         middle = (self.x.start + self.x.end) / 2
-        yield element(
-            "text",
-            below,
-            x=middle,
-            y=self.y.start + 33,
-            text_anchor="middle",
-        )
+        yield element("text", below, x=middle, y=self.y.start + 33, text_anchor="middle")
         left = self.x.start - LEFT + 12
         height = (self.y.start + self.y.end) / 2
         across = number(left)
@@ -255,9 +234,7 @@ class Frame:
         height = self.y.start - top
         sides = [left, top, width, height]
         box = " ".join(map(number, sides))
-        head = opened(
-            "svg", x=left, y=top, width=width, height=height, viewBox=box
-        )
+        head = opened("svg", x=left, y=top, width=width, height=height, viewBox=box)
         return [head, *self.inside, "</svg>"]
 
     def _legend_rows(self, top: float) -> Iterator[str]:

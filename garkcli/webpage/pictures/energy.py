@@ -14,12 +14,7 @@ from garkcli.stepping.step import StepFailed
 from garkcli.webpage.pictures.drawing import Frame
 from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
-from garkcli.webpage.pictures.scales import (
-    common_exponent,
-    in_words,
-    linear_marks,
-    power_of_ten,
-)
+from garkcli.webpage.pictures.scales import common_exponent, in_words, linear_marks, power_of_ten
 from garkcli.webpage.pictures.subject import Subject
 
 STEPS = 5000
@@ -85,12 +80,7 @@ def _run(subject: Subject) -> LongRun:
     step, _ = usual(problem)
     try:
         return long_run(
-            tableau,
-            problem,
-            STEPS * step,
-            step,
-            points=_POINTS,
-            tolerance=subject.method.tolerance,
+            tableau, problem, STEPS * step, step, points=_POINTS, tolerance=subject.method.tolerance
         )
     except StepFailed as error:
         raise NotDrawn(f"A step fails on Kepler's problem: {error}.") from None
@@ -117,10 +107,7 @@ def _frame(points: list[Point]) -> tuple[Frame, int]:
 
 
 def _draw_drift(
-    frame: Frame,
-    history: InvariantHistory,
-    points: list[Point],
-    factor: float,
+    frame: Frame, history: InvariantHistory, points: list[Point], factor: float
 ) -> None:
     """The line of a drift, in the middle of what the errors do besides."""
     drift = history.drift
@@ -158,9 +145,7 @@ def _description(run: LongRun, history: InvariantHistory) -> str:
 
 
 def _note(subject: Subject, run: LongRun, history: InvariantHistory) -> str:
-    which = (
-        "the symplectic pair" if subject.is_stepped_as_pair else "the method"
-    )
+    which = "the symplectic pair" if subject.is_stepped_as_pair else "the method"
     largest = _largest(history)
     return (
         f"Numerical: {which} on Kepler's problem, {run.steps} steps of "

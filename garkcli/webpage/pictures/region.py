@@ -65,9 +65,7 @@ def draw(subject: Subject) -> Picture:
     return replace(picture, note=picture.note + left_out)
 
 
-def drawn(
-    names: Sequence[str], functions: Sequence[StabilityFunction]
-) -> Picture:
+def drawn(names: Sequence[str], functions: Sequence[StabilityFunction]) -> Picture:
     """The regions of some stability functions, in one picture."""
     whole = window_of(functions, is_symmetric=False)
     window = _nearer(whole, functions)
@@ -138,11 +136,7 @@ def frame_of(window: Window) -> Frame:
 
 
 def finished(
-    frame: Frame,
-    window: Window,
-    title: str,
-    description: str,
-    labels: tuple[str, str],
+    frame: Frame, window: Window, title: str, description: str, labels: tuple[str, str]
 ) -> str:
     """The picture with both axes of the plane."""
     frame.line((window.left, 0.0), (window.right, 0.0))
@@ -153,11 +147,7 @@ def finished(
 
 
 def draw_region(
-    frame: Frame,
-    window: Window,
-    R: StabilityFunction,
-    k: int,
-    is_filled: bool = True,
+    frame: Frame, window: Window, R: StabilityFunction, k: int, is_filled: bool = True
 ) -> None:
     """Where |R(z)| ≤ 1, as the k-th curve and what it surrounds."""
     x = np.linspace(window.left, window.right, _NODES)

@@ -8,13 +8,7 @@ from typing import TypeAlias
 from garkcli.errors import GarkError
 from garkcli.methodfile.build import MethodFile
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.webpage.pictures import (
-    convergence,
-    damped,
-    energy,
-    region,
-    trace,
-)
+from garkcli.webpage.pictures import convergence, damped, energy, region, trace
 from garkcli.webpage.pictures.compared import compared
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.subject import Subject
@@ -40,10 +34,7 @@ def pictures(method: GarkMethod) -> list[Picture]:
             on Hamiltonian problems as its symplectic pair, as ``gark converge`` does it.
     """
     subject = _subject(method)
-    drawn = [
-        _drawn(name, title, draw, subject)
-        for name, (title, draw) in PICTURES.items()
-    ]
+    drawn = [_drawn(name, title, draw, subject) for name, (title, draw) in PICTURES.items()]
     return [picture for picture in drawn if picture.svg or picture.note]
 
 

@@ -18,12 +18,7 @@ from garkcli.order.dense import DenseOrder
 from garkcli.order.nonautonomous import with_time
 from garkcli.page.paint import Paint
 from garkcli.report.check_further import estimate_text, fit_text
-from garkcli.report.check_orders import (
-    doubt_text,
-    order_number,
-    size,
-    suggestion_lines,
-)
+from garkcli.report.check_orders import doubt_text, order_number, size, suggestion_lines
 from garkcli.report.hints import blame_lines, misprint_lines
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, format_tree
@@ -66,11 +61,7 @@ def _content(method: Reported) -> Content | None:
     else:
         return None
     left_behind = " and ".join(outcome.left_behind)
-    return {
-        "orders": list(_told_once(found)),
-        "hints": _hints(outcome),
-        "left_behind": left_behind,
-    }
+    return {"orders": list(_told_once(found)), "hints": _hints(outcome), "left_behind": left_behind}
 
 
 def _hints(outcome: Outcome) -> str:
@@ -140,9 +131,7 @@ def _further(analysis: Analysis, clock: str) -> Iterator[Shown]:
         yield _dense(dense.order, dense.degree, has_colours, fit)
 
 
-def _order(
-    label: str, order: AnyOrder, tableau: Tableau, *notes: str
-) -> Shown:
+def _order(label: str, order: AnyOrder, tableau: Tableau, *notes: str) -> Shown:
     """An order of a tableau."""
     witness = None
     if order.witness is not None:
@@ -157,10 +146,7 @@ def said(order: AnyOrder) -> tuple[str, str]:
     every = f"Every condition up to order {number}"
     if isinstance(order, Order):
         if order.is_lower_bound:
-            return (
-                f"{every} is proved; no further was looked.",
-                "proved, at least",
-            )
+            return (f"{every} is proved; no further was looked.", "proved, at least")
         return f"{every} is proved; one of order {number + 1} fails.", "exact"
     tolerance = decimal(order.tolerance)
     largest = size(order.largest_residual)
@@ -195,9 +181,7 @@ def _tree(tree: Tree, has_colours: bool) -> Content:
     }
 
 
-def _dense(
-    order: DenseOrder, degree: int, has_colours: bool, fit: str
-) -> Shown:
+def _dense(order: DenseOrder, degree: int, has_colours: bool, fit: str) -> Shown:
     """The order of dense output."""
     number = str(order.order)
     every = f"Every condition up to order {number} holds for every θ"

@@ -14,9 +14,7 @@ def _content(method: Reported) -> Content | None:
     if not method.reference:
         return None
     fields = method.bibliography
-    cited = Cited(
-        (method.outcome.file,), method.reference, method.bibliography
-    )
+    cited = Cited((method.outcome.file,), method.reference, method.bibliography)
     found = {
         "text": method.reference,
         "doi": "",

@@ -58,9 +58,7 @@ def _number(data: Content, name: str) -> int:
     return value
 
 
-def _cells(
-    numbers: Sequence[int | None], limit: int
-) -> list[tuple[str, int | None]]:
+def _cells(numbers: Sequence[int | None], limit: int) -> list[tuple[str, int | None]]:
     """The text of each cell, and its shade; none where there is no block."""
     found: list[tuple[str, int | None]] = []
     for number in numbers:
@@ -74,13 +72,7 @@ def _cells(
 
 def _numbers(found: Simplifying) -> list[tuple[str, int]]:
     """What the bounds are made of."""
-    return [
-        ("r", found.r),
-        ("η", found.eta),
-        ("ζ", found.zeta),
-        ("ξ", found.xi),
-        ("χ", found.chi),
-    ]
+    return [("r", found.r), ("η", found.eta), ("ζ", found.zeta), ("ξ", found.xi), ("χ", found.chi)]
 
 
 SECTION = Section("simplifying", "Simplifying assumptions", _content)

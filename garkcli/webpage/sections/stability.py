@@ -11,12 +11,7 @@ from garkcli.api.calls import find_stability
 from garkcli.page.paint import Paint
 from garkcli.report.stability import quotient_latex
 from garkcli.report.stability_colours import fraction_latex
-from garkcli.report.stability_text import (
-    Fact,
-    linear_facts,
-    nonlinear_fact,
-    oscillator_facts,
-)
+from garkcli.report.stability_text import Fact, linear_facts, nonlinear_fact, oscillator_facts
 from garkcli.report.stability_words import decided
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.summary import LinearStability, Stability

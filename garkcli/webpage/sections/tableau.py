@@ -100,10 +100,7 @@ def _content(method: Reported) -> Content | None:
         tolerance = method.tolerance
         found = _entries(tableau, tolerance, further)
         shown = [_table("The method", tableau, found)]
-        dense = [
-            (typeset(left), typeset(right))
-            for left, right in dense_polynomials(found)
-        ]
+        dense = [(typeset(left), typeset(right)) for left, right in dense_polynomials(found)]
         shown += _companions(
             tableau,
             {
@@ -118,9 +115,7 @@ def _content(method: Reported) -> Content | None:
 
 
 def _companions(
-    tableau: Tableau,
-    found: dict[str, Tableau | None],
-    tolerance: fmpq | None,
+    tableau: Tableau, found: dict[str, Tableau | None], tolerance: fmpq | None
 ) -> Iterator[Table]:
     """Those of the conjugate and the pair that are not the method itself."""
     for title, other in found.items():
@@ -151,9 +146,7 @@ def _of_family(method: Reported) -> Iterator[Table]:
         yield _table(title, printed, entries(printed))
 
 
-def _entries(
-    tableau: Tableau, tolerance: fmpq | None, further: Further
-) -> Entries:
+def _entries(tableau: Tableau, tolerance: fmpq | None, further: Further) -> Entries:
     """The entries as they are shown: long ones of rounded methods in decimals."""
     found = entries(tableau, _DIGITS).beside(further)
     return found if tolerance is None else readable(found)
@@ -161,10 +154,7 @@ def _entries(
 
 def _table(title: str, tableau: Tableau, found: Entries) -> Table:
     """A tableau with its title, or that it is too large to be shown."""
-    widest = max(
-        sum(len(found.b[m]) for m in colours)
-        for _, _, colours in parts_of(tableau)
-    )
+    widest = max(sum(len(found.b[m]) for m in colours) for _, _, colours in parts_of(tableau))
     if widest > MOST_COLUMNS:
         why = f"it has {widest} columns; gark tableau and gark conjugate print it"
         return Table(title, left_out=why)
@@ -184,11 +174,7 @@ def _short(cell: Cell) -> Cell:
 
 
 def _part(
-    tableau: Tableau,
-    found: Entries,
-    letter: str,
-    stages: Sequence[int],
-    colours: Sequence[int],
+    tableau: Tableau, found: Entries, letter: str, stages: Sequence[int], colours: Sequence[int]
 ) -> Content:
     """The rows of some colours over the columns of others."""
     names = [colour.name for colour in tableau.colours]
@@ -216,9 +202,7 @@ def _width(columns: int) -> str:
     return "wide" if columns > _WIDE else ""
 
 
-def _lines(
-    tableau: Tableau, found: Entries, l: int, colours: Sequence[int]
-) -> Iterator[Line]:
+def _lines(tableau: Tableau, found: Entries, l: int, colours: Sequence[int]) -> Iterator[Line]:
     """The stages of a colour, and of those that share them."""
     space = tableau.colours[l].space
     together = [x.name for x in tableau.colours if x.space == space]
@@ -236,12 +220,7 @@ def _lines(
         yield Line(head, blocks, group, len(nodes), l + 1)
 
 
-def _foot(
-    label: Markup,
-    weights: Sequence[Row],
-    found: Entries,
-    colours: Sequence[int],
-) -> Line:
+def _foot(label: Markup, weights: Sequence[Row], found: Entries, colours: Sequence[int]) -> Line:
     blocks = [Block(m + 1, True, _typeset(weights[m], found)) for m in colours]
     return Line(label, blocks)
 

@@ -15,9 +15,7 @@ from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 
-def _formula(
-    tableau: Tableau, _order: int, ring: Parameters | None
-) -> Quotient:
+def _formula(tableau: Tableau, _order: int, ring: Parameters | None) -> Quotient:
     """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
 
     At nodes T is the identity; in a polynomial space it makes the sum rational where the nodes are
@@ -72,8 +70,6 @@ def _product(left: Any, matrix: Matrix, right: Any) -> Any:
 
 
 OBJECTIVE = Objective(
-    "coefficients",
-    "Σ a² + Σ b² over all coefficients of all blocks and weights",
-    _formula,
+    "coefficients", "Σ a² + Σ b² over all coefficients of all blocks and weights", _formula
 )
 """The Frobenius norm of the tableau, squared."""

@@ -1,22 +1,16 @@
 """The principal error, over the trees of more than one colour."""
 
 from garkcli.design.minimise.objective import Objective
-from garkcli.design.minimise.squared_error import (
-    Quotient,
-    squared_coupling_error,
-)
+from garkcli.design.minimise.squared_error import Quotient, squared_coupling_error
 from garkcli.errors import UsageProblem
 from garkcli.exact.parametric import Parameters
 from garkcli.tableau.tableau import Tableau
 
 
-def _formula(
-    tableau: Tableau, order: int, ring: Parameters | None
-) -> Quotient:
+def _formula(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     if tableau.size == 1:
         raise UsageProblem(
-            "error-coupling: the method has one colour, and no tree has two",
-            "minimise error",
+            "error-coupling: the method has one colour, and no tree has two", "minimise error"
         )
     return squared_coupling_error(tableau, order + 1, ring)
 

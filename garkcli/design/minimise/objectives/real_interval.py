@@ -4,10 +4,7 @@ from collections.abc import Sequence
 
 from flint import fmpq_mpoly
 
-from garkcli.design.minimise.intervals import (
-    fraction_in_plane,
-    refuse_partitioned,
-)
+from garkcli.design.minimise.intervals import fraction_in_plane, refuse_partitioned
 from garkcli.design.minimise.objective import Level, Size
 from garkcli.exact.cells import first_end
 from garkcli.exact.parametric import Parameters

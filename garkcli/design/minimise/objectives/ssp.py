@@ -39,11 +39,5 @@ def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
     return in_plane(tableau, ring, entries, size, conditions_at)
 
 
-OBJECTIVE = Level(
-    "-ssp",
-    "the SSP coefficient",
-    _value,
-    _curves,
-    claim="ssp-coefficient",
-)
+OBJECTIVE = Level("-ssp", "the SSP coefficient", _value, _curves, claim="ssp-coefficient")
 """J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991."""

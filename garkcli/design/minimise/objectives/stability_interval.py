@@ -4,12 +4,8 @@ real axis.
 
 from garkcli.design.minimise.intervals import is_linear
 from garkcli.design.minimise.objective import Either, Level
-from garkcli.design.minimise.objectives.oscillator_interval import (
-    OBJECTIVE as ON_OSCILLATOR,
-)
-from garkcli.design.minimise.objectives.real_interval import (
-    OBJECTIVE as ON_REAL_AXIS,
-)
+from garkcli.design.minimise.objectives.oscillator_interval import OBJECTIVE as ON_OSCILLATOR
+from garkcli.design.minimise.objectives.real_interval import OBJECTIVE as ON_REAL_AXIS
 from garkcli.tableau.tableau import Tableau
 
 
