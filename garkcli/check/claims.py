@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from garkcli.check.agreement import agrees, claim_of, claimed_text
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
+from garkcli.order.deciding import AnyOrder
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.keys import KEYS
 

@@ -12,11 +12,12 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
-from garkcli.order.nonautonomous import with_time
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
+    from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
     from garkcli.order.repairs import Repair
     from garkcli.order.simplifying import Simplifying

@@ -92,10 +92,10 @@ def _approximation(value: Number) -> fmpq:
     if not isinstance(value, fmpq):
         return fmpq(0)
     q = int(value.q)
-    for places in range(FEWEST_DIGITS, len(str(q)) + SHORTENED):
+    for places in range(len(str(q)) + SHORTENED):
         # a decimal that was written as a fraction, in lowest terms
-        if not 10**places % q and 10**places < q * 10**SHORTENED:
-            return fmpq(1, 10**places)
+        if not 10**places % q:
+            return fmpq(1, 10**places) if places >= FEWEST_DIGITS else fmpq(0)
     is_long = q >= LONG_DENOMINATOR
     return fmpq(100, q * q) if is_long else fmpq(0)
 

@@ -22,8 +22,9 @@ from garkcli.page.schema import (
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
     from garkcli.order.certificate import Witness
+    from garkcli.order.deciding import AnyOrder
 
 _WITNESS: Record[Witness] = Record(
     Field("order", POSITION, lambda x: x.tree.order),
@@ -76,7 +77,7 @@ def _undecided(order: AnyOrder) -> bool | None:
     """True where the next order is left open."""
     if isinstance(order, Order):
         return None
-    return order.undecided or None
+    return bool(order.undecided) or None
 
 
 _TABLE: Schema = array(array(nullable(INTEGER)))

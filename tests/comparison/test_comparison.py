@@ -19,7 +19,7 @@ from garkcli.comparison.comparison import compare
 from garkcli.comparison.grid import grid_of
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.matching import find_matching
-from garkcli.comparison.met import MAX_CONDITIONS, Side, conditions_met
+from garkcli.comparison.met import MAX_CONDITIONS, conditions_met
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import Sheet, each_its_own, sheet_of
 from garkcli.errors import LimitExceeded
@@ -282,7 +282,7 @@ def test_the_search_gives_up_honestly(monkeypatch: Any) -> None:
 
 def test_few_conditions_are_compared_of_many() -> None:
     """No more than so many; which orders are complete is said."""
-    side = Side(load(str(ROOT / "methods/three-colours.gark.yaml")).tableau)
+    side = load(str(ROOT / "methods/three-colours.gark.yaml")).tableau
     found = conditions_met(side, side, 12)
     assert found.pairs == ()
     assert 3 <= found.order < 12

@@ -23,6 +23,7 @@ from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
 from garkcli.properties.registry import every_property
 from garkcli.properties.subject import Subject
+from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import Entry, entries
 from tests.catalogue.method_files import method_file
 
@@ -376,7 +377,7 @@ def subject_of(method: object) -> Subject:
     """A method as its properties are decided."""
     tableau = method.tableau  # type: ignore[attr-defined]
     tolerance = method.tolerance or ZERO  # type: ignore[attr-defined]
-    return Subject(tableau, 1, simplifying(tableau, 5, tolerance), 5, tolerance)
+    return Subject(tableau, 1, simplifying(meant(tableau, tolerance), 5), 5, tolerance)
 
 
 # -- the catalogue

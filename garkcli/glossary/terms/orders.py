@@ -186,8 +186,8 @@ TERMS = (
     ),
     Term(
         "tolerance",
-        "How far the coefficients of a file are rounded. Then conditions hold within what this"
-        " rounding explains, never exactly, and the report says so.",
+        "How far each coefficient of a file may be off; zeros are exact. A condition is met within"
+        " t when rounding by t explains its residual, and fails when it does not.",
         "",
         "this project, docs/exact-order.md",
         ("within",),
