@@ -56,9 +56,11 @@ def _told(witness: Witness, condition: str) -> str:
 
 def bound_numbers(found: Simplifying) -> str:
     """What the bounds of the order are made of."""
-    r, eta, zeta = found.r, found.eta, found.zeta
-    xi, chi = found.xi, found.chi
-    return f"r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}, χ = {chi}"
+    numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
+    return ", ".join(
+        f"{name} {'≥' if found.is_open(number) else '='} {number}"
+        for name, number in numbers.items()
+    )
 
 
 def claim_witness(outcome: Outcome, claim: str) -> str:

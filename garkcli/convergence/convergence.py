@@ -163,7 +163,7 @@ def _stiffness(
         return None
     found = simplifying(meant(tableau, tolerance))
     is_stable = ladder.is_part(rows[-1], solver.size())
-    return Stiffness(resolution, found.eta, is_stable)
+    return Stiffness(resolution, found.stage_order, is_stable)
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:

@@ -7,7 +7,7 @@ themselves.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -29,11 +29,29 @@ class Simplifying:
         B: r^{l} for each colour.
         C: η^{l,m}; None where the block does not exist.
         D: ζ^{l,m}; None where the block does not exist.
+        limit: where each search stopped: numbers that reached it may be larger.
     """
 
     B: tuple[int, ...]
     C: Table
     D: Table
+    limit: int = field(default=DEFAULT_LIMIT, repr=False, compare=False)
+
+    def is_open(self, number: int) -> bool:
+        """Whether a number that is made of these may be larger, as one reached the limit."""
+        entries = (*self.B, *_existing(self.C), *_existing(self.D))
+        return number >= self.limit and max(entries, default=0) >= self.limit
+
+    @property
+    def stage_orders(self) -> tuple[int, ...]:
+        """For each colour the largest q with B(q) and C(q) for all its stages."""
+        rows = zip(self.B, self.C, strict=True)
+        return tuple(min([r, *(eta for eta in etas if eta is not None)]) for r, etas in rows)
+
+    @property
+    def stage_order(self) -> int:
+        """The largest q with B(q) and C(q)."""
+        return min(self.r, self.eta)
 
     @property
     def r(self) -> int:
@@ -104,7 +122,7 @@ def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
     B = [found.r(l) for l in colours]
     C = [tuple(found.eta(l, m) for m in colours) for l in colours]
     D = [tuple(found.zeta(l, m) for m in colours) for l in colours]
-    return Simplifying(tuple(B), tuple(C), tuple(D))
+    return Simplifying(tuple(B), tuple(C), tuple(D), limit)
 
 
 class _Search:

@@ -83,6 +83,13 @@ def _undecided(order: AnyOrder) -> bool | None:
 _TABLE: Schema = array(array(nullable(INTEGER)))
 """A number for each block, null where the block does not exist."""
 
+
+def _reached_limit(found: Analysis) -> int | None:
+    """Where the search stopped, if a number reached it."""
+    conditions = found.simplifying
+    return conditions.limit if conditions.is_open(conditions.limit) else None
+
+
 SIMPLIFYING: Record[Analysis] = Record(
     Field("B", array(COUNT), lambda x: list(x.simplifying.B)),
     Field("C", _TABLE, lambda x: [list(row) for row in x.simplifying.C]),
@@ -93,5 +100,6 @@ SIMPLIFYING: Record[Analysis] = Record(
     Field("xi", COUNT, lambda x: x.simplifying.xi),
     Field("chi", COUNT, lambda x: x.simplifying.chi),
     Field("bound", COUNT, lambda x: x.bound),
+    Field("limit", COUNT, _reached_limit, is_optional=True),
 )
 """B, C and D of a method, and the order they guarantee."""

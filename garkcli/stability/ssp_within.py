@@ -35,7 +35,8 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
     n = len(pattern)
     whole = arb_mat(n, n)
     vectors = [[arb(1)] * n]
-    for share, part in zip(filter(None, shares), parts, strict=True):
+    driven = [share for share in shares if share]
+    for share, part in zip(driven, parts, strict=True):
         wide = _widened(part, tolerance)
         whole += wide * to_ball(share, DIGITS)
         vectors += _columns(wide)
