@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.enclosing import OPERATIONS, enclose
+from garkcli.exact.enclosing import OPERATIONS, enclose, integer_power
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
 from garkcli.order.tolerance import rounded_up
@@ -141,7 +141,7 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
                 total = OPERATIONS[sign](total, _enclosed(operand, fewest))
             return total
         case Power(base=base, exponent=exponent):
-            return _enclosed(base, fewest) ** exponent
+            return integer_power(_enclosed(base, fewest), exponent)
         case Root(radicand=radicand, index=index):
             inner = _enclosed(radicand, fewest)
             if inner < 0:
