@@ -529,8 +529,8 @@ def broken(*arguments: str) -> subprocess.CompletedProcess[str]:
     script = (
         "import sys\n"
         "import garkcli.check.deciding as check\n"
-        "def find_order(*_): raise RuntimeError('broken\\nin two lines')\n"
-        "check.find_order = find_order\n"
+        "def order_of(*_): raise RuntimeError('broken\\nin two lines')\n"
+        "check.order_of = order_of\n"
         "from garkcli.cli import main\n"
         "main(sys.argv[1:])\n"
     )
@@ -564,7 +564,7 @@ def test_a_fault_of_our_own_in_full() -> None:
     run = broken("--debug", "check", "methods/rectangular.gark.yaml")
     assert run.returncode == 3
     assert run.stderr.startswith("Traceback")
-    assert "in find_order" in run.stderr
+    assert "in order_of" in run.stderr
     assert "RuntimeError: broken" in run.stderr
 
 
