@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -150,19 +150,20 @@ def _told(
     found = _found(family, wanted)
     order = wanted.order or family.order
     sets = stable_sets(found)
-    is_reached = order is None or found.reaches(order)
-    is_reached = is_reached and all(x.found for x in sets)
+    is_reached = _all_of([found.reaches(order or 1), *(x.has_values for x in sets)])
     minimum = None
-    if wanted.objective is not None and is_reached:
+    has_rest = order is None or found.last.kind != "undecided"
+    is_compared = wanted.objective is not None and is_reached is not False and has_rest
+    if wanted.objective is not None and is_compared:
         from garkcli.cli.minimising import least
 
         minimum = least(found, wanted.objective, wanted.seconds)
     report = Report(called(file), found, chosen, minimum, sets, wanted.digits)
     output.write(_rendered(report, output))
-    if minimum is None and wanted.objective is not None and is_reached:
-        return _exit_code(is_undecided=True, is_reached=True)
+    if is_compared and minimum is None:
+        return _exit_code(None)
     _emit(family, found, minimum, wanted, output)
-    return _exit_code(found.last.kind == "undecided", is_reached)
+    return _exit_code(None if found.last.kind == "undecided" else is_reached)
 
 
 def _found(family: FamilyFile, wanted: Wanted) -> Design:
@@ -216,7 +217,7 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
         UsageProblem: a choice is none, leaves no unknown, or leaves what is not decided in time.
     """
     from garkcli.design.choices import walk_down
-    from garkcli.design.groebner import NotDecided
+    from garkcli.errors import NotDecided
 
     unknowns = known.family.parameters
     values = {}
@@ -268,8 +269,7 @@ def _stable_values(family: FamilyFile, wanted: Wanted, kind: Kind, output: Outpu
     else:
         text = report.render_text(file, found, digits, output.width)
     output.write(text)
-    is_open = not found.found and bool(found.undecided)
-    return _exit_code(is_open, bool(found.found))
+    return _exit_code(found.has_values)
 
 
 def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
@@ -309,8 +309,14 @@ def _emit(
         emitting.emit_all(family, found, wanted.emit_all, output)
 
 
-def _exit_code(is_undecided: bool, is_reached: bool) -> int:
+def _exit_code(is_reached: bool | None) -> int:
     """What cannot be decided is no fault of the file: 3, as what could not be done."""
-    if is_undecided:
+    if is_reached is None:
         return 3
     return 0 if is_reached else 1
+
+
+def _all_of(answers: Iterable[bool | None]) -> bool | None:
+    """Whether all is so; None where that is not decided."""
+    known = list(answers)
+    return False if False in known else None if None in known else True

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 from garkcli.cli.streams import say_problem
 from garkcli.design.chosen import values_text
 from garkcli.design.design import CLAIMS
-from garkcli.design.groebner import NotDecided
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
-from garkcli.errors import UsageProblem
+from garkcli.errors import NotDecided, UsageProblem
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.methodfile.family import with_values
 from garkcli.page.writing import write_whole

@@ -74,6 +74,13 @@ class StableValues:
         return any(p.total_degree() != 0 for p in wanted)
 
     @property
+    def has_values(self) -> bool | None:
+        """Whether there are such values; None where that is not decided."""
+        if self.found:
+            return True
+        return None if self.undecided else False
+
+    @property
     def is_everything(self) -> bool:
         """Whether every real number belongs to it."""
         if len(self.found) != 1:

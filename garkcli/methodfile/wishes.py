@@ -8,10 +8,10 @@ from typing import Any
 
 from yaml.nodes import MappingNode, Node
 
-from garkcli.design.groebner import NotDecided
+from garkcli.deadline import until
 from garkcli.design.wants.registry import WANTS, find_want
 from garkcli.design.wants.want import Asked, Meaning, Want
-from garkcli.errors import GarkError, counted, did_you_mean
+from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.numbers import Entry, Free, Numbers
@@ -195,8 +195,8 @@ def meaning_of(
         value = wish.value
         number = values.number(value) if isinstance(value, Entry) else value
         try:
-            asked = Asked(tableau, ring, number, colours, deadline)
-            meanings.append(wish.want.meaning(asked))
+            with until(deadline):
+                meanings.append(wish.want.meaning(Asked(tableau, ring, number, colours)))
         except NotDecided:
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:

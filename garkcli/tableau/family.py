@@ -20,14 +20,14 @@ class Radical:
     Attributes:
         name: of the unknown.
         relation: a polynomial that is zero at it.
-        is_positive: whether only its positive zero is meant: that of an even root.
+        is_even: whether it is an even root: of its zeros the one is meant that is not negative.
         meant: the zero that is meant, where it is one of several real ones.
         text, latex: the root as it is written.
     """
 
     name: str
     relation: fmpq_mpoly
-    is_positive: bool = False
+    is_even: bool = False
     meant: RealRoot | None = None
     text: str = ""
     latex: str = ""

@@ -13,8 +13,8 @@ from math import comb
 
 from flint import fmpq_mpoly
 
-from garkcli.design.groebner import NotDecided
 from garkcli.design.minimise.parts import Part
+from garkcli.errors import NotDecided
 
 MOST_MINORS = 200
 """Equations that are written down at most."""
