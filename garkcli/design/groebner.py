@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any, TypeAlias
 
-from flint import Ordering, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
+from flint import fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from garkcli.deadline import check_time
 from garkcli.design.msolve import basis_by_msolve, find_msolve, is_basis
@@ -20,8 +20,6 @@ FEW_TERMS = 300
 """Of all polynomials together: where there are more, all work is done in a process of its own."""
 SMALL = (50, 200, 1500)
 """Most polynomials, terms of one, bits of a coefficient, of a basis made in this process."""
-Terms: TypeAlias = dict[Exponents, int]
-"""A polynomial between processes: coefficients by exponents."""
 _Way: TypeAlias = Callable[..., tuple[list[fmpz_mpoly], int]]
 
 
@@ -43,9 +41,7 @@ def groebner_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -
     check_time()
     with suppress(_TooLarge):
         return _basis(polynomials, context, is_bounded=True)
-    names = tuple(context.names())
-    basis = apart(_basis_of_terms, [_terms(p) for p in polynomials], names)
-    return [_polynomial(p, context) for p in basis]
+    return apart(_basis_apart, list(polynomials))
 
 
 def grown_basis(
@@ -76,13 +72,10 @@ def grown_basis(
     for way, first in ((_in_turn, known), (_at_once, generators)):
         with suppress(_TooLarge):
             return way(list(first), list(new), context, is_bounded=True)
-    names = tuple(context.names())
-    terms = [_terms(p) for p in new]
-    basis, taken = first_of(
-        (_grown_of_terms, (_at_once, [_terms(p) for p in generators], terms, names)),
-        (_grown_of_terms, (_in_turn, [_terms(p) for p in known], terms, names)),
+    return first_of(
+        (_grown_apart, (_at_once, list(generators), list(new))),
+        (_grown_apart, (_in_turn, list(known), list(new))),
     )
-    return [_polynomial(p, context) for p in basis], taken
 
 
 def _in_turn(
@@ -206,40 +199,23 @@ def unproved_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -
     basis = basis_by_msolve(program, given, context)
     if basis is None:
         raise NotDecided
-    lists = [_terms(p) for p in basis], [_terms(p) for p in given]
-    verified = apart(_verified, *lists, tuple(context.names()))
+    verified = apart(_verified, basis, given)
     if verified is None:
         raise NotDecided
-    return [_polynomial(p, context) for p in verified]
+    return verified
 
 
-def _basis_of_terms(generators: list[Terms], names: tuple[str, ...]) -> list[Terms]:
-    context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-    polynomials = [_polynomial(p, context) for p in generators]
-    return [_terms(p) for p in _basis(polynomials, context, is_bounded=False)]
+def _basis_apart(polynomials: list[fmpz_mpoly]) -> list[fmpz_mpoly]:
+    return _basis(polynomials, polynomials[0].context(), is_bounded=False)
 
 
-def _grown_of_terms(
-    way: _Way, first: list[Terms], new: list[Terms], names: tuple[str, ...]
-) -> tuple[list[Terms], int]:
-    context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-    lists = [[_polynomial(p, context) for p in terms] for terms in (first, new)]
-    basis, taken = way(*lists, context, is_bounded=False)
-    return [_terms(p) for p in basis], taken
+def _grown_apart(
+    way: _Way, first: list[fmpz_mpoly], new: list[fmpz_mpoly]
+) -> tuple[list[fmpz_mpoly], int]:
+    return way(first, new, new[0].context(), is_bounded=False)
 
 
-def _verified(basis: list[Terms], given: list[Terms], names: tuple[str, ...]) -> list[Terms] | None:
+def _verified(basis: list[fmpz_mpoly], given: list[fmpz_mpoly]) -> list[fmpz_mpoly] | None:
     """The reduced basis; None where polynomials are no basis of an ideal that has those given."""
-    context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-    polynomials = [_polynomial(p, context) for p in basis]
-    if not is_basis(polynomials, [_polynomial(p, context) for p in given], context):
-        return None
-    return [_terms(p) for p in reduced_basis(polynomials, context)]
-
-
-def _terms(p: fmpz_mpoly) -> Terms:
-    return {tuple(map(int, e)): int(a) for e, a in p.to_dict().items()}
-
-
-def _polynomial(terms: Terms, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    return context.from_dict({e: fmpz(a) for e, a in terms.items()})
+    context = given[0].context()
+    return reduced_basis(basis, context) if is_basis(basis, given, context) else None

@@ -20,7 +20,16 @@ from garkcli.exact.cells import Interval, Point, between, sign_of
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import PLANE, at_y, coefficient_of, curves, in_t, leading, projected
+from garkcli.exact.projection import (
+    PLANE,
+    at_y,
+    coefficient_of,
+    curves,
+    in_t,
+    leading,
+    projected,
+    resultant,
+)
 from garkcli.exact.roots import RealRoot
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
@@ -91,8 +100,8 @@ class AStability:
         self.essential: list[Polynomial] = []
         self.critical = projected(curves([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        common = self.P.resultant(self.Q, "y")
-        on_axis = u.resultant(v, "y")
+        common = resultant(self.P, self.Q)
+        on_axis = resultant(u, v)
         for p in (leading(self.Q), leading(self.P), on_axis, common):
             self.critical.append(in_t(p))
 

@@ -121,6 +121,7 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
         return fmpq(0)
     bits = FIRST_BITS
     while True:
+        check_time()
         low = high = None
         with precision(bits):  # of the ends of balls too
             if left is not None:
