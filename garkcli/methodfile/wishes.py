@@ -105,14 +105,14 @@ def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, En
 
 
 def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
-    """``range: {gamma: [1/4, 1]}``: where unknowns without a line of their own may lie."""
+    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
     entries = source.mapping(node, "design: range", (), form=FORM)
     for name, value in entries.items():
         where = f"design: range: {name}"
         if name in numbers.free:
             known = numbers.free[name]
-            ends = read_range(numbers, value, where)
-            numbers.free[name] = Free(known.node, *ends, where=known.where)
+            ranges = (*known.ranges, *read_range(numbers, value, where))
+            numbers.free[name] = Free(known.node, ranges, known.where)
         elif name not in numbers.settings:
             cure = did_you_mean(name, list(numbers.free))
             source.fault(value, f"{where} is no unknown of the file", cure)

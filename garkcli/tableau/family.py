@@ -62,8 +62,7 @@ class Family:
         parameters: the names of the free parameters.
         ranges: for each the least and the greatest value it may have, None where there is none.
         radicals: the roots among the coefficients.
-        relations: polynomials that are zero at every method of it, such as a given node minus
-            the sum of its row, and what else is wanted of them.
+        relations: polynomials that are zero at every method that is wanted of it.
         nonzero: polynomials that are zero at none.
         positive: those that are positive at the solutions that are taken.
         not_negative: those that are at least 0 there.

@@ -78,6 +78,7 @@ def test_known_sets(text: str, wanted: Wanted, known: list[object] | None) -> No
 
 
 IMPLICIT = "parameters: {t: free}\nA: [[t]]\nb: [1]\n"
+CONSISTENT = IMPLICIT + "c: [1/8]\ndesign: {consistent: true}\n"
 DIAGONAL = "parameters: {t: free}\nA: [[1, 0], [0, 1]]\nb: [t, 1 - t]\n"
 
 
@@ -85,20 +86,21 @@ DIAGONAL = "parameters: {t: free}\nA: [[1, 0], [0, 1]]\nb: [t, 1 - t]\n"
     ("text", "known"),
     [
         (IMPLICIT, [("1/2", None, True, False)]),
-        (IMPLICIT + "c: [1/8]\n", []),
-        (IMPLICIT + "c: [3/4]\n", [("3/4", "3/4", True, True)]),
+        (IMPLICIT + "c: [1/8]\n", [("1/2", None, True, False)]),
+        (CONSISTENT, []),
+        (CONSISTENT.replace("1/8", "3/4"), [("3/4", "3/4", True, True)]),
         (IMPLICIT + "design: {fix: {t: 1/8}}\n", []),
         (DIAGONAL + "design: {positive-weights: true}\n", [("0", "1", False, False)]),
         (IMPLICIT + "design: {nodes-in-unit-interval: true}\n", [("1/2", "1", True, True)]),
     ],
 )
 def test_what_the_file_wants_as_well(text: str, known: list[object]) -> None:
-    """Given nodes, fixed values and signs that are wanted cut the set as ranges do: R(z) of one
-    stage is that of the θ-method.
+    """Nodes that are to be row sums, fixed values and signs that are wanted cut the set as ranges
+    do, nodes that are data do not: R(z) of one stage is that of the θ-method.
     """
     values = found(text, "a-stable")
     assert texts(values) == known
-    assert values.has_wishes is (text != IMPLICIT)
+    assert values.has_wishes is ("design" in text)
 
 
 @pytest.mark.parametrize(
@@ -240,7 +242,7 @@ def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:
     path.write_text(f"{IMPLICIT}design: {{order: 2}}\n", encoding="utf-8")
     one = gark("design", str(path), "--a-stable")
     assert (one.code, "t = 1/2" in one.out) == (0, True)
-    path.write_text(f"{IMPLICIT}c: [1/8]\n", encoding="utf-8")
+    path.write_text(CONSISTENT, encoding="utf-8")
     none = gark("design", str(path), "--a-stable")
     wanted = "A-stable, and as the file wants it, for no value of t"
     assert (none.code, wanted in none.out) == (1, True)
