@@ -58,6 +58,11 @@ def only_small() -> Iterator[None]:
         _is_small.reset(token)
 
 
+def forget() -> None:
+    """Set no limit from now on: in a process that another one ends."""
+    _moment.set(None)
+
+
 def is_only_small() -> bool:
     """Whether only work that is small is done."""
     return _is_small.get()

@@ -23,10 +23,10 @@ DIGITS = 15
 """Of claims without simple radicals."""
 
 
-def least(design: Design, name: str, seconds: float) -> Minimum | None:
+def least(design: Design, name: str) -> Minimum | None:
     """The minimum of the objective of that name; None, and it is said why, where it is open."""
     try:
-        return minimise(design, name, seconds)
+        return minimise(design, name)
     except NotDecided:
         problem = UsageProblem(
             f"--minimise {name}: not decided, the solution set is too large or curved",

@@ -8,6 +8,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Generic, cast
 
 from garkcli.crew.work import Item, Outcome
+from garkcli.deadline import seconds_left
+from garkcli.errors import NotDecided
 from garkcli.exact.apart import begin, start_method, without_handlers
 from garkcli.exact.pickling import register
 
@@ -87,6 +89,9 @@ class Crew(Generic[Item, Outcome]):
         """Every outcome with the number of its item, as soon as it is there.
 
         More items may follow once all of these are done.
+
+        Raises:
+            NotDecided: the time around it is over.
         """
         from multiprocessing.connection import wait
 
@@ -98,7 +103,10 @@ class Crew(Generic[Item, Outcome]):
         self._hire()
         while any(worker.items for worker in self.workers):
             by_connection = {worker.connection: worker for worker in self.workers}
-            for found in wait(list(by_connection)):
+            ready = wait(list(by_connection), seconds_left())
+            if not ready:
+                raise NotDecided
+            for found in ready:
                 # of a type of its own on Windows
                 connection = cast("Connection", found)
                 worker = by_connection[connection]

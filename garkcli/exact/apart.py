@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 
-from garkcli.deadline import check_time, is_only_small, seconds_left
+from garkcli.deadline import check_time, forget, is_only_small, seconds_left
 from garkcli.errors import NotDecided
 from garkcli.exact.pickling import register
 
@@ -111,8 +111,9 @@ def _serve(
 
 def without_handlers() -> None:
     """Let signals end a process that works for another one, but for an interrupt: that is for the
-    process that has the terminal, which ends the others.
+    process that has the terminal, which ends the others, at its deadline too.
     """
+    forget()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for name in ("SIGTERM", "SIGHUP", "SIGALRM"):
         if hasattr(signal, name):

@@ -222,13 +222,13 @@ def _verdict(design: Design, found: Found, index: int) -> str:
         return "no method: a weight or a denominator is zero there"
     order = _order(design, found)
     if index in found.unstable:
-        kinds = " and ".join(map(str, design.family.stable))
+        kinds = " and ".join(x.in_words(design.tableau) for x in design.family.stable)
         return f"{order}; not {kinds}, which is wanted"
     if index in found.open:
         return f"{order}; stability not decided: its field is too large, or the time too short"
     if index not in found.accepted:
         return "not of this file: out of a range, a sign not wanted, or another root"
-    stable = "".join(f", {kind}" for kind in design.family.stable)
+    stable = "".join(f", {kind.in_words(design.tableau)}" for kind in design.family.stable)
     return f"{order}, by a certificate of its own{stable}"
 
 

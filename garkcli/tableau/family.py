@@ -50,6 +50,13 @@ class Stability:
         name = self.kind[0].upper() + self.kind[1:]
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
+    def in_words(self, tableau: Tableau) -> str:
+        """The same, and which vector fields are meant where a method has several colours."""
+        if tableau.size == 1 or self.kind == "p-stable":
+            return str(self)
+        fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
+        return f"{self} ({fields})"
+
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Family:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
 from time import process_time
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.design.design import Whose
@@ -17,6 +17,7 @@ from garkcli.errors import UsageProblem, counted
 from garkcli.tableau.family import Family
 
 Start: TypeAlias = list[float]
+Ending: TypeAlias = Literal["interrupt", "time", "worker"]
 FIRST = 64
 """Starts of the first batch, so that something is found soon; batches grow twofold, for speed."""
 SAME = 1e-6
@@ -34,7 +35,7 @@ class Result:
             no solution with more digits is near.
         methods: each once, in the order of the starts.
         seconds: of the processor.
-        is_interrupted: whether there were more starts.
+        ending: what ended the search before its last start; None where nothing did.
     """
 
     starts: int = 0
@@ -42,7 +43,12 @@ class Result:
     degenerate: int = 0
     methods: list[Method] = field(default_factory=list)
     seconds: float = 0.0
-    is_interrupted: bool = False
+    ending: Ending | None = None
+
+    @property
+    def is_interrupted(self) -> bool:
+        """Whether there were more starts."""
+        return self.ending is not None
 
     def __repr__(self) -> str:
         methods = counted(len(self.methods), "method")
@@ -121,6 +127,7 @@ def search_methods(
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         UsageProblem: the family is to be stable.
+        NotDecided: the time around it is over.
     """
     if family.stable:
         raise UsageProblem(
