@@ -206,8 +206,8 @@ class Wanted:
                 raise UsageProblem(message, "add --search N")
         self._check_springs()
         if self.colour is not None and self.stability not in {"a-stable", "l-stable"}:
-            message = "--colour says of which colour stability is asked"
-            raise UsageProblem(message, "add --a-stable or --l-stable")
+            message = "--colour goes with --a-stable and --l-stable"
+            raise UsageProblem(message, "add one of them")
         if self.starts is not None and self.objective is not None:
             message = "--minimise compares all methods, --search finds some"
             raise UsageProblem(message, "leave one of them out")

@@ -167,7 +167,7 @@ def _ideal(found: _StepOf) -> list[str] | None:
     return zeros(found.shown.design.family, step.polynomials)
 
 
-def _where(found: _StepOf) -> list[str]:
+def _restrictions(found: _StepOf) -> list[str]:
     return conditions(found.shown.design.family, found.step)
 
 
@@ -198,7 +198,7 @@ _STEP: Record[_StepOf] = Record(
     Field("verdict", {"enum": [*get_args(Kind)]}, lambda x: x.step.kind),
     Field("reached", nullable(FLAG), lambda x: x.step.has_methods),
     Field("ideal", array(TEXT), _ideal, is_optional=True),
-    Field("where", array(TEXT), _where),
+    Field("restrictions", array(TEXT), _restrictions),
     Field("real_ideal", array(TEXT), _real, is_optional=True),
     Field("dimension", INTEGER, _dimension, is_optional=True),
     Field("complete", FLAG, _is_complete, is_optional=True),

@@ -24,6 +24,7 @@ from garkcli.design.minimise.parts import parts_of
 from garkcli.design.minimise.refining import critical_point_near
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.real_points import has_methods, without_complex
+from garkcli.design.search.run import results
 from garkcli.design.search.search import Search
 from garkcli.design.solutions import solutions
 from garkcli.design.springs_kind import TwoSprings
@@ -117,7 +118,7 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
         "stable on two springs",
         lambda: stable_values(springs, "p-stable", two_springs=TwoSprings(fmpq(1), 1)),
     )
-    yield "search", lambda: search_methods(sdirk, 3, starts=3)
+    yield "search", lambda: list(results(Search(sdirk, 3), 3))
     yield "proof of a find", lambda: Search(sdirk, 3).find(1, [0.7886751345948129])
     yield "real roots", lambda: real_roots(QUINTIC)
     yield "comparison of roots", lambda: root < RealRoot.rational(fmpq(2))
@@ -179,6 +180,12 @@ def test_what_is_said_without_time() -> None:
         found = find_parameters(family)
     assert [(x.kind, x.has_methods) for x in found.steps] == [("undecided", None)]
     assert found.reaches() is None
+
+
+def test_a_search_without_time() -> None:
+    """It has what was found by then, which is nothing, and says why it ended."""
+    found = search_methods(loads_family(SDIRK2), 3, starts=3, seconds=0)
+    assert (found.ending, found.starts, found.methods) == ("time", 0, [])
 
 
 def test_only_what_is_small() -> None:

@@ -10,10 +10,11 @@ from time import process_time
 from typing import Literal, TypeAlias
 
 from garkcli.crew.work import Alone, Workers, in_order
+from garkcli.deadline import within
 from garkcli.design.design import Whose
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import Method, told
-from garkcli.errors import UsageProblem, counted
+from garkcli.errors import NotDecided, UsageProblem, counted
 from garkcli.tableau.family import Family
 
 Start: TypeAlias = list[float]
@@ -113,6 +114,7 @@ def search_methods(
     seed: int = 0,
     most: int = MOST,
     whose: Whose = "method",
+    seconds: float | None = None,
 ) -> Result:
     """Search a family for methods of an order, from random starts.
 
@@ -123,11 +125,11 @@ def search_methods(
         seed: of the starts; the same seed has the same finds everywhere.
         most: methods that are looked for at most; other successes are counted.
         whose: order is meant: of the method, its symplectic conjugate or its pair.
+        seconds: after which the search ends with what was found; None for never.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         UsageProblem: the family is to be stable.
-        NotDecided: the time around it is over.
     """
     if family.stable:
         raise UsageProblem(
@@ -135,8 +137,12 @@ def search_methods(
             "leave it out, and ask gark check of what is found",
         )
     result = Result()
-    for found in results(Search(family, order, whose), starts, seed, most):
-        result = found
+    try:
+        with within(seconds):
+            for found in results(Search(family, order, whose), starts, seed, most):
+                result = found
+    except NotDecided:
+        result.ending = "time"
     return result
 
 
