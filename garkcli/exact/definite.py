@@ -23,7 +23,7 @@ def kept_sign(p: fmpq_mpoly) -> int | None:
 
     Each irreducible factor of an odd power has to keep its sign. It is known to where all of its
     terms are squares of one sign; of a polynomial in one or two variables always, up to a degree;
-    and of a v² + b v + c with a number a where 4ac − b² ≥ 0 is known.
+    and of a v² + b v + c where it is of a, and 4ac − b² ≥ 0 is known.
 
     >>> from flint import Ordering, fmpq_mpoly_ctx
     >>> x, y, z = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex).gens()
@@ -57,8 +57,10 @@ def _of_factor(p: fmpq_mpoly) -> int | None:
     for i in used:
         if p.degrees()[i] == 2:
             a, b, c = (_coefficient(p, i, k) for k in (2, 1, 0))
-            if a.is_constant() and kept_sign(4 * a * c - b * b) == 1:
-                return 1 if a.leading_coefficient() > 0 else -1
+            own = kept_sign(a)
+            # 4 a p = (2 a v + b)² + 4ac − b², and a is zero on no open set
+            if own is not None and kept_sign(4 * a * c - b * b) == 1:
+                return own
     return None
 
 

@@ -7,12 +7,13 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from flint import fmpq, fmpq_mpoly
+from flint import ctx, fmpq, fmpq_mpoly
 
 from garkcli import find_order, load, loads, search_methods
 from garkcli.deadline import within
 from garkcli.design.design import Whose, find_parameters
 from garkcli.design.ideal import Ideal
+from garkcli.design.member import member
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.climbing import climbed
@@ -415,6 +416,71 @@ def test_critical_numbers_of_a_large_degree(allowed: str, is_reached: bool) -> N
         assert candidate.found.solution.degree == 7
     else:
         assert best.value < eight
+
+
+FOUR = "parameters: {a: free}\nA: [[0, 0, 0, 0], [1/4, 0, 0, 0], [0, a, 0, 0], [0, 0, 1/2, 0]]\nb: [0, 0, 0, 1]\n"
+ONE_LINE = {
+    # these have a critical value of a degree above 6 at the greatest
+    "three stages": "A: [[0, 0, 0], [a, 0, 0], [a, a**2, 0]]\nb: [0, 1 - a, a]\n",
+    "five stages": (
+        "A: [[0, 0, 0, 0, 0], [1/5, 0, 0, 0, 0], [0, a, 0, 0, 0], [0, 0, a + 1/6, 0, 0],"
+        " [0, 0, 0, 1/2, 0]]\nb: [0, 0, 0, 0, 1]\n"
+    ),
+    "four stages": FOUR.split("\n", 1)[1],
+    "implicit": "A: [[a, 0, 0], [1/2 - a, a, 0], [1 - 2*a, 0, a]]\nb: [1/4, 1/2, 1/4]\n",
+    "a denominator": "A: [[0, 0], [1/(1 + a**2), 0]]\nb: [1 - a, a]\n",
+}
+
+
+@pytest.mark.parametrize("name", ONE_LINE)
+@pytest.mark.parametrize("objective", ["-imaginary-interval", "-real-interval", "-ssp"])
+def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
+    """The greatest value of one parameter is that of all methods: by the ordinary engine none of
+    121 methods with rational parameters has more, and near the best one some have nearly as much.
+    """
+    text = "parameters: {a: free}\n" + ONE_LINE[name]
+    best = least(text, objective, 1)
+    assert best.extent == "all"
+    level = find_objective(objective)
+    assert isinstance(level, Level)
+    family = loads_family(text)
+
+    def at(a: fmpq) -> float:
+        found = level.shown(level.value(member(family.tableau, family.ring, {"a": a})))
+        return float("inf") if found is None else float(found)
+
+    greatest = float("inf") if best.is_infinite else float(best.value)  # type: ignore[arg-type]
+    scan = max(at(fmpq(k, 40)) for k in range(-60, 61))
+    assert scan <= greatest * (1 + 1e-12)
+    for candidate in best.minimisers:
+        a = floats(best, candidate)["a"]
+        near = [at(fmpq(round(a * 10**8) + k, 10**8)) for k in (-1, 0, 1)]
+        assert max(near) == pytest.approx(greatest, rel=1e-3, abs=1e-3)
+
+
+def test_a_level_of_a_large_degree() -> None:
+    """The greatest of five stages on the imaginary axis is exact, as a root of its polynomial; the
+    value of the method with 30 digits of the parameter agrees.
+    """
+    text = "parameters: {a: free}\n" + ONE_LINE["five stages"]
+    best = least(text, "-imaginary-interval", 1)
+    [candidate] = best.minimisers
+    assert candidate.found.solution.degree > 6
+    assert best.value is not None
+    with ctx.workprec(200):
+        [values] = [candidate.found.solution.real_values[candidate.index]]
+        a = values["a"].ball(150)
+    mantissa, exponent = a.mid().man_exp()
+    exact = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    family = loads_family(text)
+    level = find_objective("-imaginary-interval")
+    assert isinstance(level, Level)
+    sides = []
+    for shift in (fmpq(-1, 10**12), fmpq(1, 10**12)):
+        found = level.shown(level.value(member(family.tableau, family.ring, {"a": exact + shift})))
+        assert found is not None
+        sides.append(float(found))
+    assert max(sides) == pytest.approx(float(best.value), rel=1e-6)
 
 
 def test_by_trial() -> None:
