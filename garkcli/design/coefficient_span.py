@@ -12,7 +12,7 @@ from garkcli.deadline import check_time
 
 Polynomials: TypeAlias = tuple[fmpq_mpoly, ...]
 _Place: TypeAlias = tuple[int, tuple[int, ...]]
-"""A coordinate and the exponents of a monomial."""
+"""A coordinate and the exponents of a monomial, negative: the largest comes first."""
 _Row: TypeAlias = dict[_Place, fmpq]
 
 
@@ -75,5 +75,5 @@ def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
     row: _Row = {}
     for coordinate, polynomial in enumerate(vector):
         for exponents, a in polynomial.to_dict().items():
-            row[coordinate, exponents] = a
+            row[-coordinate, tuple(-int(e) for e in exponents)] = a
     return row

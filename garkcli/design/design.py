@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -13,7 +13,7 @@ from flint import fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.admissible import is_admissible
-from garkcli.design.conditions import FamilyConditions
+from garkcli.design.conditions import Condition, FamilyConditions
 from garkcli.design.ideal import Ideal, without_multiples
 from garkcli.design.member import member
 from garkcli.design.msolve import find_msolve
@@ -156,13 +156,19 @@ class _Finding:
         start = self._start()
         if lower is None:
             lower = start.with_zeros(self.family.relations)
-            if lower.is_everything:
-                return Step(order, "none", lower)
-        new = [x for x in self.conditions.of_order(order) if x.polynomial]
-        known = (*self._relations, *self._conditions_below(order))
-        ideal, taken = lower.with_zeros_in_turn([x.polynomial for x in new], known)
+        coming = (x for x in self.conditions.of_order(order) if x.polynomial)
+        ideal, done, large = _as_long_as_small(lower, coming)
+        if large is not None:
+            known = (
+                *self._relations,
+                *self._conditions_below(order),
+                *(x.polynomial for x in done),
+            )
+            new = [large, *coming]
+            ideal, taken = ideal.with_zeros_in_turn([x.polynomial for x in new], known)
+            done += new[:taken]
         if ideal.is_everything:
-            return Step(order, "none", ideal, new[taken - 1].tree)
+            return Step(order, "none", ideal, done[-1].tree if done else None)
         if ideal.basis == start.basis:
             return Step(order, "every-value", ideal)
         return Step(order, "family" if ideal.dimension > 0 else "solutions", ideal)
@@ -272,6 +278,27 @@ class _Finding:
         return self._is_stable(solution, root) is True
 
 
+def _as_long_as_small(
+    ideal: Ideal, conditions: Iterator[Condition]
+) -> tuple[Ideal, list[Condition], Condition | None]:
+    """The ideal with one condition after the other until it is everything or gets large; those that
+    it has then, and the one with which it gets large.
+    """
+    done: list[Condition] = []
+    while not ideal.is_everything:
+        condition = next(conditions, None)
+        if condition is None:
+            break
+        try:
+            with only_small():
+                ideal = ideal.with_zeros([condition.polynomial])
+        except NotDecided:
+            check_time()
+            return ideal, done, condition
+        done.append(condition)
+    return ideal, done, None
+
+
 def _described(ideal: Ideal) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
     """Polynomials and others such that the zeros of the first at which none of the others is zero
     are those of an ideal.
@@ -295,7 +322,7 @@ def _with_lower(steps: Sequence[Step]) -> list[Step]:
     found: list[Step] = []
     is_reached = False
     for step in reversed(steps):
-        if is_reached and step.is_real is None:
+        if is_reached and step.kind in {"every-value", "family"}:
             step = replace(step, is_real=True)
         is_reached = is_reached or step.has_methods is True
         found.insert(0, step)

@@ -29,20 +29,45 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
 def conditions(family: Family, step: Step) -> list[str]:
     """What else is true of the values: where there is a method, and which the file admits."""
     found = [f"{_text(family, p)} ≠ 0" for p in step.nonzero if _may_vanish(family, p)]
-    for name, (least, greatest) in family.ranges.items():
+    ends, others = _bounds(family)
+    for name, (least, greatest) in ends.items():
         below = "" if least is None else f"{least} ≤ "
         above = "" if greatest is None else f" ≤ {greatest}"
-        if below or above:
-            found.append(f"{below}{name}{above}")
+        found.append(f"{below}{name}{above}")
     numbers: set[str] = set()
     for radical in family.radicals:
         if _is_number(family, radical, numbers):
             numbers.add(radical.name)
         elif radical.is_even:
             found.append(f"{radical.text} is real")
-    for relation, polynomials in ((">", family.positive), ("≥", family.not_negative)):
+    for relation, polynomials in ((">", family.positive), ("≥", others)):
         found += [f"{_text(family, p)} {relation} 0" for p in polynomials if not p.is_constant()]
     return list(dict.fromkeys(found))
+
+
+Ends: TypeAlias = "tuple[fmpq | None, fmpq | None]"
+
+
+def _bounds(family: Family) -> tuple[dict[str, Ends], list[fmpq_mpoly]]:
+    """Between which numbers unknowns are, by ranges and by what is not to be negative; the rest of
+    that.
+    """
+    ends = {name: x for name, x in family.ranges.items() if x != (None, None)}
+    others = []
+    for p in family.not_negative:
+        name = next((x for k, x in enumerate(family.ring.names) if p.degrees()[k]), "")
+        if p.total_degree() != 1 or sum(p.degrees()) != 1 or name not in family.ranges:
+            others.append(p)
+            continue
+        slope = p.leading_coefficient()
+        bound = -p(*[fmpq(0)] * len(family.ring.names)) / slope
+        least, greatest = ends.get(name, (None, None))
+        if slope > 0:
+            least = bound if least is None else max(least, bound)
+        else:
+            greatest = bound if greatest is None else min(greatest, bound)
+        ends[name] = (least, greatest)
+    return ends, others
 
 
 def _terms(p: AnyPolynomial) -> dict[tuple[int, ...], fmpq]:

@@ -143,7 +143,7 @@ def test_what_is_not_decided(least: str, tmp_path: Path) -> None:
         (
             "parameters: {t: free}\nA: [[0, 0], [1/2, 0]]\nb: [0, 1]\nc: [0, t]\n"
             "design: {nodes-in-unit-interval: true}\n",
-            "t ≥ 0 and -t + 1 ≥ 0",
+            "0 ≤ t ≤ 1",
         ),
     ],
 )
