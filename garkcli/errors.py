@@ -14,6 +14,7 @@ GarkError                     what is wrong, and the cure
 ├── NoLegendreTransform       a Lagrangian whose Hamiltonian is not found
 ├── MethodFileError           one or more faults of a method or problem file, each with its position
 │   └── HasFreeParameters     a family of methods where one method is expected
+├── NotDecided                work that takes longer than the time that it has
 └── UsageProblem              options that do not go together with the method at hand
 """
 
@@ -113,6 +114,15 @@ class TreeError(GarkError, ValueError):
 
 class NoLegendreTransform(GarkError):
     """The momenta of a Lagrangian could not be solved for its velocities."""
+
+
+class NotDecided(GarkError):
+    """Work takes longer than the time that it has."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "not decided in the time there is", "give it more seconds, or give parameters values"
+        )
 
 
 class UsageProblem(GarkError):

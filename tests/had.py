@@ -7,7 +7,7 @@ import signal
 
 import pytest
 
-from garkcli.crew.processes import start_method
+from garkcli.exact.apart import start_method
 
 try:
     import fcntl

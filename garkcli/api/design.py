@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from garkcli.api.files import load_family, loads
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_none, whole
+from garkcli.deadline import within
 from garkcli.design import design as designing
 from garkcli.design import stable_values as stabilities
 from garkcli.design.chosen import accepted_methods, values_text
@@ -113,6 +114,7 @@ def search_methods(
     seed: Whole = 0,
     most: Whole = 5,
     whose: Whose = "method",
+    seconds: float | None = None,
 ) -> Result:
     r"""Search a family for methods of an order, from random starts: ``gark design --search``.
 
@@ -123,6 +125,7 @@ def search_methods(
         seed: of the starts; the same seed has the same finds everywhere.
         most: methods that are looked for at most; other successes are counted.
         whose: as in ``find_parameters``.
+        seconds: after which the search ends with what was found; None for never.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
@@ -141,6 +144,7 @@ def search_methods(
         whole(seed, "seed"),
         whole(most, "most", 1),
         whose,
+        seconds,
     )
 
 
@@ -151,6 +155,8 @@ def stable_values(
     slow: Number | None = None,
     fast: Whole = 1,
     up_to: Number | None = None,
+    colour: Whole | None = None,
+    seconds: float | None = None,
 ) -> StableValues:
     r"""The values of the one parameter of a family that make it stable: ``gark design --a-stable``.
 
@@ -161,12 +167,16 @@ def stable_values(
         slow: of P-stability on two springs, (hω_s)²; None for the oscillator.
         fast: the colour of the fast spring, counted from 1.
         up_to: a bound on (hω_f)²; None for none.
+        colour: of A- and L-stability, the colour that is meant alone, counted from 1; None for all
+            colours with one λ.
+        seconds: after which it is given up; None for never.
 
     Raises:
         MethodError: there is no such colour.
         UsageProblem: the stability has no meaning for the method, there are several parameters, or
             coefficients are irrational.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        NotDecided: the time is not enough.
 
     >>> from garkcli import loads_family
     >>> theta = loads_family("parameters: {t: free}\nA: [[0, 0], [1 - t, t]]\nb: [1 - t, t]")
@@ -178,14 +188,17 @@ def stable_values(
         message = f"no stability {wanted!r}"
         raise UsageProblem(message, did_you_mean(wanted, STABILITIES))
     read = family_of(family)
-    springs = None
+    springs = alone = None
     if slow is not None:
         tableau = designing.TABLEAUS[whose](read.tableau)
-        colour = colour_of(fast, "fast", tableau.size)
+        fast_one = colour_of(fast, "fast", tableau.size)
         springs = TwoSprings(
-            rational(slow, "slow"), tableau.colours[colour].term, rational_or_none(up_to, "up_to")
+            rational(slow, "slow"), tableau.colours[fast_one].term, rational_or_none(up_to, "up_to")
         )
-    return stabilities.stable_values(read, wanted, whose, springs)
+    if colour is not None:
+        alone = colour_of(colour, "colour", read.tableau.size)
+    with within(seconds):
+        return stabilities.stable_values(read, wanted, whose, springs, alone)
 
 
 def found_methods(

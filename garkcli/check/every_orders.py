@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from time import monotonic
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.check.every_facts import Fact
 from garkcli.check.every_family import EveryFamily
+from garkcli.deadline import within
 from garkcli.design.admissible import is_admissible
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import TABLEAUS, Whose, order_of
-from garkcli.design.groebner import NotDecided
 from garkcli.design.ideal import Ideal
 from garkcli.design.solutions import solutions, value_at
+from garkcli.errors import NotDecided
 from garkcli.exact.field import Number
 from garkcli.exact.roots import RealRoot
 from garkcli.order.conditions import elementary_weight
@@ -78,8 +78,7 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
     tableau = TABLEAUS[whose](family.tableau)
     conditions = FamilyConditions(tableau, ring)
     apart = (*conditions.denominators, *family.family.nonzero)
-    start = Ideal(ring, apart, monotonic() + SECONDS)
-    start = start.with_zeros(family.relations)
+    start = Ideal(ring, apart).with_zeros(family.relations)
     lost = [] if whose == "method" else family.lost
     poles = tuple(map(ring.text, lost))
     for k in range(1, limit + 1):
@@ -120,18 +119,19 @@ def _higher(
 ) -> tuple[Fact, int | None]:
     """The order with the values that have a higher one, and how many dimensions these have."""
     try:
-        ideal = start.with_zeros(zeros)
+        with within(SECONDS):
+            ideal = start.with_zeros(zeros)
+            dimension = ideal.dimension
+            if dimension < 0:
+                return Fact(order), dimension
+            if dimension == 0:
+                found = _real(family, whose, ideal)
+                if family.has_one or not found:
+                    return Fact(order, tuple(found)), dimension
+            common = family.common_zeros(ideal.polynomials)
+            return Fact(order, zeros=common), dimension
     except NotDecided:
         return Fact(order, zeros=family.common_zeros(zeros)), None
-    dimension = ideal.dimension
-    if dimension < 0:
-        return Fact(order), dimension
-    if dimension == 0:
-        found = _real(family, whose, ideal)
-        if family.has_one or not found:
-            return Fact(order, tuple(found)), dimension
-    common = family.common_zeros(ideal.polynomials)
-    return Fact(order, zeros=common), dimension
 
 
 def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoot, int | None]]:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
-from time import monotonic
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import click
 
 from garkcli.cli.design_options import Wanted, design_options
 from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import CONTEXT, Output, choices_option, common, settings_option
-from garkcli.errors import ExpressionError, UsageProblem, did_you_mean
+from garkcli.cli.streams import say_problem
+from garkcli.deadline import seconds_left, until, within
+from garkcli.errors import ExpressionError, NotDecided, UsageProblem, counted, did_you_mean
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from garkcli.design.stable_values import StableValues
     from garkcli.design.stable_values import Wanted as Kind
     from garkcli.methodfile.family import FamilyFile
+    from garkcli.tableau.family import Stability as Asked
 
 
 @click.command("design", context_settings=CONTEXT)
@@ -47,17 +50,21 @@ def command(
     not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
     says nothing of what there is.
     """
+    from garkcli.methodfile.family import load_family
+
     wanted = Wanted(**options)
     wanted.check()
-    family, wanted = _within_time(file, settings, wanted)
-    kind, is_of_springs = wanted.stability, wanted.slow is not None
+    wanted = wanted.started()
+    family = load_family(file, settings, wanted.moment)
+    is_of_springs = wanted.slow is not None
     order = wanted.order or family.order
-    if kind is not None and (order is None or is_of_springs):
+    asked = _asked(family, wanted)
+    if asked is not None and (order is None or is_of_springs):
         wanted.check_stability()
         _refuse_unsettled(family)
-        _refuse_other_wishes(family, kind, is_of_springs)
-        return _stable_values(family, wanted, kind, output)
-    family = _as_stable(family, kind)
+        _refuse_other_wishes(family, asked, is_of_springs)
+        return _stable_values(family, wanted, asked, output)
+    family = _as_stable(family, asked)
     wanted.check_one_by_one([x.kind for x in family.stable])
     _prepare_places(wanted)
     if wanted.starts is not None:
@@ -67,20 +74,40 @@ def command(
         return search(family, wanted, wanted.starts, output)
     chosen: list[Choice] = []
     if choices:
-        chosen = _walk(_found(family, wanted), choices)
-        family, wanted = _within_time(file, {**settings, **choices}, wanted)
-        family = _as_stable(family, kind)
+        with _half(wanted):
+            known = _found(family, wanted)
+            chosen = _walk(known, choices)
+        family = load_family(file, {**settings, **choices}, wanted.moment)
+        family = _as_stable(family, asked)
     return _told(file, family, chosen, wanted, output)
 
 
-def _within_time(file: str, settings: dict[str, str], wanted: Wanted) -> tuple[FamilyFile, Wanted]:
-    """The family, what it wants worked out in the time that there is; with what is left of it."""
-    from garkcli.methodfile.family import load_family
+@contextmanager
+def _half(wanted: Wanted) -> Iterator[None]:
+    """Half of the time that is left, where there is work to come."""
+    with until(wanted.moment):
+        left = seconds_left()
+        with within(None if left is None else left / 2):
+            yield
 
-    start = monotonic()
-    family = load_family(file, settings, start + wanted.seconds)
-    left = wanted.seconds - (monotonic() - start)
-    return family, replace(wanted, seconds=max(left, 0.0))
+
+def _asked(family: FamilyFile, wanted: Wanted) -> Asked | None:
+    """The stability that an option asks for, if any.
+
+    Raises:
+        UsageProblem: there is no such colour.
+    """
+    from garkcli.tableau.family import Stability
+
+    if wanted.stability is None:
+        return None
+    if wanted.colour is None:
+        return Stability(wanted.stability)
+    size = family.tableau.size
+    if wanted.colour > size:
+        message = f"--colour: no colour {wanted.colour}"
+        raise UsageProblem(message, f"the method has {counted(size, 'colour')}")
+    return Stability(wanted.stability, wanted.colour - 1)
 
 
 def _refuse_unsettled(family: FamilyFile) -> None:
@@ -107,17 +134,13 @@ def _prepare_places(wanted: Wanted) -> None:
         make_folder(wanted.emit_all)
 
 
-def _refuse_other_wishes(family: FamilyFile, kind: Kind, is_of_springs: bool) -> None:
+def _refuse_other_wishes(family: FamilyFile, asked: Asked, is_of_springs: bool) -> None:
     """Refuse what a file wants that a set of values with one kind of stability leaves out.
 
     Raises:
         UsageProblem: an order, or another kind of stability.
     """
-    from garkcli.tableau.family import Stability
-
-    wishes = [str(x) for x in family.stable]
-    if not is_of_springs:
-        wishes = [x for x in wishes if x != str(Stability(kind))]
+    wishes = [str(x) for x in family.stable if is_of_springs or x != asked]
     if family.order is not None:
         wishes.insert(0, f"order {family.order}")
     if not wishes:
@@ -126,50 +149,65 @@ def _refuse_other_wishes(family: FamilyFile, kind: Kind, is_of_springs: bool) ->
     if is_of_springs:
         message += "which is not looked at on two springs"
         raise UsageProblem(message, "leave it out of the file")
-    message += f"and --{kind} gives the values of one kind"
+    message += f"and --{asked.kind} gives the values of one kind"
     cure = "add --order P: solutions of an order have all that is wanted"
     raise UsageProblem(message, cure)
 
 
-def _as_stable(family: FamilyFile, kind: Kind | None) -> FamilyFile:
+def _as_stable(family: FamilyFile, asked: Asked | None) -> FamilyFile:
     """A family of which methods with a kind of stability are wanted, if any."""
-    from garkcli.tableau.family import Stability
-
-    if kind is None:
+    if asked is None or asked in family.stable:
         return family
-    return replace(family, stable=(*family.stable, Stability(kind)))
+    return replace(family, stable=(*family.stable, asked))
 
 
 def _told(
     file: str, family: FamilyFile, chosen: list[Choice], wanted: Wanted, output: Output
 ) -> int:
     """Find the values, write the report and the files, and return the exit code."""
-    from garkcli.design.stable_values import stable_sets
     from garkcli.methodfile.naming import called
 
-    found = _found(family, wanted)
+    with _half(wanted) if wanted.objective is not None else until(wanted.moment):
+        found = _found(family, wanted)
     order = wanted.order or family.order
-    sets = stable_sets(found)
-    is_reached = order is None or found.reaches(order)
-    is_reached = is_reached and all(x.found for x in sets)
+    sets = _sets(found, wanted)
+    stable = [None] if sets is None else [x.has_values for x in sets]
+    is_reached = _all_of([found.reaches(order or 1), *stable])
     minimum = None
-    if wanted.objective is not None and is_reached:
+    has_rest = order is None or found.last.kind != "undecided"
+    is_compared = wanted.objective is not None and is_reached is not False and has_rest
+    if wanted.objective is not None and is_compared:
         from garkcli.cli.minimising import least
 
-        minimum = least(found, wanted.objective, wanted.seconds)
-    report = Report(called(file), found, chosen, minimum, sets, wanted.digits)
+        with until(wanted.moment):
+            minimum = least(found, wanted.objective)
+    report = Report(called(file), found, chosen, minimum, sets or (), wanted.digits)
     output.write(_rendered(report, output))
-    if minimum is None and wanted.objective is not None and is_reached:
-        return _exit_code(is_undecided=True, is_reached=True)
+    if is_compared and minimum is None:
+        return _exit_code(None)
     _emit(family, found, minimum, wanted, output)
-    return _exit_code(found.last.kind == "undecided", is_reached)
+    return _exit_code(None if found.last.kind == "undecided" else is_reached)
 
 
 def _found(family: FamilyFile, wanted: Wanted) -> Design:
     """For which values the method has the order."""
     from garkcli.design.design import find_parameters
 
-    return find_parameters(family, wanted.order, wanted.whose, wanted.seconds)
+    return find_parameters(family, wanted.order, wanted.whose)
+
+
+def _sets(found: Design, wanted: Wanted) -> tuple[StableValues, ...] | None:
+    """The values that are as stable as is wanted, where all have the order; None, and it is said,
+    where they take too long.
+    """
+    from garkcli.design.stable_values import stable_sets
+
+    try:
+        with until(wanted.moment):
+            return stable_sets(found)
+    except NotDecided as error:
+        say_problem(error)
+        return None
 
 
 class Report(NamedTuple):
@@ -216,7 +254,6 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
         UsageProblem: a choice is none, leaves no unknown, or leaves what is not decided in time.
     """
     from garkcli.design.choices import walk_down
-    from garkcli.design.groebner import NotDecided
 
     unknowns = known.family.parameters
     values = {}
@@ -255,21 +292,26 @@ def _chosen_value(name: str, text: str) -> fmpq:
     return value
 
 
-def _stable_values(family: FamilyFile, wanted: Wanted, kind: Kind, output: Output) -> int:
+def _stable_values(family: FamilyFile, wanted: Wanted, asked: Asked, output: Output) -> int:
     """The set of values with a kind of stability."""
     from garkcli.design.stable_values import stable_values
     from garkcli.report import stable_values as report
 
     two_springs = _two_springs(family, wanted)
-    found = stable_values(family, kind, wanted.whose, two_springs)
+    kind = cast("Kind", asked.kind)
+    try:
+        with until(wanted.moment):
+            found = stable_values(family, kind, wanted.whose, two_springs, asked.colour)
+    except NotDecided as error:
+        say_problem(error)
+        return _exit_code(None)
     file, digits = family.source, wanted.digits
     if output.format == "json":
         text = report.render_json(file, found, digits)
     else:
         text = report.render_text(file, found, digits, output.width)
     output.write(text)
-    is_open = not found.found and bool(found.undecided)
-    return _exit_code(is_open, bool(found.found))
+    return _exit_code(found.has_values)
 
 
 def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
@@ -309,8 +351,14 @@ def _emit(
         emitting.emit_all(family, found, wanted.emit_all, output)
 
 
-def _exit_code(is_undecided: bool, is_reached: bool) -> int:
+def _exit_code(is_reached: bool | None) -> int:
     """What cannot be decided is no fault of the file: 3, as what could not be done."""
-    if is_undecided:
+    if is_reached is None:
         return 3
     return 0 if is_reached else 1
+
+
+def _all_of(answers: Iterable[bool | None]) -> bool | None:
+    """Whether all is so; None where that is not decided."""
+    known = list(answers)
+    return False if False in known else None if None in known else True

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -19,11 +20,17 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def _finite(_context: click.Context, _parameter: click.Parameter, seconds: float) -> float:
+def _finite(
+    _context: click.Context, _parameter: click.Parameter, seconds: float | None
+) -> float | None:
     """A number of seconds; nan, which no limit of a range holds off, is none."""
-    if seconds != seconds:
+    if seconds is not None and seconds != seconds:
         raise click.BadParameter("nan is no number of seconds")
     return seconds
+
+
+SECONDS = 60.0
+"""The time where none is given."""
 
 
 _OF_THE_ORDER = (
@@ -38,11 +45,10 @@ _OF_THE_ORDER = (
     click.option(
         "--seconds",
         type=click.FloatRange(min=0, min_open=True),
-        default=60,
         callback=_finite,
-        show_default=True,
         metavar="T",
-        help="After so many an order is left undecided.",
+        help="After so many what is not decided is left open, or a search ends; 60 by default,"
+        " of a search none.",
     ),
     digits_option("Digits of numbers without simple radicals.", default=12),
     click.option(
@@ -73,6 +79,12 @@ _OF_STABILITY = (
     ),
     click.option(
         "--l-stable", "stability", flag_value="l-stable", help="The same for L-stability."
+    ),
+    click.option(
+        "--colour",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="With --a-stable or --l-stable: of colour N alone, in place of all with one λ.",
     ),
     click.option(
         "--slow",
@@ -131,25 +143,28 @@ class Wanted:
     Attributes:
         order: the order wanted, or None for as far as some value reaches.
         is_pair, is_conjugate: whose order it is; of the method where neither is given.
-        seconds: after which an order is left undecided.
+        seconds: after which what is not decided is left open, where they are given.
         digits: of numbers without simple radicals.
         emit: the file of the first method found, if any.
         objective: what is minimised over the methods of the highest order, if anything.
         stability: the kind of stability whose values are asked for instead of an order.
+        colour: of which colour alone that is meant, counted from 1; None for all.
         slow, fast, up_to: of two springs, as they were written; None where they were not given.
         starts: of a search instead, or None where there is none.
         seed, most, jobs, scheduler: of the search; None where they were not given.
         emit_all: the folder of all methods found, if any.
+        moment: the reading of ``time.monotonic`` at which the time is over; None for never.
     """
 
     order: int | None
     is_pair: bool
     is_conjugate: bool
-    seconds: float
+    seconds: float | None
     digits: int
     emit: str | None
     objective: str | None
     stability: Stability | None
+    colour: int | None
     slow: str | None
     fast: str | None
     up_to: str | None
@@ -159,6 +174,12 @@ class Wanted:
     jobs: int | None
     scheduler: str | None
     emit_all: str | None
+    moment: float | None = None
+
+    def started(self) -> Wanted:
+        """The same, its time running from now on."""
+        seconds = SECONDS if self.seconds is None and self.starts is None else self.seconds
+        return replace(self, moment=None if seconds is None else monotonic() + seconds)
 
     @property
     def whose(self) -> Whose:
@@ -184,6 +205,9 @@ class Wanted:
                 message = f"{option} goes with --search"
                 raise UsageProblem(message, "add --search N")
         self._check_springs()
+        if self.colour is not None and self.stability not in {"a-stable", "l-stable"}:
+            message = "--colour goes with --a-stable and --l-stable"
+            raise UsageProblem(message, "add one of them")
         if self.starts is not None and self.objective is not None:
             message = "--minimise compares all methods, --search finds some"
             raise UsageProblem(message, "leave one of them out")

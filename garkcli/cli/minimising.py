@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 from garkcli.cli.streams import say_problem
 from garkcli.design.chosen import values_text
 from garkcli.design.design import CLAIMS
-from garkcli.design.groebner import NotDecided
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
-from garkcli.errors import UsageProblem
+from garkcli.errors import NotDecided, UsageProblem
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.methodfile.family import with_values
 from garkcli.page.writing import write_whole
@@ -24,10 +23,10 @@ DIGITS = 15
 """Of claims without simple radicals."""
 
 
-def least(design: Design, name: str, seconds: float) -> Minimum | None:
+def least(design: Design, name: str) -> Minimum | None:
     """The minimum of the objective of that name; None, and it is said why, where it is open."""
     try:
-        return minimise(design, name, seconds)
+        return minimise(design, name)
     except NotDecided:
         problem = UsageProblem(
             f"--minimise {name}: not decided, the solution set is too large or curved",

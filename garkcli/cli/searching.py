@@ -10,11 +10,12 @@ from garkcli.cli.signals import INTERRUPTED
 from garkcli.cli.streams import say_problem
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost
+from garkcli.deadline import until
 from garkcli.design.design import CLAIMS
 from garkcli.design.search.run import MOST, Result, Task, Timed, results
-from garkcli.design.search.search import Search
+from garkcli.design.search.search import Proof, Search
 from garkcli.design.search.told import TOLERANCE, Method
-from garkcli.errors import UsageProblem
+from garkcli.errors import NotDecided, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.methodfile.search_file import FileSearch
 from garkcli.page.progress import watching
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from garkcli.cli.design_options import Wanted
     from garkcli.cli.options import Output
 
+PROOFS: tuple[Proof, ...] = ("exact", "exists", "numerical")
+"""What is known of a method, the most first."""
 HEADS = {
     "exact": "exact",
     "exists": "proved to exist, with these decimals",
@@ -61,23 +64,26 @@ def search(family: FamilyFile, wanted: Wanted, starts: int, output: Output) -> i
 def _searched(
     asked: FileSearch, wanted: Wanted, starts: int, output: Output
 ) -> tuple[Result, int | None]:
-    """The result, and the exit code where an interrupt or a lost worker ends the search."""
+    """The result, and the exit code where an interrupt or a lost worker ends the search; where the
+    time does, it is that of what was found.
+    """
     seed, most = wanted.seed or 0, wanted.most or MOST
     place = wanted.jobs or 1, wanted.scheduler or ""
     looking = asked.search
     result, ended = Result(), None
     with watching(output.may_show_progress) as show:
         try:
-            with hired(asked.do, _lost, *place) as workers:
+            with until(wanted.moment), hired(asked.do, _lost, *place) as workers:
                 for result in results(looking, starts, seed, most, workers):
                     what = f"starts, {len(result.methods)} methods found"
                     show(what, result.starts, starts)
         except KeyboardInterrupt:
-            ended = INTERRUPTED
+            result.ending, ended = "interrupt", INTERRUPTED
+        except NotDecided:
+            result.ending = "time"
         except WorkerLost as error:
             say_problem(error)
-            ended = 3
-    result.is_interrupted = ended is not None
+            result.ending, ended = "worker", 3
     return result, ended
 
 
@@ -91,26 +97,21 @@ def _lost(_task: Task, why: str) -> Timed:
 def _written(
     family: FamilyFile, looking: Search, result: Result, wanted: Wanted
 ) -> list[str | None]:
-    """Write the files that are asked for; where each method is."""
+    """Write the files that are asked for, of one the first method of which most is proved; where
+    each method is.
+    """
     methods, seed = result.methods, wanted.seed or 0
-    files = _places(family, len(methods), wanted)
-    for path, method in zip(files, methods, strict=True):
-        if path is not None:
-            write_whole(path, [_file_text(family, looking, method, seed)])
-    if methods and wanted.emit is not None and wanted.emit != files[0]:
-        # the first method is in the folder, and in a file of its own
-        text = _file_text(family, looking, methods[0], seed)
-        write_whole(wanted.emit, [text])
-    return files
-
-
-def _places(family: FamilyFile, count: int, wanted: Wanted) -> list[str | None]:
-    """Where the file of each method goes; all into the folder where there is one."""
+    files: list[str | None] = [None] * len(methods)
     if wanted.emit_all is not None:
-        return list(islice(file_names(wanted.emit_all, family.source), count))
-    if wanted.emit is not None and count:
-        return [wanted.emit, *[None] * (count - 1)]
-    return [None] * count
+        files = list(islice(file_names(wanted.emit_all, family.source), len(methods)))
+    best = min(methods, key=lambda x: PROOFS.index(x.proof), default=None)
+    for place, method in enumerate(methods):
+        paths = [files[place], wanted.emit if method is best else None]
+        for path in paths:
+            if path is not None:
+                write_whole(path, [_file_text(family, looking, method, seed)])
+                files[place] = files[place] or path
+    return files
 
 
 def _file_text(family: FamilyFile, looking: Search, method: Method, seed: int) -> str:

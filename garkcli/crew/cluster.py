@@ -14,7 +14,8 @@ from types import TracebackType
 from typing import Any, Generic
 
 from garkcli.crew.work import Item, Outcome, WorkerLost
-from garkcli.errors import UsageProblem
+from garkcli.deadline import seconds_left
+from garkcli.errors import NotDecided, UsageProblem
 from garkcli.exact.pickling import register
 from garkcli.version import __version__
 
@@ -99,8 +100,8 @@ class Cluster(Generic[Item, Outcome]):
             return future
 
         first = [submit(k) for k in islice(waiting, WINDOW)]
-        pool = as_completed(first, loop=self._client.loop)
-        for future in pool:
+        pool = as_completed(first, loop=self._client.loop, timeout=seconds_left())
+        for future in _in_time(pool):
             number = running.pop(future.key)
             yield number, self._outcome(future, items[number])
             future.release()
@@ -130,6 +131,14 @@ class Cluster(Generic[Item, Outcome]):
                 f"install garkcli {__version__} on all workers",
             )
         return outcome
+
+
+def _in_time(pool: Any) -> Iterator[Any]:
+    """What is done, until the time is over."""
+    try:
+        yield from pool
+    except TimeoutError:
+        raise NotDecided from None
 
 
 @contextmanager

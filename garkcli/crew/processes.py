@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import sys
-import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import TYPE_CHECKING, Generic, cast
 
 from garkcli.crew.work import Item, Outcome
+from garkcli.deadline import seconds_left
+from garkcli.errors import NotDecided
+from garkcli.exact.apart import begin, start_method, without_handlers
+from garkcli.exact.pickling import register
 
 if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
     from multiprocessing.connection import Connection
@@ -37,12 +39,7 @@ class _Worker(Generic[Item, Outcome]):
         self.process: BaseProcess = context.Process(  # type: ignore[attr-defined]
             target=_serve, args=(other, work, not_its_own), daemon=True
         )
-        # a worker that is interrupted before it is ready would say so
-        with _without_interrupts(), warnings.catch_warnings():
-            # the threads are those of numpy's BLAS, which stops them before a fork
-            message = "This process .* is multi-threaded"
-            warnings.filterwarnings("ignore", message, DeprecationWarning)
-            self.process.start()
+        begin(self.process)
         other.close()
 
     def send(self, number: int, item: Item) -> None:
@@ -72,8 +69,6 @@ class Crew(Generic[Item, Outcome]):
     ) -> None:
         from multiprocessing import get_context
 
-        from garkcli.exact.pickling import register
-
         register()
         self.context: BaseContext = get_context(start_method())
         self.work = work
@@ -94,6 +89,9 @@ class Crew(Generic[Item, Outcome]):
         """Every outcome with the number of its item, as soon as it is there.
 
         More items may follow once all of these are done.
+
+        Raises:
+            NotDecided: the time around it is over.
         """
         from multiprocessing.connection import wait
 
@@ -105,7 +103,10 @@ class Crew(Generic[Item, Outcome]):
         self._hire()
         while any(worker.items for worker in self.workers):
             by_connection = {worker.connection: worker for worker in self.workers}
-            for found in wait(list(by_connection)):
+            ready = wait(list(by_connection), seconds_left())
+            if not ready:
+                raise NotDecided
+            for found in ready:
                 # of a type of its own on Windows
                 connection = cast("Connection", found)
                 worker = by_connection[connection]
@@ -153,18 +154,6 @@ class Crew(Generic[Item, Outcome]):
         self._hire()
 
 
-def start_method() -> str:
-    """How processes begin: ``fork`` keeps the modules that are loaded already.
-
-    Windows has no fork, and on macOS a fork of a process whose libraries have begun threads may
-    crash.
-    """
-    from multiprocessing import get_all_start_methods
-
-    can_fork = "fork" in get_all_start_methods() and sys.platform != "darwin"
-    return "fork" if can_fork else "spawn"
-
-
 def _cause(code: int | None) -> str:
     """What ended a process.
 
@@ -189,32 +178,10 @@ def _serve(
 
     An interrupt is for the process that has the terminal, which ends the workers.
     """
-    import signal
-
-    from garkcli.exact.pickling import register
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for name in ("SIGTERM", "SIGHUP"):
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), signal.SIG_DFL)
+    without_handlers()
     register()
     for other in not_its_own:
         other.close()
     with suppress(EOFError, OSError):
         while True:
             connection.send(work(connection.recv()))
-
-
-@contextmanager
-def _without_interrupts() -> Iterator[None]:
-    """Hold interrupts back, where the system can; they arrive at the end."""
-    import signal
-
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

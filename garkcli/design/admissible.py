@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from flint import fmpq_mpoly
 
 from garkcli.design.member import value_of
@@ -12,31 +14,42 @@ from garkcli.exact.roots import RealRoot, sign, sign_at
 from garkcli.tableau.family import Family
 
 
+def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
+    """Polynomials that are at least 0 at every method of a family: ends of ranges, even roots, and
+    what is wanted.
+    """
+    gens = dict(zip(family.ring.names, family.ring.context.gens(), strict=True))
+    for radical in family.radicals:
+        if radical.is_even:
+            yield gens[radical.name]
+    for name, (least, greatest) in family.ranges.items():
+        if least is not None:
+            yield gens[name] - least
+        if greatest is not None:
+            yield greatest - gens[name]
+    yield from family.not_negative
+
+
+def has_signs(family: Family) -> bool:
+    """Whether a file asks for signs of its parameters, or for one of several roots."""
+    is_meant = any(radical.meant is not None for radical in family.radicals)
+    return is_meant or bool(family.positive) or any(not_negative(family))
+
+
 def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
-    """Whether even roots are positive there and parameters within their ranges."""
+    """Whether a real solution is a method of a family: even roots are not negative, parameters are
+    within their ranges, and what is wanted of signs holds.
+    """
     for radical in family.radicals:
         value = solution.values[radical.name]
-        if radical.is_positive and _sign(value, root) <= 0:
-            return False
         if radical.meant is not None and value_at(value, root) != radical.meant:
             return False
-    for name, (least, greatest) in family.ranges.items():
-        value = solution.values[name]
-        if least is not None and _sign(value - least, root) < 0:
-            return False
-        if greatest is not None and _sign(value - greatest, root) > 0:
-            return False
-    return _has_signs(family, solution, root)
-
-
-def _has_signs(family: Family, solution: Solution, root: RealRoot) -> bool:
-    """Whether what is to be positive is, at a real root of a solution."""
 
     def sign_of(polynomial: fmpq_mpoly) -> int:
         return _sign(value_of(polynomial, family.ring, solution.values), root)
 
     is_positive = all(sign_of(p) > 0 for p in family.positive)
-    return is_positive and all(sign_of(p) >= 0 for p in family.not_negative)
+    return is_positive and all(sign_of(p) >= 0 for p in not_negative(family))
 
 
 def _sign(value: Number, root: RealRoot) -> int:

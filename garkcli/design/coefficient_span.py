@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from heapq import heapify, heappop, heappush
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
+
 Polynomials: TypeAlias = tuple[fmpq_mpoly, ...]
 _Place: TypeAlias = tuple[int, tuple[int, ...]]
-"""A coordinate and the exponents of a monomial."""
+"""A coordinate and the exponents of a monomial, negative: the largest comes first."""
 _Row: TypeAlias = dict[_Place, fmpq]
 
 
@@ -27,32 +30,44 @@ class CoefficientSpan:
         return len(self._rows)
 
     def insert(self, vector: Polynomials) -> bool:
-        """Insert a vector; whether it enlarged the span."""
+        """Insert a vector; whether it enlarged the span.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
         row = self._reduced(_coefficients(vector))
         if not row:
             return False
-        pivot = max(row)
+        pivot = min(row)
         leading = row[pivot]
         self._rows[pivot] = {place: a / leading for place, a in row.items()}
         return True
 
     def _reduced(self, row: _Row) -> _Row:
-        """The row minus its part along those before; its largest place is no pivot of theirs."""
+        """The row minus its part along those before; its smallest place is no pivot of theirs."""
         settled: _Row = {}
-        while row:
-            place = max(row)
-            factor = row.pop(place)
+        waiting = list(row)
+        heapify(waiting)
+        while waiting:
+            check_time()
+            place = heappop(waiting)
+            factor = row.pop(place, None)
+            if factor is None:  # it became zero
+                continue
             known = self._rows.get(place)
             if known is None:
                 settled[place] = factor
                 continue
             for other, a in known.items():
-                if other != place:
-                    changed = row.get(other, fmpq(0)) - factor * a
-                    if changed:
-                        row[other] = changed
-                    else:
-                        row.pop(other, None)
+                if other == place:
+                    continue
+                if other not in row:
+                    heappush(waiting, other)
+                changed = row.get(other, fmpq(0)) - factor * a
+                if changed:
+                    row[other] = changed
+                else:
+                    row.pop(other, None)
         return settled
 
 
@@ -60,5 +75,5 @@ def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
     row: _Row = {}
     for coordinate, polynomial in enumerate(vector):
         for exponents, a in polynomial.to_dict().items():
-            row[coordinate, exponents] = a
+            row[-coordinate, tuple(-int(e) for e in exponents)] = a
     return row

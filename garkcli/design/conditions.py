@@ -16,12 +16,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
-from time import monotonic
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
 from garkcli.design.coefficient_span import CoefficientSpan, Polynomials
-from garkcli.design.groebner import NotDecided
 from garkcli.exact.matrix import Vector
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -60,14 +59,11 @@ class FamilyConditions:
 
     Attributes:
         denominators: polynomials that are not zero at any method of the family.
-        deadline: the reading of ``time.monotonic`` at which conditions are given up; None for
-            never.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
         self.tableau = tableau
         self.ring = ring
-        self.deadline: float | None = None
         self._one = ring.constant(fmpq(1))
         self._zero = ring.constant(fmpq(0))
         weights = [colour.b for colour in tableau.colours]
@@ -178,8 +174,7 @@ class FamilyConditions:
         span = CoefficientSpan()
         kept = []
         for member in members:
-            if self.deadline is not None and monotonic() > self.deadline:
-                raise NotDecided
+            check_time()
             coordinates = (member.scale, *member.vector)
             if span.insert(coordinates):
                 kept.append(member)

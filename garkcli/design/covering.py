@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from garkcli.deadline import check_time
+
 
 def least_meeting(sets: Collection[frozenset[int]]) -> int:
     """The size of a smallest set that has an element of each of these.
 
     By branch and bound: some element of the smallest set is taken, those before it are not; sets
     that have no element in common take one each. None of the sets is empty.
+
+    Raises:
+        NotDecided: the time is not enough.
 
     >>> least_meeting([frozenset({1, 2}), frozenset({2, 3}), frozenset({4})])
     2
@@ -20,6 +25,7 @@ def least_meeting(sets: Collection[frozenset[int]]) -> int:
 
 def _least(left: list[frozenset[int]], taken: int, known: int) -> int:
     """The least size by taking more elements, or a ``known`` one that is not more."""
+    check_time()
     if taken + _apart(left) >= known:
         return known
     if not left:

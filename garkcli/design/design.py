@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import chain
 from time import monotonic
 from typing import Literal, TypeAlias
 
-from flint import fmpq_mpoly
+from flint import fmpq_mpoly, fmpz_mpoly
 
+from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.admissible import is_admissible
-from garkcli.design.conditions import FamilyConditions
-from garkcli.design.groebner import NotDecided
-from garkcli.design.ideal import Ideal
+from garkcli.design.conditions import Condition, FamilyConditions
+from garkcli.design.ideal import Ideal, without_multiples
 from garkcli.design.member import member
 from garkcli.design.msolve import find_msolve
+from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_solutions import is_stable, method_at
 from garkcli.design.step import Found, Step
-from garkcli.errors import ZeroWeight
+from garkcli.errors import NotDecided, ZeroWeight
+from garkcli.exact.roots import RealRoot
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.family import Family
@@ -51,9 +54,12 @@ class Design:
         """The step of the highest order that was looked at."""
         return self.steps[-1]
 
-    def reaches(self, order: int) -> bool:
-        """Whether some values have the order, of a family at least complex ones."""
-        return self.last.order >= order and self.last.may_have_methods
+    def reaches(self, order: int = 1) -> bool | None:
+        """Whether methods of the file have the order; None where that is not decided."""
+        for step in self.steps:
+            if step.order == order:
+                return step.has_methods
+        return False if self.last.has_methods is False else None
 
     def __repr__(self) -> str:
         reached = [step.order for step in self.steps if step.may_have_methods]
@@ -67,6 +73,8 @@ class Design:
 
 SHARE = 0.25
 """The part of the time that python-flint has where msolve is there too: what it finds is proved."""
+PART = 0.25
+"""The part of the time that is left in which a real method of a family is looked for."""
 TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "method": lambda tableau: tableau,
     "conjugate": conjugate,
@@ -92,180 +100,233 @@ def find_parameters(
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
     """
     tableau = TABLEAUS[whose](family.tableau)
-    conditions = FamilyConditions(tableau, family.ring)
-    relations = [radical.relation for radical in family.radicals]
-    order = order or family.order
-    nonzero = (*conditions.denominators, *family.nonzero)
-    now = monotonic()
-    deadline = first = None
-    if seconds is not None:
-        has_other_engine = order is not None and find_msolve() is not None
-        deadline = now + seconds
-        first = now + SHARE * seconds if has_other_engine else deadline
-    conditions.deadline = first
-    start = Ideal(family.ring, nonzero, deadline).with_zeros(relations)
-    steps: list[Step] = []
-    if family.unsettled:
-        step = Step(order or 1, "undecided", None)
-        return Design(family, whose, tableau, (step,))
-    ideal = start
-    for k in range(1, (order or DEFAULT_LIMIT) + 1):
-        step = _step(_Stage(conditions, start, k, family.relations, first), ideal)
-        if step.kind == "undecided" and order is not None:
-            step = _at_once(conditions, start, order, deadline, family.relations)
-        if step.kind == "solutions":
-            step = replace(step, found=_found(family, whose, step))
-        steps.append(step)
-        if step.ideal is None or not step.may_have_methods or step.order == order:
-            break
-        ideal = step.ideal
-    return Design(family, whose, tableau, tuple(steps))
-
-
-NO_TIME = 0.0
-"""A deadline for what is small alone."""
+    with within(seconds):
+        finding = _Finding(family, whose, FamilyConditions(tableau, family.ring))
+        return Design(family, whose, tableau, tuple(finding.steps(order or family.order)))
 
 
 @dataclass(frozen=True)
-class _Stage:
-    """What has to be decided of one order.
+class _Finding:
+    """What orders ask of the parameters of a family."""
 
-    Attributes:
-        conditions: of the family.
-        start: the ideal without any.
-        order: that is asked for.
-        wanted: what else has to vanish.
-        deadline: until which it is tried.
-    """
-
+    family: Family
+    whose: Whose
     conditions: FamilyConditions
-    start: Ideal
-    order: int
-    wanted: Sequence[fmpq_mpoly]
-    deadline: float | None
+
+    def steps(self, wanted: int | None) -> list[Step]:
+        """One an order, from 1 on: up to the one that is wanted, or as far as some value reaches;
+        one alone where what the file wants besides is not worked out.
+        """
+        if self.family.unsettled:
+            return [Step(wanted or 1, "undecided", None)]
+        left = seconds_left()
+        first = None
+        if wanted is not None and left is not None and find_msolve() is not None:
+            first = monotonic() + SHARE * left
+        steps: list[Step] = []
+        for k in range(1, (wanted or DEFAULT_LIMIT) + 1):
+            step = Step(wanted or k, "undecided", None)
+            try:
+                with until(first):
+                    step = self._step(k, steps[-1].ideal if steps else None)
+            except NotDecided:
+                if first is not None:
+                    with suppress(NotDecided):
+                        step = self._at_once(step.order)
+            steps.append(self._looked_into(step))
+            if not steps[-1].may_have_methods or step.order == wanted:
+                break
+        return _with_lower(steps)
+
+    def _start(self) -> Ideal:
+        """The ideal of what parameters satisfy whatever is wanted of them."""
+        nonzero = (*self.conditions.denominators, *self.family.nonzero)
+        return Ideal(self.family.ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
+
+    def _step(self, order: int, lower: Ideal | None) -> Step:
+        """What one order more asks of the parameters, and whatever else is wanted.
+
+        Args:
+            order: that is looked at.
+            lower: the ideal of the order below; None where there is none.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        start = self._start()
+        if lower is None:
+            lower = start.with_zeros(self.family.relations)
+        coming = (x for x in self.conditions.of_order(order) if x.polynomial)
+        ideal, done, large = _as_long_as_small(lower, coming)
+        if large is not None:
+            known = (
+                *self._relations,
+                *self._conditions_below(order),
+                *(x.polynomial for x in done),
+            )
+            new = [large, *coming]
+            ideal, taken = ideal.with_zeros_in_turn([x.polynomial for x in new], known)
+            done += new[:taken]
+        if ideal.is_everything:
+            return Step(order, "none", ideal, done[-1].tree if done else None)
+        if ideal.basis == start.basis:
+            return Step(order, "every-value", ideal)
+        return Step(order, "family" if ideal.dimension > 0 else "solutions", ideal)
 
     @property
-    def half(self) -> float | None:
-        """When half of the time that is left is over."""
-        if self.deadline is None:
-            return None
-        now = monotonic()
-        return now + max(0.0, self.deadline - now) / 2
+    def _relations(self) -> list[fmpq_mpoly]:
+        """What parameters satisfy besides the order: roots, and what the file wants."""
+        return [*(x.relation for x in self.family.radicals), *self.family.relations]
 
-    def one_by_one(self, ideal: Ideal, deadline: float | None) -> Step:
-        """The conditions of the order one after the other, beginning with the ideal of those of
-        lower ones: small steps from one Gröbner basis to the next, and the first condition that
-        cannot be met is known.
+    def _conditions_below(self, order: int) -> list[fmpq_mpoly]:
+        """The conditions of all orders below one."""
+        lower = (self.conditions.of_order(k) for k in range(1, order))
+        return [x.polynomial for x in chain.from_iterable(lower) if x.polynomial]
+
+    def _at_once(self, order: int) -> Step:
+        """All conditions up to an order in one system, by msolve.
+
+        Raises:
+            NotDecided: it has no answer in time.
         """
-        ideal = ideal.until(deadline)
-        if self.order == 1:
-            ideal = ideal.with_zeros(self.wanted)
+        polynomials = (*self._relations, *self._conditions_below(order + 1))
+        ideal = self._start().with_zeros_unproved(polynomials)
         if ideal.is_everything:
-            return Step(self.order, "none", ideal)
-        for condition in self.conditions.of_order(self.order):
-            ideal = ideal.with_zeros([condition.polynomial])
-            if ideal.is_everything:
-                return Step(self.order, "none", ideal, condition.tree)
-        return self._told(ideal)
+            return Step(order, "undecided", ideal)
+        return Step(order, "family" if ideal.dimension > 0 else "solutions", ideal)
 
-    def from_the_start(self, deadline: float | None) -> Step:
-        """All conditions up to the order at once: bases in between may be larger than the last."""
-        start = self.start.until(deadline)
-        polynomials = list(self.wanted)
-        for k in range(1, self.order):
-            lower = self.conditions.of_order(k)
-            polynomials += [condition.polynomial for condition in lower]
-        last = self.conditions.of_order(self.order)
-        added = [condition.polynomial for condition in last]
-        ideal = start.with_zeros([*polynomials, *added])
-        if not ideal.is_everything:
-            return self._told(ideal)
-        for count, condition in enumerate(last, start=1):
-            part = start.with_zeros([*polynomials, *added[:count]])
-            if part.is_everything:
-                return Step(self.order, "none", part, condition.tree)
-        raise AssertionError("the last part is the whole")
+    def _looked_into(self, step: Step) -> Step:
+        """A step with its polynomials, its solutions, and what is known of real ones; not decided
+        where its solutions take too long.
+        """
+        ideal = step.ideal
+        if ideal is None:
+            return step
+        try:
+            polynomials, nonzero = _described(ideal)
+            step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
+            if step.kind == "solutions":
+                step = replace(step, found=self._found(ideal))
+        except NotDecided:
+            return replace(step, kind="undecided")
+        left = seconds_left()
+        with suppress(NotDecided), within(None if left is None else PART * left):
+            if step.kind in {"every-value", "family"}:
+                return self._with_real(step, ideal)
+        return step
 
-    def _told(self, ideal: Ideal) -> Step:
-        ideal = ideal.until(self.start.deadline)
-        if ideal.basis == self.start.basis:
-            return Step(self.order, "every-value", ideal)
-        if ideal.dimension > 0:
-            return Step(self.order, "family", ideal)
-        return Step(self.order, "solutions", ideal)
+    def _with_real(self, step: Step, ideal: Ideal) -> Step:
+        """A family with what is known of its real values.
 
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        real = without_complex(ideal)
+        if real.basis != ideal.basis:
+            polynomials, _ = _described(real)
+            step = replace(step, real=real, polynomials_of_real=tuple(polynomials))
+        if real.dimension == 0:
+            step = replace(step, found=self._found(real))
+        return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
 
-def _step(stage: _Stage, ideal: Ideal) -> Step:
-    """What one order more asks of the parameters, and whatever else is wanted.
+    def _found(self, ideal: Ideal) -> tuple[Found, ...]:
+        """Finitely many solutions, each with its order by the ordinary certificate.
 
-    Which way is quick is not known before: both are tried with small bases, then in the time that
-    there is.
-    """
-    ways: tuple[Callable[[], Step], ...] = (
-        lambda: stage.one_by_one(ideal, NO_TIME),
-        lambda: stage.from_the_start(NO_TIME),
-        lambda: stage.from_the_start(stage.half),
-        lambda: stage.one_by_one(ideal, stage.deadline),
-    )
-    for way in ways:
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        found = []
+        for solution in solutions(ideal):
+            check_time()
+            accepted = [
+                index
+                for index, root in enumerate(solution.real)
+                if is_admissible(self.family, solution, root)
+            ]
+            _ = solution.real_values  # reports show them, when the time may be over
+            order = order_of(self.family, self.whose, solution)
+            one = Found(solution, order, tuple(accepted))
+            found.append(one if order is None else self._sorted(one))
+        return tuple(found)
+
+    def _sorted(self, found: Found) -> Found:
+        """A solution of which those real roots are accepted that are as stable as is wanted."""
+        sorted_: dict[bool | None, list[int]] = {True: [], False: [], None: []}
+        for index in found.accepted:
+            verdict = self._is_stable(found.solution, found.solution.real[index])
+            sorted_[verdict].append(index)
+        accepted, unstable, left = (tuple(sorted_[key]) for key in (True, False, None))
+        return replace(found, accepted=accepted, unstable=unstable, open=left)
+
+    def _is_stable(self, solution: Solution, root: RealRoot) -> bool | None:
+        """Whether a method is as stable as is wanted; None where its field is too large, or the
+        time is over.
+        """
+        if not self.family.stable:
+            return True
         with suppress(NotDecided):
-            return way()
-    return Step(stage.order, "undecided", None)
+            tableau = method_at(self.family, solution, root)
+            if tableau is not None:
+                meant = TABLEAUS[self.whose](tableau)
+                return all(is_stable(key, meant) for key in self.family.stable)
+        return None
+
+    def _is_method(self, solution: Solution, root: RealRoot) -> bool:
+        """Whether a real solution is a method as the file wants it."""
+        if not is_admissible(self.family, solution, root):
+            return False
+        return self._is_stable(solution, root) is True
 
 
-def _at_once(
-    conditions: FamilyConditions,
-    start: Ideal,
-    order: int,
-    deadline: float | None,
-    wanted: Sequence[fmpq_mpoly],
-) -> Step:
-    """All conditions up to an order in one system, by msolve."""
-    polynomials = list(wanted)
-    conditions.deadline = deadline
-    try:
-        for k in range(1, order + 1):
-            polynomials += [condition.polynomial for condition in conditions.of_order(k)]
-        ideal = start.with_zeros_unproved(polynomials, deadline)
-    except NotDecided:
-        return Step(order, "undecided", None)
-    if ideal.is_everything:
-        return Step(order, "undecided", ideal)
-    if ideal.dimension > 0:
-        return Step(order, "family", ideal)
-    return Step(order, "solutions", ideal)
+def _as_long_as_small(
+    ideal: Ideal, conditions: Iterator[Condition]
+) -> tuple[Ideal, list[Condition], Condition | None]:
+    """The ideal with one condition after the other until it is everything or gets large; those that
+    it has then, and the one with which it gets large.
+    """
+    done: list[Condition] = []
+    while not ideal.is_everything:
+        condition = next(conditions, None)
+        if condition is None:
+            break
+        try:
+            with only_small():
+                ideal = ideal.with_zeros([condition.polynomial])
+        except NotDecided:
+            check_time()
+            return ideal, done, condition
+        done.append(condition)
+    return ideal, done, None
 
 
-def _found(family: Family, whose: Whose, step: Step) -> tuple[Found, ...]:
-    """The solutions of a step, each with its order by the ordinary certificate."""
-    assert step.ideal is not None
-    found = []
-    for solution in solutions(step.ideal):
-        accepted = []
-        for index, root in enumerate(solution.real):
-            if is_admissible(family, solution, root):
-                accepted.append(index)
-        order = order_of(family, whose, solution)
-        one = Found(solution, order, tuple(accepted))
-        if family.stable and order is not None:
-            one = _stable(family, whose, one)
-        found.append(one)
-    return tuple(found)
+def _described(ideal: Ideal) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
+    """Polynomials and others such that the zeros of the first at which none of the others is zero
+    are those of an ideal.
+
+    Raises:
+        NotDecided: the time is not enough.
+    """
+    if ideal.dimension <= 0:
+        return ideal.polynomials, []
+    with suppress(NotDecided), only_small():
+        closure = ideal.closure
+        allowed = (closure.with_zeros([p]).is_everything for p in ideal.nonzero)
+        nonzero = [p for p, is_never in zip(ideal.nonzero, allowed, strict=True) if not is_never]
+        return ideal.polynomials, nonzero
+    check_time()
+    return [without_multiples(p) for p in ideal.cleared], list(ideal.nonzero)
 
 
-def _stable(family: Family, whose: Whose, found: Found) -> Found:
-    """A solution of which those real roots are accepted that are as stable as is wanted."""
-    sorted_: dict[bool | None, list[int]] = {True: [], False: [], None: []}
-    for index in found.accepted:
-        root = found.solution.real[index]
-        tableau = method_at(family, found.solution, root)
-        verdict = None
-        if tableau is not None:
-            meant = TABLEAUS[whose](tableau)
-            verdict = all(is_stable(key, meant) for key in family.stable)
-        sorted_[verdict].append(index)
-    accepted, unstable, left = (tuple(sorted_[key]) for key in (True, False, None))
-    return replace(found, accepted=accepted, unstable=unstable, open=left)
+def _with_lower(steps: Sequence[Step]) -> list[Step]:
+    """Steps of which lower orders have the methods of the higher ones."""
+    found: list[Step] = []
+    is_reached = False
+    for step in reversed(steps):
+        if is_reached and step.kind in {"every-value", "family"}:
+            step = replace(step, is_real=True)
+        is_reached = is_reached or step.has_methods is True
+        found.insert(0, step)
+    return found
 
 
 def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:

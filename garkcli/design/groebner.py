@@ -5,59 +5,143 @@ where that time is not enough.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from multiprocessing import get_context
-from multiprocessing.connection import Connection
-from time import monotonic
-from typing import Any, TypeAlias, TypeVar
+from contextlib import suppress
+from typing import Any, TypeAlias
 
-from flint import Ordering, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
+from flint import fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
+from garkcli.deadline import check_time
 from garkcli.design.msolve import basis_by_msolve, find_msolve, is_basis
-from garkcli.errors import GarkError
+from garkcli.errors import NotDecided
+from garkcli.exact.apart import apart, first_of
 
-T = TypeVar("T")
 Exponents: TypeAlias = tuple[int, ...]
-SMALL = (200, 1000, 20_000)
-"""Most polynomials, terms of one, bits of a coefficient, for which no process is started."""
-Terms: TypeAlias = dict[Exponents, int]
-"""A polynomial between processes: coefficients by exponents."""
+FEW_TERMS = 300
+"""Of all polynomials together: where there are more, all work is done in a process of its own."""
+SMALL = (50, 200, 1500)
+"""Most polynomials, terms of one, bits of a coefficient, of a basis made in this process."""
+_Way: TypeAlias = Callable[..., tuple[list[fmpz_mpoly], int]]
 
 
-class NotDecided(GarkError):
-    """A Gröbner basis takes too long."""
-
-    def __init__(self) -> None:
-        super().__init__(
-            "not decided in the time there is", "give it more seconds, or give parameters values"
-        )
+def is_small(polynomials: Sequence[fmpz_mpoly]) -> bool:
+    """Whether polynomials may be divided by one another in this process."""
+    return sum(len(p) for p in polynomials) <= FEW_TERMS
 
 
-def groebner_basis(
-    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float | None
-) -> list[fmpz_mpoly]:
+def groebner_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The reduced Gröbner basis of an ideal.
 
     Args:
         polynomials: generators, not all zero.
         context: of theirs.
-        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
 
     Raises:
         NotDecided: the time was not enough.
     """
+    check_time()
+    with suppress(_TooLarge):
+        return _basis(polynomials, context, is_bounded=True)
+    return apart(_basis_apart, list(polynomials))
+
+
+def grown_basis(
+    known: Sequence[fmpz_mpoly],
+    generators: Sequence[fmpz_mpoly],
+    new: Sequence[fmpz_mpoly],
+    context: fmpz_mpoly_ctx,
+) -> tuple[list[fmpz_mpoly], int]:
+    """The reduced Gröbner basis of an ideal with further polynomials; where that is everything, of
+    as few of them, the first ones, as make it everything.
+
+    Which way is quick is not known before: from one basis to the next, or all at once, as bases in
+    between may be larger than the last. Where the bases are not small both are tried side by side.
+
+    Args:
+        known: a Gröbner basis.
+        generators: of the same ideal.
+        new: the further polynomials.
+        context: of all.
+
+    Returns:
+        the basis, and of how many of the further polynomials it is.
+
+    Raises:
+        NotDecided: the time was not enough.
+    """
+    check_time()
+    for way, first in ((_in_turn, known), (_at_once, generators)):
+        with suppress(_TooLarge):
+            return way(list(first), list(new), context, is_bounded=True)
+    return first_of(
+        (_grown_apart, (_at_once, list(generators), list(new))),
+        (_grown_apart, (_in_turn, list(known), list(new))),
+    )
+
+
+def _in_turn(
+    basis: list[fmpz_mpoly], new: list[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
+) -> tuple[list[fmpz_mpoly], int]:
+    """One polynomial after the other."""
+    for k, p in enumerate(new, start=1):
+        if is_bounded and not is_small([*basis, p]):
+            raise _TooLarge
+        rest = remainder(p, basis, context)
+        if rest:
+            basis = _basis([*basis, rest], context, is_bounded)
+        if _is_everything(basis):
+            return basis, k
+    return basis, len(new)
+
+
+def _at_once(
+    generators: list[fmpz_mpoly], new: list[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
+) -> tuple[list[fmpz_mpoly], int]:
+    """All polynomials at once, and the first ones of them where that is everything."""
+    basis = _basis([*generators, *new], context, is_bounded)
+    k = len(new)
+    if _is_everything(basis):
+        for k in range(1, len(new) + 1):
+            if _is_everything(_basis([*generators, *new[:k]], context, is_bounded)):
+                break
+    return basis, k
+
+
+def _is_everything(basis: Sequence[fmpz_mpoly]) -> bool:
+    """Whether a reduced basis is that of all polynomials."""
+    return bool(basis) and basis[0].is_constant()
+
+
+def remainder(p: fmpz_mpoly, basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> fmpz_mpoly:
+    """A multiple of what is left of a polynomial on division by a basis."""
+    if not basis or not p:
+        return p
+    vector = fmpz_mpoly_vec(list(basis), context)
+    dividend: Any = p  # the types of python-flint lack the method
+    rest: fmpz_mpoly = dividend.reduction_primitive_part(vector)
+    return rest
+
+
+class _TooLarge(Exception):
+    """A Gröbner basis is not small."""
+
+
+def _basis(
+    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
+) -> list[fmpz_mpoly]:
+    """The reduced basis.
+
+    Raises:
+        _TooLarge: it is not small, and is to be.
+    """
     vector: Any = fmpz_mpoly_vec(list(polynomials), context)
-    generators = vector.autoreduction()
-    found, is_whole = generators.buchberger_naive(limits=SMALL)
-    if is_whole:
-        return reduced_basis(list(found), context)
-    if deadline is None:
-        basis = generators.buchberger_naive()
-        return reduced_basis(list(basis), context)
-    if deadline <= monotonic():
-        raise NotDecided
-    texts = [_terms(p) for p in generators]
-    found = _within_time(_basis, (texts, tuple(context.names())), deadline)
-    return [_polynomial(p, context) for p in found]
+    if not is_bounded:
+        return reduced_basis(list(vector.buchberger_naive()), context)
+    if not is_small(polynomials):
+        raise _TooLarge
+    found, is_whole = vector.autoreduction().buchberger_naive(limits=SMALL)
+    if not is_whole:
+        raise _TooLarge
+    return reduced_basis(list(found), context)
 
 
 def reduced_basis(basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
@@ -72,7 +156,7 @@ def reduced_basis(basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[
     """
     done: list[fmpz_mpoly] = []
     known: list[Exponents] = []
-    for p in sorted(basis, key=lambda p: _degrevlex(leading(p))):
+    for p in sorted(basis, key=lambda p: degrevlex(leading(p))):
         first = leading(p)
         if any(divides(smaller, first) for smaller in known):
             continue
@@ -91,7 +175,7 @@ def leading(p: fmpz_mpoly) -> Exponents:
     return tuple(int(x) for x in p.monoms()[0])
 
 
-def _degrevlex(exponents: Exponents) -> tuple[int, ...]:
+def degrevlex(exponents: Exponents) -> tuple[int, ...]:
     """A key that is larger for larger monomials."""
     return sum(exponents), *(-e for e in reversed(exponents))
 
@@ -101,85 +185,37 @@ def divides(a: Exponents, b: Exponents) -> bool:
     return all(x <= y for x, y in zip(a, b, strict=True))
 
 
-def groebner_basis_apart(
-    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float
-) -> list[fmpz_mpoly]:
-    """The same without a step in this process: reducing polynomials of many terms with one another
-    may take long by itself.
-
-    Raises:
-        NotDecided: the time was not enough.
-    """
-    texts = [_terms(p) for p in polynomials]
-    found = _within_time(_basis, (texts, tuple(context.names())), deadline)
-    return [_polynomial(p, context) for p in found]
-
-
-def unproved_basis(
-    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float | None
-) -> list[fmpz_mpoly]:
+def unproved_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The Gröbner basis by msolve, verified to be one of an ideal that contains the polynomials.
 
     Raises:
-        NotDecided: there is no msolve, no answer in time, or not one that stands the test.
+        NotDecided: there is no msolve, no answer in time, or not one that passes the test.
     """
+    check_time()
     program = find_msolve()
     if program is None:
         raise NotDecided
     given = [p for p in polynomials if p]
-    basis = basis_by_msolve(program, given, context, deadline)
+    basis = basis_by_msolve(program, given, context)
     if basis is None:
         raise NotDecided
-    lists = [_terms(p) for p in basis], [_terms(p) for p in given]
-    if not _within_time(_is_verified, (*lists, tuple(context.names())), deadline):
+    verified = apart(_verified, basis, given)
+    if verified is None:
         raise NotDecided
-    return basis
+    return verified
 
 
-def _within_time(work: Callable[..., T], arguments: tuple[Any, ...], deadline: float | None) -> T:
-    """What a function returns in a process of its own, which can be stopped in the middle of it."""
-    # fork copies the threads' locks of whoever calls; spawn is the same everywhere
-    processes = get_context("spawn")
-    here, there = processes.Pipe(duplex=False)
-    worker = processes.Process(target=_serve, args=(there, work, arguments), daemon=True)
-    worker.start()
-    there.close()
-    try:
-        seconds = None if deadline is None else max(0.0, deadline - monotonic())
-        if not here.poll(seconds):
-            raise NotDecided
-        result: T = here.recv()
-    except EOFError:  # it ended without a result: no memory, or killed
-        raise NotDecided from None
-    finally:
-        worker.kill()
-        worker.join()
-        here.close()
-    return result
+def _basis_apart(polynomials: list[fmpz_mpoly]) -> list[fmpz_mpoly]:
+    return _basis(polynomials, polynomials[0].context(), is_bounded=False)
 
 
-def _serve(pipe: Connection, work: Callable[..., object], arguments: tuple[Any, ...]) -> None:
-    """What the process does."""
-    pipe.send(work(*arguments))
+def _grown_apart(
+    way: _Way, first: list[fmpz_mpoly], new: list[fmpz_mpoly]
+) -> tuple[list[fmpz_mpoly], int]:
+    return way(first, new, new[0].context(), is_bounded=False)
 
 
-def _basis(generators: list[Terms], names: tuple[str, ...]) -> list[Terms]:
-    context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-    polynomials = [_polynomial(p, context) for p in generators]
-    vector: Any = fmpz_mpoly_vec(polynomials, context)
-    basis = reduced_basis(list(vector.buchberger_naive()), context)
-    return [_terms(p) for p in basis]
-
-
-def _is_verified(basis: list[Terms], given: list[Terms], names: tuple[str, ...]) -> bool:
-    context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-    polynomials = [_polynomial(p, context) for p in given]
-    return is_basis([_polynomial(p, context) for p in basis], polynomials, context)
-
-
-def _terms(p: fmpz_mpoly) -> Terms:
-    return {tuple(map(int, e)): int(a) for e, a in p.to_dict().items()}
-
-
-def _polynomial(terms: Terms, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    return context.from_dict({e: fmpz(a) for e, a in terms.items()})
+def _verified(basis: list[fmpz_mpoly], given: list[fmpz_mpoly]) -> list[fmpz_mpoly] | None:
+    """The reduced basis; None where polynomials are no basis of an ideal that has those given."""
+    context = given[0].context()
+    return reduced_basis(basis, context) if is_basis(basis, given, context) else None

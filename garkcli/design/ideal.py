@@ -2,34 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from copy import copy
-from typing import Any, TypeAlias
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import Any
 
-from flint import (
-    Ordering,
-    fmpq,
-    fmpq_mat,
-    fmpq_mpoly,
-    fmpz,
-    fmpz_mpoly,
-    fmpz_mpoly_ctx,
-    fmpz_mpoly_vec,
-)
+from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
+from garkcli.deadline import check_time
 from garkcli.design.covering import least_meeting
 from garkcli.design.groebner import (
     Exponents,
+    degrevlex,
     divides,
     groebner_basis,
-    groebner_basis_apart,
+    grown_basis,
+    is_small,
     leading,
+    reduced_basis,
+    remainder,
     unproved_basis,
 )
+from garkcli.exact.apart import apart
 from garkcli.exact.parametric import Parameters
+from garkcli.exact.polynomial import Polynomial
 
-FEW_TERMS = 150
-"""Of all polynomials together, for which no process is started."""
 UNIT = "_unit"
 """The unknown that keeps a product from being zero: UNIT · product = 1."""
 
@@ -40,32 +36,37 @@ class Ideal:
     Args:
         ring: the parameters.
         nonzero: polynomials whose zeros do not count.
-        deadline: the reading of ``time.monotonic`` at which bases are given up; None for never.
 
     Attributes:
-        nonzero: as given.
-        deadline: as given.
+        nonzero: their irreducible factors, each once.
         basis: a reduced Gröbner basis, primitive over ℤ; empty for the zero ideal.
         is_proved: whether it is one of the ideal; else of an ideal that is known to contain it, so
             that its zeros are zeros, and perhaps not all of them.
     """
 
-    def __init__(
-        self, ring: Parameters, nonzero: Sequence[fmpq_mpoly] = (), deadline: float | None = None
-    ) -> None:
+    def __init__(self, ring: Parameters, nonzero: Iterable[fmpq_mpoly] = ()) -> None:
         self.ring = ring
-        self.nonzero = tuple(nonzero)
-        self.deadline = deadline
-        self._has_unit = bool(nonzero)
-        names = [*ring.names, UNIT] if nonzero else list(ring.names)
+        self.nonzero = tuple(factors(nonzero))
+        names = [*ring.names, UNIT] if self.nonzero else list(ring.names)
         self._context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-        self.basis: list[fmpz_mpoly] = []
+        self.basis = self._unit
         self.is_proved = True
-        if nonzero:
-            product = self._context.gen(len(names) - 1)
-            for polynomial in nonzero:
-                product *= self._integral(polynomial)
-            self.basis = [product - 1]
+
+    @property
+    def _unit(self) -> list[fmpz_mpoly]:
+        """UNIT · Π nonzero − 1, where there is any."""
+        if not self.nonzero:
+            return []
+        product = self._context.gen(self.variables - 1)
+        for polynomial in self.nonzero:
+            product *= self._integral(polynomial)
+        return reduced_basis([product - 1], self._context)
+
+    def _with_basis(self, basis: list[fmpz_mpoly], is_proved: bool = True) -> Ideal:
+        grown = Ideal(self.ring)
+        grown.nonzero, grown._context = self.nonzero, self._context
+        grown.basis, grown.is_proved = basis, is_proved
+        return grown
 
     @property
     def variables(self) -> int:
@@ -76,76 +77,85 @@ class Ideal:
         """A multiple of a polynomial over ℤ, in the context of the basis."""
         terms = polynomial.to_dict()
         denominator = integral_scale(polynomial)
-        tail = (0,) if self._has_unit else ()
+        tail = (0,) if self.nonzero else ()
         whole = {(*e, *tail): (a * denominator).p for e, a in terms.items()}
         return self._context.from_dict(whole)
-
-    def until(self, deadline: float | None) -> Ideal:
-        """The same ideal with another deadline."""
-        same = copy(self)
-        same.deadline = deadline
-        return same
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
         """The ideal with further polynomials.
 
         Raises:
-            NotDecided: its basis is beyond the limits.
+            NotDecided: the time for its basis is not enough.
         """
-        new = []
-        for polynomial in polynomials:
-            rest = self._remainder(self._integral(polynomial))
-            if rest:
-                new.append(rest)
+        check_time()
+        new = [self._integral(polynomial) for polynomial in polynomials]
+        return self._with_generators(new)
+
+    def _with_generators(self, new: list[fmpz_mpoly]) -> Ideal:
+        if is_small([*self.basis, *new]):
+            new = [remainder(p, self.basis, self._context) for p in new]
+        new = [p for p in new if p]
         if not new or self.is_everything:
             return self
-        return self._with_basis(groebner_basis([*self.basis, *new], self._context, self.deadline))
+        found = groebner_basis([*self.basis, *new], self._context)
+        return self._with_basis(found, self.is_proved)
 
-    def with_zeros_apart(self, polynomials: Sequence[fmpq_mpoly]) -> Ideal:
-        """The same; where polynomials have many terms all of it in a process, which the deadline
-        ends.
+    def with_zeros_in_turn(
+        self, polynomials: Iterable[fmpq_mpoly], generators: Iterable[fmpq_mpoly]
+    ) -> tuple[Ideal, int]:
+        """The ideal with further polynomials; where it is everything, with as few of them, the
+        first ones, as make it everything.
+
+        Args:
+            polynomials: the further ones, none of them zero.
+            generators: of this ideal, but for that with UNIT.
+
+        Returns:
+            the ideal, and of how many of the further polynomials it is.
 
         Raises:
-            NotDecided: its basis is beyond the limits.
+            NotDecided: the time for its basis is not enough.
         """
-        size = sum(len(p.to_dict()) for p in polynomials)
-        if self.deadline is None or size <= FEW_TERMS:
-            return self.with_zeros(polynomials)
-        new = [self._integral(p) for p in polynomials if p]
-        return self._with_basis(
-            groebner_basis_apart([*self.basis, *new], self._context, self.deadline)
-        )
+        new = [self._integral(p) for p in polynomials]
+        given = [*self._unit, *(self._integral(p) for p in generators)]
+        basis, taken = grown_basis(self.basis, given, new, self._context)
+        return self._with_basis(basis, self.is_proved), taken
 
-    def _with_basis(self, basis: list[fmpz_mpoly]) -> Ideal:
-        grown = copy(self)
-        grown.basis = basis
-        return grown
+    def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
+        """The ideal with x − c for some unknowns x, by their places, and numbers c. These are put
+        into its basis before, which makes that shorter.
 
-    def with_zeros_unproved(
-        self, polynomials: Iterable[fmpq_mpoly], deadline: float | None
-    ) -> Ideal:
+        Raises:
+            NotDecided: the time for its basis is not enough.
+        """
+        new = []
+        for place, value in values.items():
+            new.append(self._context.gen(place) * value.q - value.p)
+        for p in self.basis:
+            total: dict[tuple[int, ...], fmpq] = {}
+            for e, a in p.to_dict().items():
+                term = fmpq(a)
+                for place, value in values.items():
+                    term *= value ** int(e[place])
+                left = tuple(0 if place in values else int(k) for place, k in enumerate(e))
+                total[left] = total.get(left, fmpq(0)) + term
+            scale = _common([a.q for a in total.values()])
+            new.append(self._context.from_dict({e: (a * scale).p for e, a in total.items() if a}))
+        return self._with_basis([], self.is_proved)._with_generators(new)
+
+    def with_zeros_unproved(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
         """The same by msolve: an ideal that contains it, so that its zeros are zeros of it.
 
         Raises:
             NotDecided: msolve is not there, or its answer is not in time.
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
-        grown = copy(self)
-        grown.basis = unproved_basis([*self.basis, *new], self._context, deadline)
-        grown.is_proved = False
-        return grown
-
-    def _remainder(self, polynomial: fmpz_mpoly) -> fmpz_mpoly:
-        if not self.basis or not polynomial:
-            return polynomial
-        vector = fmpz_mpoly_vec(self.basis, self._context)
-        dividend: Any = polynomial  # the types of python-flint lack the method
-        rest: fmpz_mpoly = dividend.reduction_primitive_part(vector)
-        return rest
+        found = unproved_basis([*self.basis, *new], self._context)
+        return self._with_basis(found, is_proved=False)
 
     def contains(self, polynomial: fmpq_mpoly) -> bool:
         """Whether a polynomial vanishes wherever the ideal does, with multiplicity."""
-        return not self._remainder(self._integral(polynomial))
+        return not remainder(self._integral(polynomial), self.basis, self._context)
 
     @property
     def is_everything(self) -> bool:
@@ -155,101 +165,231 @@ class Ideal:
     @property
     def is_trivial(self) -> bool:
         """Whether nothing is asked of the parameters."""
-        return len(self.basis) <= self._has_unit
+        return len(self.basis) <= bool(self.nonzero)
 
-    @property
-    def polynomials(self) -> list[fmpz_mpoly]:
-        """The basis without what keeps denominators from vanishing.
+    @cached_property
+    def closure(self) -> Ideal:
+        """The ideal of all its polynomials without UNIT: each of its zeros at which ``nonzero``
+        does not vanish is a zero of this one.
 
-        Where the ideal has UNIT as a polynomial in the others, as it has beside radicals, that
-        stands in its place, and these polynomials generate all that have no UNIT.
+        UNIT counts for N degrees, by its N-th power in its place. Where no member of the basis has
+        UNIT behind a leading monomial without it, those that have none at all are the basis: every
+        polynomial without UNIT has a remainder 0 by them alone.
+
+        Raises:
+            NotDecided: the time is not enough.
         """
-        if not self._has_unit:
-            return self.basis
-        unit = self.variables - 1
-        for p in self.basis:
-            scale = _alone(p, unit)
-            if scale:
-                instead = scale * self._context.gen(unit) - p
-                others = [q for q in self.basis if q is not p]
-                found = [_put(q, unit, instead, scale) for q in others]
-                return [q for q in found if q]
-        return [p for p in self.basis if not p.degrees()[unit]]
+        alone = Ideal(self.ring)
+        basis, weight = self.basis, 1
+        while True:
+            if self.nonzero:
+                without = [p for p in basis if not leading(p)[-1]]
+                degrees = [int(p.total_degree()) for p in without if p.degrees()[-1]]
+            else:
+                without, degrees = basis, []
+            if not degrees:
+                shorter = [_in_context(p, alone._context) for p in without]
+                return alone._with_basis(shorter, self.is_proved)
+            weight = max(2 * weight, 1 + max(degrees))
+            raised = [_with_power(p, weight) for p in self.basis]
+            basis = groebner_basis(raised, self._context)
 
     @property
+    def without_unit(self) -> list[fmpq_mpoly]:
+        """The polynomials of the basis that have no UNIT."""
+        size = len(self.ring.names)
+        free = (p for p in self.basis if not any(p.degrees()[size:]))
+        return [rational(p, self.ring) for p in free]
+
+    @property
+    def cleared(self) -> list[fmpq_mpoly]:
+        """Polynomials without UNIT whose zeros are those of the ideal, but for zeros of
+        ``nonzero``: its basis with 1/Π nonzero in place of UNIT, times a power of Π.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        context = self.ring.context
+        product = context.constant(fmpq(1))
+        for factor in self.nonzero:
+            product *= factor * integral_scale(factor)
+        size = len(self.ring.names)
+        found = []
+        for p in self.basis:
+            check_time()
+            terms = [(tuple(map(int, e)), a) for e, a in p.to_dict().items()]
+            highest = max(sum(e[size:]) for e, _ in terms)
+            total = context.constant(fmpq(0))
+            for e, a in terms:
+                monomial = context.from_dict({e[:size]: fmpq(a)})
+                total += monomial * product ** (highest - sum(e[size:]))
+            if total:
+                found.append(total)
+        return found
+
+    @cached_property
+    def polynomials(self) -> list[fmpz_mpoly]:
+        """Polynomials without UNIT whose zeros are those of the ideal, but for zeros of
+        ``nonzero``; none of them has a multiple factor, and where there are finitely many zeros
+        they generate all polynomials that vanish there.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        return self.closure.square_free.basis
+
+    @property
+    def square_free(self) -> Ideal:
+        """An ideal with the same zeros, where there are finitely many the radical: the square-free
+        polynomials in one unknown each are then enough (A. Seidenberg, *Constructions in algebra*,
+        1974). Otherwise the polynomials of its basis have no multiple factors.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        if self.dimension == 0:
+            return self._with_generators([self._in_one(k) for k in range(self.variables)])
+        parts = [without_multiples(p) for p in self.basis]
+        if all(
+            p.total_degree() == q.total_degree() for p, q in zip(parts, self.basis, strict=True)
+        ):
+            return self
+        return self._with_generators(parts).square_free
+
+    @cached_property
     def dimension(self) -> int:
         """The dimension of the set of its complex zeros; −1 where there are none.
 
         It is the largest number of unknowns of which no monomial is a leading one: each leading
         monomial has one of the others.
+
+        Raises:
+            NotDecided: the time is not enough.
         """
         if self.is_everything:
             return -1
         supports = {frozenset(_support(p)) for p in self.basis}
         return self.variables - least_meeting(supports)
 
-    @property
+    @cached_property
     def degree(self) -> int:
         """How many complex zeros there are, with multiplicities; the ideal has dimension 0."""
-        first = [leading(p) for p in self.basis]
-        return len(_standard(first, self.variables))
+        return len(self.monomials)
 
-    def quotient(self) -> list[fmpq_mat]:
-        """The algebra ℚ[t]/ideal: multiplication by each unknown as a matrix of its columns.
+    @cached_property
+    def monomials(self) -> list[Exponents]:
+        """Those that no leading one divides, the smallest first: a basis of ℚ[t]/ideal, which has
+        dimension 0.
 
-        The ideal has dimension 0.
+        Raises:
+            NotDecided: the time is not enough.
         """
-        monomials = _standard([leading(p) for p in self.basis], self.variables)
-        index = {e: k for k, e in enumerate(monomials)}
-        lower = [_monic(p) for p in self.basis]
-        matrices = []
-        for variable in range(self.variables):
-            columns = []
-            for e in monomials:
-                raised = (*e[:variable], e[variable] + 1, *e[variable + 1 :])
-                rest = _normal_form({raised: fmpq(1)}, lower)
-                column = [fmpq(0)] * len(monomials)
-                for exponents, a in rest.items():
-                    column[index[exponents]] = a
-                columns.append(column)
-            matrices.append(fmpq_mat(columns).transpose())
+        first = [leading(p) for p in self.basis]
+        found: list[Exponents] = []
+        level = [(0,) * self.variables]
+        while level:
+            found += level
+            following: dict[Exponents, None] = {}
+            for e in level:
+                check_time()
+                for raised in _raised(e):
+                    if not any(divides(x, raised) for x in first):
+                        following[raised] = None
+            level = list(following)
+        return found
+
+    @cached_property
+    def multiplications(self) -> list[fmpq_mat]:
+        """The algebra ℚ[t]/ideal: multiplication by each unknown as a matrix of its columns, in
+        the basis of ``monomials``; the ideal has dimension 0.
+
+        A monomial m on the border is a leading one, whose remainder is in the basis of the ideal,
+        or x m' with m' on the border: its remainder is x times that of m', whose monomials are
+        smaller than m'. So the border is done from the smallest monomial on, and each remainder
+        costs one product of a matrix and a column (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora,
+        1993).
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        index = {e: k for k, e in enumerate(self.monomials)}
+        size = len(index)
+        matrices = [fmpq_mat(size, size) for _ in range(self.variables)]
+        tails = {leading(p): _tail(p, index) for p in self.basis}
+        columns: dict[Exponents, fmpq_mat] = {}
+        places: dict[Exponents, list[tuple[int, int]]] = {}
+        for e, k in index.items():
+            for i, raised in enumerate(_raised(e)):
+                places.setdefault(raised, []).append((i, k))
+        for raised in sorted(places, key=degrevlex):
+            check_time()
+            if raised in index:
+                column = _unit(index[raised], size)
+            elif raised in tails:
+                column = columns[raised] = tails[raised]
+            else:
+                i, lower = next(x for x in lowered(raised) if x[1] in columns)
+                column = columns[raised] = matrices[i] * columns[lower]
+            for i, k in places[raised]:
+                for row in range(size):
+                    matrices[i][row, k] = column[row, 0]
         return matrices
 
+    def _in_one(self, variable: int) -> fmpz_mpoly:
+        """The polynomial in one unknown whose simple zeros are its values at the zeros."""
+        found = characteristic_polynomial(self.multiplications[variable])
+        p = Polynomial.from_flint(found).square_free().to_flint().numer()
+        before, after = (0,) * variable, (0,) * (self.variables - variable - 1)
+        terms = {(*before, k, *after): a for k, a in enumerate(p.coeffs()) if a}
+        return self._context.from_dict(terms)
 
-def _alone(p: fmpz_mpoly, variable: int) -> int:
-    """The coefficient of an unknown in p if no other monomial has it; else 0."""
-    having = [(e, a) for e, a in p.to_dict().items() if e[variable]]
-    if len(having) != 1:
-        return 0
-    [(exponents, a)] = having
-    return int(a) if sum(exponents) == 1 else 0
+
+MOST_ROWS = 50
+"""Characteristic polynomials of larger matrices are made in a process of their own."""
 
 
-def _put(p: fmpz_mpoly, variable: int, numerator: fmpz_mpoly, denominator: int) -> fmpz_mpoly:
-    """A primitive multiple of p with numerator/denominator in place of an unknown."""
-    context = p.context()
-    degree = p.degrees()[variable]
-    total = context.constant(0)
-    for exponents, a in p.to_dict().items():
-        k = int(exponents[variable])
-        others = (*exponents[:variable], 0, *exponents[variable + 1 :])
-        term = context.from_dict({others: a})
-        total += term * numerator**k * denominator ** (degree - k)
-    if not total:
-        return total
-    primitive: fmpz_mpoly = total.primitive()[1]
-    return primitive if primitive.leading_coefficient() > 0 else -primitive
+def characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
+    """Of a matrix of rational numbers.
+
+    Raises:
+        NotDecided: the time is not enough.
+    """
+    check_time()
+    if matrix.nrows() <= MOST_ROWS:
+        return matrix.charpoly()
+    return apart(_characteristic_polynomial, matrix)
+
+
+def _characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
+    return matrix.charpoly()
+
+
+def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
+    """The irreducible factors, each once."""
+    found: dict[str, fmpq_mpoly] = {}
+    for p in polynomials:
+        for factor, _ in p.factor()[1]:
+            found[str(factor)] = factor
+    return list(found.values())
 
 
 def integral_scale(polynomial: fmpq_mpoly) -> fmpz:
     """The common denominator of the coefficients."""
-    denominator = fmpz(1)
-    for a in polynomial.to_dict().values():
-        denominator = denominator.lcm(a.q)
-    return denominator
+    return _common([a.q for a in polynomial.coeffs()])
 
 
-_Terms: TypeAlias = dict[Exponents, fmpq]
+def _common(denominators: Iterable[fmpz]) -> fmpz:
+    common = fmpz(1)
+    for q in denominators:
+        common = common.lcm(q)
+    return common
+
+
+def rational(p: fmpz_mpoly, ring: Parameters) -> fmpq_mpoly:
+    """The same polynomial over ℚ, in the parameters; it has no UNIT."""
+    size = len(ring.names)
+    terms = {tuple(map(int, e[:size])): fmpq(a) for e, a in p.to_dict().items()}
+    return ring.context.from_dict(terms)
 
 
 def _support(p: fmpz_mpoly) -> set[int]:
@@ -257,54 +397,50 @@ def _support(p: fmpz_mpoly) -> set[int]:
     return {i for i, exponent in enumerate(leading(p)) if exponent}
 
 
-def _monic(p: fmpz_mpoly) -> tuple[Exponents, _Terms]:
-    """The leading monomial, and what it is equal to modulo p."""
-    first = leading(p)
-    scale = fmpq(p.leading_coefficient())
-    rest = {}
-    for exponents, a in p.to_dict().items():
+def without_multiples(p: Any) -> Any:
+    """The square-free part of a polynomial in several variables."""
+    product = p.context().constant(1)
+    for factor, _ in p.factor_squarefree()[1]:
+        product *= factor
+    return product
+
+
+def _with_power(p: fmpz_mpoly, power: int) -> fmpz_mpoly:
+    """A polynomial with a power of the last unknown in its place."""
+    terms = {(*e[:-1], int(e[-1]) * power): a for e, a in p.to_dict().items()}
+    return p.context().from_dict(terms)
+
+
+def _in_context(p: fmpz_mpoly, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
+    """A polynomial without the last unknowns in a context that has none of these."""
+    size = context.nvars()
+    return context.from_dict({e[:size]: a for e, a in p.to_dict().items()})
+
+
+def _raised(e: Exponents) -> list[Exponents]:
+    """A monomial times each unknown."""
+    return [(*e[:i], e[i] + 1, *e[i + 1 :]) for i in range(len(e))]
+
+
+def lowered(e: Exponents) -> Iterator[tuple[int, Exponents]]:
+    """A monomial without each of its unknowns."""
+    for i, exponent in enumerate(e):
+        if exponent:
+            yield i, (*e[:i], exponent - 1, *e[i + 1 :])
+
+
+def _tail(p: fmpz_mpoly, index: Mapping[Exponents, int]) -> fmpq_mat:
+    """What the leading monomial is equal to modulo p, as a column."""
+    column = fmpq_mat(len(index), 1)
+    scale = -fmpq(p.leading_coefficient())
+    for exponents, a in list(p.to_dict().items()):
         key = tuple(int(x) for x in exponents)
-        if key != first:
-            rest[key] = -fmpq(a) / scale
-    return first, rest
+        if key in index:
+            column[index[key], 0] = fmpq(a) / scale
+    return column
 
 
-def _standard(first: Sequence[Exponents], variables: int) -> list[Exponents]:
-    """The monomials that no leading one divides, finitely many, the constant first."""
-    found: list[Exponents] = []
-    level = [(0,) * variables]
-    while level:
-        found += level
-        following: dict[Exponents, None] = {}
-        for e in level:
-            for i in range(variables):
-                raised = (*e[:i], e[i] + 1, *e[i + 1 :])
-                if not any(divides(x, raised) for x in first):
-                    following[raised] = None
-        level = list(following)
-    return found
-
-
-def _normal_form(terms: _Terms, lower: Sequence[tuple[Exponents, _Terms]]) -> _Terms:
-    """The remainder of a polynomial on division by a monic Gröbner basis."""
-    rest: _Terms = {}
-    while terms:
-        exponents, a = terms.popitem()
-        for first, instead in lower:
-            if divides(first, exponents):
-                shift = tuple(x - y for x, y in zip(exponents, first, strict=True))
-                for e, b in instead.items():
-                    place = tuple(x + y for x, y in zip(e, shift, strict=True))
-                    _accumulate(terms, place, a * b)
-                break
-        else:
-            _accumulate(rest, exponents, a)
-    return rest
-
-
-def _accumulate(terms: _Terms, place: Exponents, a: fmpq) -> None:
-    total = terms.get(place, fmpq(0)) + a
-    if total:
-        terms[place] = total
-    else:
-        terms.pop(place, None)
+def _unit(k: int, size: int) -> fmpq_mat:
+    column = fmpq_mat(size, 1)
+    column[k, 0] = fmpq(1)
+    return column

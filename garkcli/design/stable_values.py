@@ -48,10 +48,10 @@ class StableValues:
         family: as it was read.
         whose: which method is meant.
         wanted: which stability.
-        found: the set, in ascending order. Where a point of ``undecided`` is an end, it is left
-            out; where it is inside, it is taken in.
+        found: the set, in ascending order, without the values of ``undecided``.
         undecided: single values that are left open.
         two_springs: what P-stability is meant on; None for the oscillator.
+        colour: which colour alone is driven, counted from 0; None for all of them alike.
     """
 
     family: Family
@@ -60,6 +60,7 @@ class StableValues:
     found: tuple[Interval, ...]
     undecided: tuple[RealRoot, ...]
     two_springs: TwoSprings | None = None
+    colour: int | None = None
 
     @property
     def parameter(self) -> str:
@@ -72,6 +73,13 @@ class StableValues:
         family = self.family
         wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
         return any(p.total_degree() != 0 for p in wanted)
+
+    @property
+    def has_values(self) -> bool | None:
+        """Whether there are such values; None where that is not decided."""
+        if self.found:
+            return True
+        return None if self.undecided else False
 
     @property
     def is_everything(self) -> bool:
@@ -92,13 +100,20 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
     family = design.family
     if design.last.kind != "every-value" or len(family.ring.names) > 1:
         return ()
-    asked = {x.kind for x in family.stable if x.colour is None}
-    wanted = [kind for kind in get_args(Wanted) if kind in asked]
-    return tuple(stable_values(family, key, design.whose) for key in wanted)
+    return tuple(
+        stable_values(family, kind, design.whose, colour=x.colour)
+        for kind in get_args(Wanted)
+        for x in dict.fromkeys(family.stable)
+        if x.kind == kind
+    )
 
 
 def stable_values(
-    family: Family, wanted: Wanted, whose: Whose = "method", two_springs: TwoSprings | None = None
+    family: Family,
+    wanted: Wanted,
+    whose: Whose = "method",
+    two_springs: TwoSprings | None = None,
+    colour: int | None = None,
 ) -> StableValues:
     """The set of values of the one free parameter, of those that are as the file wants them.
 
@@ -108,11 +123,13 @@ def stable_values(
             with all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
         two_springs: P-stability is meant on them.
+        colour: A- or L-stability of this colour alone, counted from 0.
 
     Raises:
         UsageProblem: the stability has no meaning for the method, there are several parameters, or
             coefficients are irrational.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        NotDecided: the time is not enough.
     """
     _refuse_others(family)
     tableau = TABLEAUS[whose](family.tableau)
@@ -121,13 +138,13 @@ def stable_values(
         oscillating = _oscillating(members, tableau, two_springs)
         found, undecided = _wanted(family, *_decided(family, oscillating))
         return StableValues(family, whose, wanted, found, undecided, two_springs)
-    kind = AStability(members, tableau)
+    kind = AStability(members, tableau, colour)
     found, undecided = _decided(family, kind)
     if wanted == "l-stable":
         found = _damped(kind, found)
         undecided = tuple(t for t in undecided if kind.is_damped(t))
     found, undecided = _wanted(family, found, undecided)
-    return StableValues(family, whose, wanted, found, undecided)
+    return StableValues(family, whose, wanted, found, undecided, colour=colour)
 
 
 def _oscillating(members: Members, tableau: Tableau, two_springs: TwoSprings | None) -> Kind:
@@ -146,9 +163,11 @@ def _decided(family: Family, kind: Kind) -> tuple[tuple[Interval, ...], tuple[Re
 
 
 def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[Interval, ...]:
-    """A set without those ends of its parts that are not decided."""
-    kept = [x for x in found if not (x.is_point and x.start in undecided)]
-    return tuple(_trimmed(interval, undecided) for interval in kept)
+    """A set without values that are not decided."""
+    if not undecided:
+        return tuple(found)
+    critical = [*_ends(found), *(Polynomial.from_flint(t.polynomial) for t in undecided)]
+    return where(lambda t: _holds_at(found, t) and t not in undecided, critical)
 
 
 def _wanted(
@@ -199,14 +218,6 @@ def _refuse_others(family: Family) -> None:
             f"there are roots among the coefficients, beside {name}",
             "write the method as a family by name, whose nodes are not needed",
         )
-
-
-def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
-    """An interval without those of its ends that are not decided."""
-    start, end = interval.start, interval.end
-    has_start = interval.has_start and start not in undecided
-    has_end = interval.has_end and end not in undecided
-    return Interval(start, end, has_start, has_end)
 
 
 class _Decision:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from flint import fmpq_mpoly, fmpz_mpoly
+
 from garkcli.design.ideal import Ideal
 from garkcli.design.solutions import Solution
 from garkcli.order.certificate import Order
@@ -46,21 +48,48 @@ class Step:
             not proved.
         witness: the first tree whose condition no value meets together with those before it; None
             where what is wanted besides the order cannot be met.
-        found: the solutions, where there are finitely many.
+        polynomials: that are zero at these values and, but for zeros of ``nonzero``, nowhere else.
+        nonzero: polynomials of which none is zero at a method, as far as ``polynomials`` do not say
+            it already.
+        real: of a family, where its real values satisfy more: an ideal with these alone.
+        polynomials_of_real: a basis of that, square-free as ``polynomials``.
+        found: the solutions, where there are finitely many; of a family the real ones.
+        is_real: of a family and of every value, whether a real value is a method of the file; None
+            where that is not decided.
     """
 
     order: int
     kind: Kind
     ideal: Ideal | None
     witness: Tree | None = None
+    polynomials: tuple[fmpq_mpoly | fmpz_mpoly, ...] = ()
+    nonzero: tuple[fmpq_mpoly, ...] = ()
+    real: Ideal | None = None
+    polynomials_of_real: tuple[fmpq_mpoly | fmpz_mpoly, ...] = ()
     found: tuple[Found, ...] = ()
+    is_real: bool | None = None
+
+    @property
+    def has_methods(self) -> bool | None:
+        """Whether methods of the file have the order; None where that is not decided."""
+        if self.kind == "undecided":
+            return None
+        if self.kind in {"every-value", "family"}:
+            return self.is_real
+        if any(x.accepted and x.order is not None for x in self.found):
+            return True
+        is_open = any(x.open for x in self.found) or (self.kind == "solutions" and not self.is_all)
+        return None if is_open else False
 
     @property
     def may_have_methods(self) -> bool:
-        """Whether there are values to go on with: of a family that is not looked into."""
-        if self.kind in {"every-value", "family"}:
-            return True
-        return any(x.accepted and x.order is not None for x in self.found)
+        """Whether there may be values to go on with."""
+        return self.kind != "undecided" and self.has_methods is not False
+
+    @property
+    def is_all(self) -> bool:
+        """Whether there are no other values, not even complex ones: that is proved."""
+        return self.ideal is not None and self.ideal.is_proved
 
     def __repr__(self) -> str:
         return f"<Step order {self.order}: {self.kind}>"

@@ -16,6 +16,7 @@ from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
 from garkcli.design.member import member
 from garkcli.design.sampling import largest_degree, through, values_without
 from garkcli.exact.field import ZERO
@@ -86,6 +87,7 @@ def through_members(
     [name] = ring.names
     denominators, numerators = [], []
     for t in points:
+        check_time()
         denominator, entries_of_step = step(member(tableau, ring, {name: t}))
         scale = _at(of_blocks, t) ** unknowns * _at(of_weights, t)
         denominators.append(denominator * scale)

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.deadline import check_time
 from garkcli.exact.isolating import precision
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
@@ -67,6 +69,7 @@ def where(
     found: list[Interval] = []
     grown: Interval | None = None
     for cell in _cells(roots, left is not None):
+        check_time()
         if holds(_sample(cell)):
             grown = cell if grown is None else _joined(grown, cell)
         elif grown is not None:
@@ -118,6 +121,7 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
         return fmpq(0)
     bits = FIRST_BITS
     while True:
+        check_time()
         low = high = None
         with precision(bits):  # of the ends of balls too
             if left is not None:
@@ -132,6 +136,13 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
         if low < high:
             return _simplest(low, high)
         bits *= 2
+
+
+def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
+    """A rational number of each open interval between the roots of polynomials, from the left."""
+    for left, right in pairwise([None, *_roots_of(polynomials), None]):
+        check_time()
+        yield between(left, right)
 
 
 def _upper(ball: arb) -> fmpq:

@@ -20,6 +20,7 @@ from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
+from garkcli.deadline import check_time
 from garkcli.exact.field import ZERO, Algebraic, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, to_flint
 
@@ -135,6 +136,7 @@ def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) 
         return []
     powers: dict[int, fmpq_mat] = {}
     for j, left in _parts(rows, field):
+        check_time()
         for k, right in parts:
             product = left * right
             power = j + k

@@ -15,6 +15,8 @@ from typing import TypeAlias, cast
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly
 
+from garkcli.deadline import check_time
+
 _NAME = re.compile(r"[A-Za-z_]\w*")
 Mixed: TypeAlias = "fmpq | Parametric"
 """A rational number or a rational function."""
@@ -96,7 +98,12 @@ class Parameters:
         return self.context.constant(number)
 
     def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
-        """The quotient in lowest terms, its denominator with leading coefficient 1."""
+        """The quotient in lowest terms, its denominator with leading coefficient 1.
+
+        Raises:
+            NotDecided: the time is not enough for what is being computed.
+        """
+        check_time()
         if self.rules:
             numerator = self.reduced(numerator)
             denominator = self.reduced(denominator)

@@ -6,7 +6,19 @@ import copyreg
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+from flint import (
+    Ordering,
+    arb,
+    ctx,
+    fmpq,
+    fmpq_mat,
+    fmpq_mpoly,
+    fmpq_mpoly_ctx,
+    fmpq_poly,
+    fmpz_mpoly,
+    fmpz_mpoly_ctx,
+    fmpz_poly,
+)
 
 Made: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
 """What makes a value again, and from what."""
@@ -27,6 +39,22 @@ def _polynomial(poly: fmpq_poly) -> Made:
 def _integer_polynomial(poly: fmpz_poly) -> Made:
     coefficients = [int(x) for x in poly.coeffs()]
     return fmpz_poly, (coefficients,)
+
+
+def _in_several(polynomial: fmpq_mpoly | fmpz_mpoly) -> Made:
+    context = polynomial.context()
+    kind = fmpq_mpoly_ctx if isinstance(polynomial, fmpq_mpoly) else fmpz_mpoly_ctx
+    terms = {tuple(map(int, e)): _plain(a) for e, a in polynomial.to_dict().items()}
+    return _in_several_of, (kind, tuple(context.names()), context.ordering(), terms)
+
+
+def _plain(number: Any) -> Any:
+    """A number of python-flint that pickle knows, or one of Python."""
+    return number if isinstance(number, fmpq) else int(number)
+
+
+def _in_several_of(kind: Any, names: tuple[str, ...], ordering: Ordering, terms: Any) -> Any:
+    return kind.get(names, ordering).from_dict(terms)
 
 
 def _matrix(matrix: fmpq_mat) -> Made:
@@ -62,3 +90,5 @@ def register() -> None:
     copyreg.pickle(fmpq_poly, _polynomial)
     copyreg.pickle(fmpq_mat, _matrix)
     copyreg.pickle(fmpz_poly, _integer_polynomial)
+    copyreg.pickle(fmpq_mpoly, _in_several)
+    copyreg.pickle(fmpz_mpoly, _in_several)

@@ -7,6 +7,7 @@ from typing import Self
 
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz_poly
 
+from garkcli.deadline import check_time
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, coordinates
 
@@ -99,6 +100,7 @@ class Polynomial:
         length = len(self.coefficients) + len(right.coefficients)
         product: list[Number] = [ZERO] * length
         for i, a in enumerate(self.coefficients):
+            check_time()
             for k, b in enumerate(right.coefficients, start=i):
                 product[k] = product[k] + a * b
         return Polynomial(product)
@@ -132,6 +134,7 @@ class Polynomial:
         length = max(self.degree - divisor.degree + 1, 0)
         quotients: list[Number] = [ZERO] * length
         for k in reversed(range(len(quotients))):
+            check_time()
             factor = rest[k + divisor.degree] * inverse
             quotients[k] = factor
             for j, b in enumerate(divisor.coefficients, start=k):
@@ -212,6 +215,7 @@ def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
 
 def _norm_of(number: Number, field: NumberField) -> fmpq:
     """The norm of an element of a field over ℚ."""
+    check_time()
     d = field.degree
     theta = fmpq_poly([0, 1])
     rows = []
@@ -240,12 +244,14 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
     """
     table = list(values)
     for k in range(1, len(points)):
+        check_time()
         for i in reversed(range(k, len(points))):
             distance = points[i] - points[i - k]
             difference = table[i] - table[i - 1]
             table[i] = difference / distance
     result = Polynomial([])
     for point, difference in zip(reversed(points), reversed(table), strict=True):
+        check_time()
         x_minus_point = Polynomial([-point, ONE])
         result = result * x_minus_point + difference
     return result

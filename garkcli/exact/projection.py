@@ -13,6 +13,8 @@ from itertools import combinations
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
+from garkcli.deadline import check_time
+from garkcli.exact.apart import apart
 from garkcli.exact.polynomial import Polynomial
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
@@ -42,6 +44,7 @@ def projected(found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynom
     critical: list[fmpq_mpoly] = []
     crossing = []
     for curve in found:
+        check_time()
         degree, _ = curve.degrees()
         if degree == 0:
             critical.append(curve)
@@ -52,9 +55,46 @@ def projected(found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynom
             y = PLANE.constant(end)
             critical.append(curve.compose(y, t))
         if degree > 1:
-            critical.append(curve.discriminant("y"))
-    critical += [f.resultant(g, "y") for f, g in combinations(crossing, 2)]
+            critical.append(discriminant(curve))
+    critical += [resultant(f, g) for f, g in combinations(crossing, 2)]
     return [in_t(p) for p in critical if p]
+
+
+LARGE = 30_000
+"""Work, as the cube of the degree that goes times the other, that is done in a process apart."""
+
+
+def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
+    """The discriminant with respect to y.
+
+    Raises:
+        NotDecided: the time is not enough.
+    """
+    check_time()
+    y, t = p.degrees()
+    return p.discriminant("y") if y**3 * t <= LARGE else apart(_discriminant, p)
+
+
+def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
+    """The resultant with respect to y, or to t.
+
+    Raises:
+        NotDecided: the time is not enough.
+    """
+    check_time()
+    largest = [max(degrees) for degrees in zip(p.degrees(), q.degrees(), strict=True)]
+    gone, left = largest if variable == "y" else reversed(largest)
+    if gone**3 * left <= LARGE:
+        return p.resultant(q, variable)
+    return apart(_resultant, p, q, variable)
+
+
+def _discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
+    return p.discriminant("y")
+
+
+def _resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str) -> fmpq_mpoly:
+    return p.resultant(q, variable)
 
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:
@@ -77,6 +117,12 @@ def in_t(p: fmpq_mpoly) -> Polynomial:
     powers = {k: c for (_, k), c in p.to_dict().items()}
     highest = max(powers, default=-1)
     return Polynomial([powers.get(k, 0) for k in range(highest + 1)])
+
+
+def in_y(p: fmpq_mpoly) -> Polynomial:
+    """A polynomial in y alone."""
+    powers = {int(j): a for (j, _), a in p.to_dict().items()}
+    return Polynomial([powers.get(j, fmpq(0)) for j in range(max(powers) + 1)])
 
 
 def at_y(p: fmpq_mpoly, y: fmpq) -> Polynomial:

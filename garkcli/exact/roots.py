@@ -11,6 +11,7 @@ from functools import total_ordering
 
 from flint import arb, fmpq, fmpz_poly
 
+from garkcli.deadline import check_time
 from garkcli.exact.isolating import isolated, precision
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.signs import FIRST_BITS as FIRST_BITS
@@ -69,6 +70,7 @@ class RealRoot:
             return self.number < other.number
         bits = FIRST_BITS
         while True:
+            check_time()
             mine = self.ball(bits)
             theirs = other.ball(bits)
             if mine < theirs or mine > theirs:
@@ -97,6 +99,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     found: list[tuple[RealRoot, int]] = []
     _, factors = p.norm().factor()
     for factor, power in factors:
+        check_time()
         primitive = factor if factor[factor.degree()] > 0 else -factor
         balls = isolated(_integers(primitive), FIRST_BITS)
         for number in range(len(balls)):
@@ -133,6 +136,7 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
         return 0
     bits = 2 * FIRST_BITS
     while True:
+        check_time()
         with precision(bits):
             ball = p.enclosed_at(root.ball(bits))
         if ball > 0 or ball < 0:
@@ -155,6 +159,7 @@ def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
     other = q // g
     bits = FIRST_BITS
     while True:
+        check_time()
         with precision(bits):
             ball = root.ball(bits)
             if not g.enclosed_at(ball).contains(0):

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 from flint import fmpq, fmpq_poly
 
+from garkcli.deadline import check_time
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
 
@@ -19,6 +20,7 @@ def sign(number: Number) -> int:
         return (number > 0) - (number < 0)
     digits = FIRST_BITS * 3 // 10
     while True:
+        check_time()
         ball = to_ball(number, digits)
         if ball > 0 or ball < 0:
             return 1 if ball > 0 else -1

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat
 
+from garkcli.deadline import check_time
 from garkcli.exact.echelon import leading_columns, pivot_columns
 from garkcli.exact.field import ONE
 
@@ -41,6 +42,7 @@ class AffineSpan:
 
     def insert(self, points: Sequence[Sequence[fmpq]]) -> list[int]:
         """Insert ``points`` from left to right; the indices of those that enlarged the span."""
+        check_time()
         if not points or self.is_full:
             return []
         candidates = fmpq_mat([[ONE, *point] for point in points])

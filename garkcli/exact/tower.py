@@ -16,6 +16,8 @@ from itertools import count
 
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
 
+from garkcli.deadline import check_time
+
 _X = fmpq_poly([0, 1])
 
 
@@ -47,6 +49,7 @@ class Tower:
         """
         multiply_y, multiply_theta = self._multiplications(relation)
         for k in count():
+            check_time()
             generator = multiply_y + multiply_theta * k
             characteristic = fmpq_poly(generator.charpoly().coeffs())
             common = characteristic.gcd(characteristic.derivative())

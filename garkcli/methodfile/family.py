@@ -10,25 +10,11 @@ from flint import fmpq_mpoly
 
 from garkcli.design.wants.want import numerators, sign_polynomial
 from garkcli.errors import MethodError
-from garkcli.exact.field import ZERO
-from garkcli.exact.parametric import Parameters, Parametric, common_denominator
-from garkcli.methodfile.description import (
-    ArkText,
-    ButcherText,
-    ClaimText,
-    ConstructionText,
-    Description,
-    FamilyText,
-    MethodsText,
-    PrkText,
-    Structure,
-    TableauText,
-    left_behind,
-)
+from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.methodfile.description import ClaimText, Description, Structure, left_behind
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
 from garkcli.methodfile.nodes import Extent, extent
-from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
 from garkcli.methodfile.words import one_line
@@ -139,7 +125,6 @@ def _family(
     ranges = {name: values.ends(x) for name, x in free.items()}
     source.close()
     poles = _cancelled(values.domain.divisors, tableau, ring, free)
-    zeros = (*_of_nodes(description, tableau), *numerators(meaning.zeros, ring))
     return FamilyFile(
         source=source.name,
         text=source.text,
@@ -150,7 +135,7 @@ def _family(
         parameters=tuple(free),
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
-        relations=zeros,
+        relations=tuple(numerators(meaning.zeros, ring)),
         nonzero=(*meaning.nonzero, *poles),
         positive=_signs(meaning.positive, ring),
         not_negative=_signs(meaning.not_negative, ring),
@@ -218,48 +203,6 @@ def _cancelled(
 def _signs(numbers: Sequence[object], ring: Parameters) -> tuple[fmpq_mpoly, ...]:
     """Polynomials with the signs of rational functions."""
     return tuple(sign_polynomial(x, ring) for x in numbers)
-
-
-def _of_nodes(description: Description, tableau: Tableau) -> Iterator[fmpq_mpoly]:
-    """Where a node is given and it or its row is unknown: the node minus the sum of the row."""
-    for l in _with_given_nodes(description):
-        colour = tableau.colours[l]
-        rows = colour.space
-        # of a pair (q, p) the stages of a colour have the block of the other one
-        block = tableau.blocks.get((rows, l))
-        block = block or tableau.blocks.get((rows, 1 - l))
-        if block is None:
-            continue
-        for node, row in zip(colour.c, block, strict=True):
-            difference: object = node - sum(row, start=ZERO)
-            if isinstance(difference, Parametric):
-                yield difference.numerator
-
-
-def _with_given_nodes(description: Description) -> list[int]:
-    """The colours whose nodes stand in the file."""
-    content = description.content
-    is_general = description.structure == "general"
-    given: Sequence[object]
-    match content:
-        case TableauText():
-            given = content.c
-        case ArkText():
-            given = [content.c] * len(content.A)
-        case PrkText() if is_general:
-            given = [content.q.c, content.p.c]
-        case PrkText():
-            # the rows of q.A are the stages of the forces
-            given = [content.p.c, content.q.c]
-        case MethodsText() if is_general:
-            given = [_given_nodes(method) for method in content.methods]
-        case MethodsText() | ConstructionText():
-            given = []
-    return [l for l, nodes in enumerate(given) if nodes is not None]
-
-
-def _given_nodes(method: ButcherText | FamilyText) -> Row | None:
-    return method.c if isinstance(method, ButcherText) else None
 
 
 def _shape(reader: Reader) -> tuple[Extent, str] | None:

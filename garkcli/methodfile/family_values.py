@@ -41,22 +41,32 @@ class FamilyValues(Values):
         self._evaluate(numbers, self.domain)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
-        """Between which rational numbers a parameter may lie; an end that is none is noted, and a
-        range without a number in it.
+        """Between which rational numbers a parameter lies, by all of its ranges; an end that is
+        none is noted, and where no number is left.
         """
-        smallest, largest = self._end(free.smallest), self._end(free.largest)
-        if smallest is None or largest is None or smallest <= largest:
-            return smallest, largest
-        assert free.largest is not None
-        place = free.largest
-        message = f"{place.where}: no number is in [{smallest}, {largest}]"
-        cure = f"the smaller end stands first: [{largest}, {smallest}]"
-        self.numbers.source.fault(place.node, message, cure)
-        return smallest, largest
+        least = greatest = None
+        for ends in free.ranges:
+            smallest, largest = map(self._end, ends)
+            if smallest is None or largest is None:
+                continue
+            if smallest > largest:
+                message = f"{ends[1].where}: no number is in [{smallest}, {largest}]"
+                cure = f"the smaller end stands first: [{largest}, {smallest}]"
+                self.numbers.source.fault(ends[1].node, message, cure)
+                continue
+            before = f"[{least}, {greatest}]"
+            least = smallest if least is None else max(least, smallest)
+            greatest = largest if greatest is None else min(greatest, largest)
+            if least > greatest:
+                message = (
+                    f"{ends[1].where}: no number is in [{smallest}, {largest}] and in {before}"
+                )
+                cure = "change one of the two ranges of the parameter"
+                self.numbers.source.fault(ends[1].node, message, cure)
+                return None, None
+        return least, greatest
 
-    def _end(self, entry: Entry | None) -> fmpq | None:
-        if entry is None:
-            return None
+    def _end(self, entry: Entry) -> fmpq | None:
         value = self._plain(entry.expression)
         if value is None:
             message = f"{entry.where}: a rational number is expected"

@@ -47,14 +47,13 @@ Rows: TypeAlias = tuple[Row, ...]
 
 @dataclass(frozen=True)
 class Free:
-    """A parameter without a value, and where it may lie; None where there is no bound.
+    """A parameter without a value, and the ranges that it lies in, each with two ends.
 
     ``where`` is the entry of a tableau that it stands for, empty for a parameter with a name.
     """
 
     node: Node
-    smallest: Entry | None = None
-    largest: Entry | None = None
+    ranges: tuple[tuple[Entry, Entry], ...] = ()
     where: str = ""
 
 

@@ -67,20 +67,19 @@ def _free(numbers: Numbers, node: Node, where: str) -> Free:
         source.fault(node, message, cure)
     if "range" not in entries:
         return Free(node)
-    ends = read_range(numbers, entries["range"], f"{where}, range")
-    return Free(node, *ends)
+    return Free(node, read_range(numbers, entries["range"], f"{where}, range"))
 
 
-def read_range(numbers: Numbers, node: Node, where: str) -> tuple[Entry | None, Entry | None]:
-    """The two ends of a range; None where it is faulty."""
+def read_range(numbers: Numbers, node: Node, where: str) -> tuple[tuple[Entry, Entry], ...]:
+    """The two ends of a range, as the only one; none where it is faulty."""
     ends = numbers.source.items(node, where)
     if len(ends) != 2:
         message = f"{where}: a range has two ends"
         numbers.source.fault(node, message, "write [1/4, 1]")
-        return None, None
+        return ()
     smallest, largest = (numbers.entry(end, where) for end in ends)
     del numbers.entries[-2:]  # they are no coefficients
-    return smallest, largest
+    return ((smallest, largest),)
 
 
 def refuse_free(numbers: Numbers) -> None:

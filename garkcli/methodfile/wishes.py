@@ -8,10 +8,10 @@ from typing import Any
 
 from yaml.nodes import MappingNode, Node
 
-from garkcli.design.groebner import NotDecided
+from garkcli.deadline import until
 from garkcli.design.wants.registry import WANTS, find_want
 from garkcli.design.wants.want import Asked, Meaning, Want
-from garkcli.errors import GarkError, counted, did_you_mean
+from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.numbers import Entry, Free, Numbers
@@ -105,14 +105,14 @@ def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, En
 
 
 def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
-    """``range: {gamma: [1/4, 1]}``: where unknowns without a line of their own may lie."""
+    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
     entries = source.mapping(node, "design: range", (), form=FORM)
     for name, value in entries.items():
         where = f"design: range: {name}"
         if name in numbers.free:
             known = numbers.free[name]
-            ends = read_range(numbers, value, where)
-            numbers.free[name] = Free(known.node, *ends, where=known.where)
+            ranges = (*known.ranges, *read_range(numbers, value, where))
+            numbers.free[name] = Free(known.node, ranges, known.where)
         elif name not in numbers.settings:
             cure = did_you_mean(name, list(numbers.free))
             source.fault(value, f"{where} is no unknown of the file", cure)
@@ -195,8 +195,8 @@ def meaning_of(
         value = wish.value
         number = values.number(value) if isinstance(value, Entry) else value
         try:
-            asked = Asked(tableau, ring, number, colours, deadline)
-            meanings.append(wish.want.meaning(asked))
+            with until(deadline):
+                meanings.append(wish.want.meaning(Asked(tableau, ring, number, colours)))
         except NotDecided:
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple, get_args
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Whose
 from garkcli.design.minimise.result import Minimum
-from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
 from garkcli.design.step import Found, Kind, Step
 from garkcli.page.exactly import ALGEBRAIC, root_data
@@ -27,6 +26,7 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report import minimum_data
+from garkcli.report.design_values import conditions, zeros
 from garkcli.report.stable_values import set_data, set_schema
 from garkcli.trees.notation import format_tree
 
@@ -108,13 +108,9 @@ class _Root(NamedTuple):
     @property
     def values(self) -> dict[str, object]:
         """The parameters."""
-        solution = self.found.solution
-        root = solution.real[self.number]
-        values = {}
-        for name in self.shown.design.family.parameters:
-            value = value_at(solution.values[name], root)
-            values[name] = root_data(value, self.shown.digits)
-        return values
+        values = self.found.solution.real_values[self.number]
+        names = self.shown.design.family.parameters
+        return {name: root_data(values[name], self.shown.digits) for name in names}
 
 
 def _order(found: Found) -> int | None:
@@ -165,13 +161,25 @@ def _solutions(shown: _Shown, found: Found) -> list[dict[str, Any]]:
 
 
 def _ideal(found: _StepOf) -> list[str] | None:
-    ideal = found.step.ideal
-    return None if ideal is None else [str(p) for p in ideal.polynomials]
+    step = found.step
+    if step.ideal is None or step.kind == "undecided":
+        return None
+    return zeros(found.shown.design.family, step.polynomials)
+
+
+def _restrictions(found: _StepOf) -> list[str]:
+    return conditions(found.shown.design.family, found.step)
+
+
+def _real(found: _StepOf) -> list[str] | None:
+    if found.step.real is None:
+        return None
+    return zeros(found.shown.design.family, found.step.polynomials_of_real)
 
 
 def _dimension(found: _StepOf) -> int | None:
-    ideal = found.step.ideal
-    return None if ideal is None else ideal.dimension
+    step = found.step
+    return None if step.ideal is None or step.kind == "undecided" else step.ideal.dimension
 
 
 def _is_complete(found: _StepOf) -> bool | None:
@@ -188,7 +196,10 @@ _SOLUTION: Schema = one_of(_REAL.schema, _NOT_REAL.schema)
 _STEP: Record[_StepOf] = Record(
     Field("order", POSITION, lambda x: x.step.order),
     Field("verdict", {"enum": [*get_args(Kind)]}, lambda x: x.step.kind),
+    Field("reached", nullable(FLAG), lambda x: x.step.has_methods),
     Field("ideal", array(TEXT), _ideal, is_optional=True),
+    Field("restrictions", array(TEXT), _restrictions),
+    Field("real_ideal", array(TEXT), _real, is_optional=True),
     Field("dimension", INTEGER, _dimension, is_optional=True),
     Field("complete", FLAG, _is_complete, is_optional=True),
     Field("solutions", array(_SOLUTION), lambda x: x.solutions),

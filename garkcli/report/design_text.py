@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import groupby
 from textwrap import wrap
 
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design
-from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
 from garkcli.design.step import Found, Step
 from garkcli.errors import counted
@@ -16,10 +16,12 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.page.plain import printable
+from garkcli.report.design_values import conditions, zeros
 from garkcli.report.stable_values import set_lines
 from garkcli.trees.notation import format_tree
 
 INDENT = " " * 17
+ZEROS = "the zeros, real and complex, of"
 MAX_POLYNOMIALS = 12
 """Most polynomials of a family that are shown; JSON has all."""
 _ONE_BY_ONE = ("solutions", "none", "undecided")
@@ -68,7 +70,7 @@ def render(
     lines += wrap(unknowns, width, initial_indent="  ", subsequent_indent="  ")
     lines += [f"  {_left(choice)}" for choice in choices]
     lines.append("")
-    for _, group in groupby(design.steps, key=_kind_of):
+    for _, group in groupby(design.steps, key=partial(_likeness, design)):
         steps = list(group)
         lines += _of_steps(design, steps, digits, width)
     for values in sets:
@@ -82,16 +84,18 @@ def render(
 
 def _left(choice: Choice) -> str:
     """What a choice leaves."""
+    value = f"{choice.name} = {choice.value}"
+    if choice.before < 0:
+        return f"{value}: no method of order {choice.order} is left to choose from"
     left = "no method" if choice.after < 0 else f"dimension {choice.after}"
-    before = f"of order {choice.order}, dimension {choice.before}"
-    return f"{choice.name} = {choice.value} leaves {left} {before}"
+    return f"{value} leaves {left} of order {choice.order}, dimension {choice.before}"
 
 
-def _kind_of(step: Step) -> tuple[str, tuple[str, ...]]:
+def _likeness(design: Design, step: Step) -> tuple[object, ...]:
     """What steps have in common that are shown as one."""
-    if step.ideal is None:
-        return step.kind, ()
-    return step.kind, tuple(map(str, step.ideal.polynomials))
+    texts = zeros(design.family, step.polynomials)
+    where = conditions(design.family, step)
+    return step.kind, step.is_real, tuple(texts), tuple(where)
 
 
 def _of_steps(design: Design, steps: Sequence[Step], digits: int, width: int) -> Iterator[str]:
@@ -101,14 +105,20 @@ def _of_steps(design: Design, steps: Sequence[Step], digits: int, width: int) ->
     step = steps[-1]
     match step.kind:
         case "every-value":
-            yield f"{head}every value"
+            where = conditions(design.family, step)
+            lines = wrap(f"every value{_where(where)}", width - len(INDENT), break_on_hyphens=False)
+            yield f"{head}{lines[0]}"
+            yield from (INDENT + line for line in lines[1:])
+            yield from _real(design, step, digits, width)
         case "none":
             yield f"{head}no value"
             yield from _witness(design, step, width)
         case "undecided":
             yield f"{head}not decided in the time of --seconds"
             if step.ideal is not None:
-                said = "msolve finds that no value has it, which is no proof"
+                said = "which values have it is not worked out in that time"
+                if step.ideal.is_everything:
+                    said = "msolve finds that no value has it, which is no proof"
                 yield from _said(said, width)
             unsettled = design.family.unsettled
             if unsettled:
@@ -116,12 +126,17 @@ def _of_steps(design: Design, steps: Sequence[Step], digits: int, width: int) ->
             else:
                 yield from _said(UNDECIDED, width)
         case "family":
-            yield f"{head}{_family(step)}"
-            yield from _polynomials(step, width)
+            assert step.ideal is not None
+            yield f"{head}a family of dimension {step.ideal.dimension}: {ZEROS}"
+            yield from _polynomials(zeros(design.family, step.polynomials), width)
+            where = conditions(design.family, step)
+            if where:
+                yield from _said(_where(where).strip(), width)
+            yield from _real(design, step, digits, width)
         case "solutions":
             count = sum(x.solution.degree for x in step.found)
-            yield f"{head}{counted(count, 'solution')} of"
-            yield from _polynomials(step, width)
+            yield f"{head}{counted(count, 'solution')}: {ZEROS}"
+            yield from _polynomials(zeros(design.family, step.polynomials), width)
             for found in step.found:
                 yield from _solutions(design, found, digits, width)
     if step.ideal is not None and not step.ideal.is_proved and step.kind != "undecided":
@@ -146,20 +161,39 @@ def _said(text: str, width: int) -> Iterator[str]:
         yield INDENT + line
 
 
-def _family(step: Step) -> str:
-    assert step.ideal is not None
-    dimension = step.ideal.dimension
-    return f"a family of dimension {dimension}: the zeros, real and complex, of"
+def _where(texts: Sequence[str]) -> str:
+    """What else is true of values, in words; nothing where nothing is."""
+    if not texts:
+        return ""
+    *others, last = texts
+    return f" where {', '.join(others)} and {last}" if others else f" where {last}"
 
 
-def _polynomials(step: Step, width: int) -> Iterator[str]:
-    assert step.ideal is not None
-    polynomials = step.ideal.polynomials
+def _real(design: Design, step: Step, digits: int, width: int) -> Iterator[str]:
+    """What is known of the real values of a family, where these are not a family too."""
+    if step.real is not None and step.real.is_everything:
+        yield from _said("none of them is real", width)
+        return
+    if step.real is not None:
+        yield from _said("its real values are the real zeros of", width)
+        texts = zeros(design.family, [*step.polynomials_of_real])
+        yield from _polynomials(texts, width)
+        for found in step.found:
+            yield from _solutions(design, found, digits, width)
+    elif step.is_real is False:
+        yield from _said("no real value of them is a method that the file admits", width)
+    if step.is_real is None:
+        yield from _said(
+            "whether a real value of them is a method that the file admits is not decided", width
+        )
+
+
+def _polynomials(polynomials: Sequence[str], width: int) -> Iterator[str]:
     indent = INDENT + "  "
     shown: list[str] = []
     more = len(polynomials)
     for p in polynomials[:MAX_POLYNOMIALS]:
-        lines = wrap(str(p), width, initial_indent=indent, subsequent_indent=indent + "  ")
+        lines = wrap(p, width, initial_indent=indent, subsequent_indent=indent + "  ")
         if shown and len(shown) + len(lines) > MAX_LINES:
             break
         shown += lines
@@ -172,12 +206,11 @@ def _polynomials(step: Step, width: int) -> Iterator[str]:
 def _solutions(design: Design, found: Found, digits: int, width: int) -> Iterator[str]:
     solution = found.solution
     times = _TIMES.get(solution.multiplicity, f"; {solution.multiplicity} times")
-    for index, root in enumerate(solution.real):
+    for index in range(len(solution.real)):
         said = f"{_verdict(design, found, index)}{times}"
         yield from _said(said, width)
         for name in design.family.parameters:
-            value = value_at(solution.values[name], root)
-            yield from _value(name, value, digits, width)
+            yield from _value(name, solution.real_values[index][name], digits, width)
     others = solution.degree - len(solution.real)
     if others:
         noun = "solution" if others == 1 else "solutions"
@@ -189,13 +222,13 @@ def _verdict(design: Design, found: Found, index: int) -> str:
         return "no method: a weight or a denominator is zero there"
     order = _order(design, found)
     if index in found.unstable:
-        kinds = " and ".join(map(str, design.family.stable))
+        kinds = " and ".join(x.in_words(design.tableau) for x in design.family.stable)
         return f"{order}; not {kinds}, which is wanted"
     if index in found.open:
-        return f"{order}; stability not decided, as its field is too large"
+        return f"{order}; stability not decided: its field is too large, or the time too short"
     if index not in found.accepted:
         return "not of this file: out of a range, a sign not wanted, or another root"
-    stable = "".join(f", {kind}" for kind in design.family.stable)
+    stable = "".join(f", {kind.in_words(design.tableau)}" for kind in design.family.stable)
     return f"{order}, by a certificate of its own{stable}"
 
 

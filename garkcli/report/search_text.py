@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from textwrap import wrap
 
-from garkcli.design.search.run import Result
+from garkcli.design.search.run import Ending, Result
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import Method
 from garkcli.errors import counted
@@ -47,9 +47,16 @@ def render(
     return "\n".join(lines) + "\n"
 
 
+_ENDINGS: dict[Ending, str] = {
+    "interrupt": "interrupted",
+    "time": "the time of --seconds was over",
+    "worker": "a process was lost",
+}
+
+
 def _summary(result: Result) -> str:
     starts = counted(result.starts, "start")
-    end = ", then interrupted" if result.is_interrupted else ""
+    end = "" if result.ending is None else f", then {_ENDINGS[result.ending]}"
     return f"{result.successes} of {starts} solve the conditions in floats{end}"
 
 

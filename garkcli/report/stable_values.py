@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from textwrap import wrap
-from typing import Any
+from typing import Any, get_args
 
 from garkcli.design.springs_kind import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
@@ -16,13 +16,9 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
 from garkcli.page.schema import FLAG, POSITION, TEXT, Schema, array, nullable, one_of, published
+from garkcli.tableau.family import Stability
 
 SCHEMA = "gark/design-stability/1"
-_STABLE: dict[Wanted, str] = {
-    "p-stable": "P-stable",
-    "a-stable": "A-stable",
-    "l-stable": "L-stable",
-}
 
 
 def render_text(source: str, values: StableValues, digits: int, width: int) -> str:
@@ -42,7 +38,8 @@ def render_text(source: str, values: StableValues, digits: int, width: int) -> s
 def set_lines(values: StableValues, digits: int, width: int) -> list[str]:
     """The set, without its file."""
     name = values.parameter
-    stable = _STABLE[values.wanted]
+    wanted = Stability(values.wanted, values.colour)
+    stable = wanted.in_words(values.family.tableau)
     lines: list[str] = []
     if values.two_springs is not None:
         stable = "stable"
@@ -51,18 +48,23 @@ def set_lines(values: StableValues, digits: int, width: int) -> list[str]:
         stable += ", and as the file wants it,"
     if not values.found:
         none = "no value that is decided" if values.undecided else "no value"
-        lines += [f"  the {values.whose} is {stable} for {none} of {name}"]
+        lines += _said(f"the {values.whose} is {stable} for {none} of {name}", width)
     elif values.is_everything:
-        lines += [f"  the {values.whose} is {stable} for every value of {name}"]
+        lines += _said(f"the {values.whose} is {stable} for every value of {name}", width)
     else:
-        lines += [f"  the {values.whose} is {stable} for exactly", ""]
+        end = "for" if values.undecided else "for exactly"
+        lines += [*_said(f"the {values.whose} is {stable} {end}", width), ""]
         for interval in values.found:
             lines += _interval(interval, name, digits, width)
     if values.undecided:
-        lines += ["", "  not decided, as the fields of the coefficients are too large"]
+        lines += ["", "  and it is not decided, as fields are too large, for"]
         for root in values.undecided:
             lines += _point(root, name, digits, width)
     return lines
+
+
+def _said(text: str, width: int) -> list[str]:
+    return wrap(text, width, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)
 
 
 def _springs_text(two_springs: TwoSprings) -> str:
@@ -140,6 +142,7 @@ def render_json(source: str, values: StableValues, digits: int) -> str:
         "of": values.whose,
         "unknowns": [values.parameter],
         "wanted": values.wanted,
+        "colour": _colour(values),
         "springs": _springs_data(values.two_springs),
         "set": found,
         "undecided": [root_data(root, digits) for root in values.undecided],
@@ -151,15 +154,20 @@ def set_data(values: StableValues, digits: int) -> dict[str, Any]:
     """The set as a part of another report."""
     return {
         "wanted": values.wanted,
+        "colour": _colour(values),
         "set": [_interval_data(x, digits) for x in values.found],
         "undecided": [root_data(root, digits) for root in values.undecided],
     }
 
 
+def _colour(values: StableValues) -> int | None:
+    return None if values.colour is None else values.colour + 1
+
+
 def set_schema() -> Schema:
     """The JSON Schema of ``set_data``."""
     properties = stable_values_schema()["properties"]
-    parts = ("wanted", "set", "undecided")
+    parts = ("wanted", "colour", "set", "undecided")
     return _object({name: properties[name] for name in parts})
 
 
@@ -187,7 +195,8 @@ def stable_values_schema() -> Schema:
             "name": TEXT,
             "of": {"enum": ["method", "conjugate", "pair"]},
             "unknowns": array(TEXT),
-            "wanted": {"enum": list(_STABLE)},
+            "wanted": {"enum": [*get_args(Wanted)]},
+            "colour": nullable(POSITION),
             "springs": nullable(_object({"slow": TEXT, "fast": POSITION, "up_to": nullable(TEXT)})),
             "set": array(one_of(point, _object(ends))),
             "undecided": array(ALGEBRAIC),

@@ -20,14 +20,14 @@ class Radical:
     Attributes:
         name: of the unknown.
         relation: a polynomial that is zero at it.
-        is_positive: whether only its positive zero is meant: that of an even root.
+        is_even: whether it is an even root: of its zeros the one is meant that is not negative.
         meant: the zero that is meant, where it is one of several real ones.
         text, latex: the root as it is written.
     """
 
     name: str
     relation: fmpq_mpoly
-    is_positive: bool = False
+    is_even: bool = False
     meant: RealRoot | None = None
     text: str = ""
     latex: str = ""
@@ -50,6 +50,13 @@ class Stability:
         name = self.kind[0].upper() + self.kind[1:]
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
+    def in_words(self, tableau: Tableau) -> str:
+        """The same, and which vector fields are meant where a method has several colours."""
+        if tableau.size == 1 or self.kind == "p-stable":
+            return str(self)
+        fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
+        return f"{self} ({fields})"
+
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Family:
@@ -62,8 +69,7 @@ class Family:
         parameters: the names of the free parameters.
         ranges: for each the least and the greatest value it may have, None where there is none.
         radicals: the roots among the coefficients.
-        relations: polynomials that are zero at every method of it, such as a given node minus
-            the sum of its row, and what else is wanted of them.
+        relations: polynomials that are zero at every method that is wanted of it.
         nonzero: polynomials that are zero at none.
         positive: those that are positive at the solutions that are taken.
         not_negative: those that are at least 0 there.

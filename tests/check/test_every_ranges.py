@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from garkcli.check.deciding import Analysis, analyse
 from garkcli.check.every_family import EveryFamily, every_family
 from garkcli.check.every_ranges import Range, can_vanish
+from garkcli.errors import MethodError
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
@@ -29,9 +30,9 @@ def ordinary(text: str, values: dict[str, str]) -> Analysis:
     return analyse(loads(text, settings=values).tableau, LIMIT)
 
 
-def made(text: str) -> EveryFamily:
-    """The family of a text."""
-    return every_family(loads_family(text, is_design=False))
+def made(text: str, is_design: bool = False) -> EveryFamily:
+    """The family of a text, with what it wants under ``design`` or without."""
+    return every_family(loads_family(text, is_design=is_design))
 
 
 def test_lost_conjugates_of_several_parameters(tmp_path: object) -> None:
@@ -165,22 +166,25 @@ def _number(text: str | None) -> fmpq | None:
 
 
 def test_range_of_a_parameter_that_follows(tmp_path: object) -> None:
-    """A parameter that others fix keeps its range: the one without a range is put in, as the nodes
-    are within [0, 1] then, and two ranges meet.
-    """
-    text = """parameters: {t: {free: true, range: [0, 1]}, a: free}
-A: [[0, 0], [a, 0]]
+    """The nodes are within [0, 1] as their parameter is; one that others fix keeps its range."""
+    text = """parameters: {t: {free: true, range: [0, 1]}}
+A: [[0, 0], [1/2, 0]]
 b: [0, 1]
 c: [0, t]
 expect: {nodes-in-unit-interval: true}
 """
     assert checked(tmp_path, text).exit_code == 0
-    both = text.replace("a: free", "a: {free: true, range: [-3, 3]}")
-    both = both.replace("c: [0, t]", "c: [0, 1 - 2*t]")
-    ranges = {name: tuple(map(str, ends)) for name, ends in made(both).family.ranges.items()}
-    assert ranges in ({"t": ("0", "1")}, {"a": ("-1", "1")})
-    outcome = checked(tmp_path, both)
+    outcome = checked(tmp_path, text.replace("c: [0, t]", "c: [0, 1 - 2*t]"))
     assert [x.holds for x in outcome.claims] == [False]
+    both = """parameters: {t: {free: true, range: [0, 1]}, a: {free: true, range: [-3, 3]}}
+A: [[0, 0], [a, 0]]
+b: [0, 1]
+c: [0, 1 - 2*t]
+design: {consistent: true}
+"""
+    every = made(both, is_design=True)
+    ranges = {name: tuple(map(str, ends)) for name, ends in every.family.ranges.items()}
+    assert ranges in ({"t": ("0", "1")}, {"a": ("-1", "1")})
 
 
 def test_ranges_that_meet_in_one_number() -> None:
@@ -192,8 +196,9 @@ def test_ranges_that_meet_in_one_number() -> None:
 A: [[0, 0], [a, 0]]
 b: [1 - s, s]
 c: [0, t]
+design: {consistent: true}
 """
-    every = made(text)
+    every = made(text, is_design=True)
     assert every.family.parameters == ("s",)
     assert str(every.tableau.colours[0].c[1]) == "1"
 
@@ -206,9 +211,7 @@ c: [0, t]
         ("a", "t", "the ranges leave no value of"),
     ],
 )
-def test_ranges_that_cannot_be_kept_are_refused(
-    entry: str, node: str, message: str, tmp_path: object
-) -> None:
+def test_ranges_that_cannot_be_kept_are_refused(entry: str, node: str, message: str) -> None:
     """Nothing is said for every value of what is outside of a range, or may be."""
     text = f"""parameters:
   t: {{free: true, range: [1, 2]}}
@@ -218,10 +221,12 @@ def test_ranges_that_cannot_be_kept_are_refused(
 A: [[0, 0], [{entry}, 0]]
 b: [1 - s, s]
 c: [0, {node}]
+design: {{consistent: true}}
 """
-    [fault] = checked(tmp_path, text).faults
-    assert message in fault.message
-    assert fault.help
+    with pytest.raises(MethodError) as refused:
+        made(text, is_design=True)
+    assert message in refused.value.message
+    assert refused.value.help
 
 
 def test_zeros_keep_the_range_of_what_they_fix() -> None:

@@ -151,15 +151,17 @@ def test_witness_has_its_polynomial(tmp_path: object) -> None:
     assert "symplectic       no; yes where g = 1/4" in text
 
 
-def test_unknown_entries_have_values_that_follow(tmp_path: object) -> None:
-    """A given node fixes an unknown of its row; what the others are free for is told."""
+def test_given_nodes_are_data(tmp_path: object) -> None:
+    """A given node fixes no unknown of its row: the order is that for every entry, and where the
+    row sums are the nodes is said.
+    """
     text = 'A: [[0, 0], ["?", "?"]]\nb: ["?", "?"]\nc: [0, 2/3]\n'
     outcome = checked(tmp_path, text)
     every = outcome.every
     assert every is not None
-    assert len(every.parameters) == 3
+    assert len(every.parameters) == 4
     assert every.order.fact.zeros == ("b1 + b2 - 1",)
-    assert every.inconsistent.value == ()
+    assert every.inconsistent.value == ((0, 0),)
 
 
 def test_roots_of_numbers_stay_what_they_are(tmp_path: object) -> None:
@@ -183,10 +185,10 @@ def test_roots_of_parameters_are_refused(tmp_path: object) -> None:
     assert "--set" in outcome.faults[0].help
 
 
-def test_nodes_that_leave_no_method_are_refused(tmp_path: object) -> None:
-    """A given node fixes a parameter where a denominator is zero: bad input, with the entry."""
-    text = "parameters: {t: free, s: free}\nA: [[0, 0], [1/2, 0]]\n"
-    text += "b: [1 - s, s/(2*t - 1)]\nc: [0, t]\n"
+def test_ranges_that_leave_no_method_are_refused(tmp_path: object) -> None:
+    """A range has one number, and a denominator is zero there: bad input, with the entry."""
+    text = "parameters: {t: {free: true, range: [1/2, 1/2]}, s: free}\nA: [[0, 0], [1/2, 0]]\n"
+    text += "b: [1 - s, s/(2*t - 1)]\n"
     outcome = checked(tmp_path, text)
     [fault] = outcome.faults
     assert (outcome.exit_code, "denominator" in fault.message) == (2, True)

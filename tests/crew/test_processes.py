@@ -6,6 +6,7 @@ import math
 import multiprocessing
 import os
 import signal
+import sys
 from collections.abc import Callable
 from multiprocessing.connection import Connection, Pipe
 from typing import Any
@@ -13,7 +14,8 @@ from typing import Any
 import pytest
 
 from garkcli.crew import processes
-from garkcli.crew.processes import Crew, start_method
+from garkcli.crew.processes import Crew
+from garkcli.exact.apart import start_method
 from tests.had import needs_fork
 
 
@@ -53,7 +55,7 @@ def test_how_processes_begin(monkeypatch: pytest.MonkeyPatch) -> None:
     ):
         methods = ["fork", "spawn"] if can_fork else ["spawn"]
         monkeypatch.setattr(multiprocessing, "get_all_start_methods", lambda x=methods: x)
-        monkeypatch.setattr(processes.sys, "platform", platform)
+        monkeypatch.setattr(sys, "platform", platform)
         assert start_method() == method
     monkeypatch.undo()
     assert start_method() in known()

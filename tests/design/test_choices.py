@@ -27,6 +27,10 @@ def test_each_choice_says_what_it_leaves(tmp_path: Path) -> None:
     data = json.loads(none.out)
     dimensions = [(x["dimension_before"], x["dimension"]) for x in data["choices"]]
     assert (none.code, dimensions) == (1, [(2, 1), (1, -1)])
+    lost = gark(*command, "--choose", "c2=1/3", "--choose", "a32=0", "--choose", "c3=1")
+    assert "a32 = 0 leaves no method of order 3, dimension 1" in lost.out
+    assert "c3 = 1: no method of order 3 is left to choose from" in lost.out
+    assert "dimension -1" not in lost.out
 
 
 @pytest.mark.parametrize(

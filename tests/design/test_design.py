@@ -15,13 +15,14 @@ from flint import Ordering, fmpq, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli import find_order, loads, pair
-from garkcli.design import conditions
+from garkcli import deadline, find_order, loads, pair
+from garkcli.deadline import until
 from garkcli.design.chosen import first_method
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
-from garkcli.design.groebner import NotDecided, reduced_basis
+from garkcli.design.groebner import reduced_basis
 from garkcli.design.solutions import value_at
+from garkcli.errors import NotDecided
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.report import design_data, design_text
 from tests.cli.harness import gark
@@ -273,12 +274,11 @@ def test_conditions_are_given_up_in_time(monkeypatch: pytest.MonkeyPatch) -> Non
     expected = texts(FamilyConditions(family.tableau, family.ring))
     for steps in range(9):
         readings = count()
-        monkeypatch.setattr(conditions, "monotonic", lambda now=readings: next(now))
         made = FamilyConditions(family.tableau, family.ring)
-        made.deadline = steps
-        with pytest.raises(NotDecided):
-            texts(made)
-        made.deadline = None
+        with monkeypatch.context() as patched, until(steps):
+            patched.setattr(deadline, "monotonic", lambda now=readings: next(now))
+            with pytest.raises(NotDecided):
+                texts(made)
         assert texts(made) == expected
 
 

@@ -26,7 +26,8 @@ from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.run import Result, Solution, results
 from garkcli.design.search.search import BITS, Search
 from garkcli.design.search.snap import values_near
-from garkcli.design.search.told import decimals
+from garkcli.design.search.told import Method, decimals
+from garkcli.errors import NotDecided
 from garkcli.exact.field import Algebraic
 from garkcli.methodfile.family import FamilyFile
 from garkcli.order.conditions import elementary_weight
@@ -434,11 +435,20 @@ def test_nothing_found_and_misuse(tmp_path: Path) -> None:
         assert word in wrong.err
 
 
-@pytest.mark.parametrize(("end", "code"), [(KeyboardInterrupt(), 130), (WorkerLost("lost"), 3)])
-def test_an_interrupt_keeps_what_is_found(
-    end: BaseException, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("end", "code", "said"),
+    [
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (WorkerLost("lost"), 3, "a process was lost"),
+        (NotDecided(), 0, "the time of --seconds was over"),
+    ],
+)
+def test_an_end_in_the_middle_keeps_what_is_found(
+    end: BaseException, code: int, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Interrupted in the second proof, or a worker lost: the first method is reported and written."""
+    """Interrupted in the second proof, a worker lost or the time over: the first method is reported
+    and written.
+    """
     path = tmp_path / "family.yaml"
     path.write_text(SDIRK2, encoding="utf-8")
     work: Callable[..., Any] = Alone.as_they_come
@@ -455,5 +465,59 @@ def test_an_interrupt_keeps_what_is_found(
     arguments = ["--order", "3", "--search", "9", "--emit-all", str(tmp_path / "out")]
     run = gark("design", str(path), *arguments)
     assert run.code == code
-    assert "interrupted" in run.out
+    assert f"then {said}" in run.out
     assert len(list((tmp_path / "out").iterdir())) == 1
+
+
+@pytest.mark.parametrize("end", [KeyboardInterrupt(), NotDecided(), WorkerLost("lost")])
+def test_an_end_before_a_find_leaves_the_file(
+    end: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where nothing is found yet, the file of --emit stays what it was."""
+    path, kept = tmp_path / "family.yaml", tmp_path / "kept.gark.yaml"
+    path.write_text(SDIRK2, encoding="utf-8")
+    kept.write_text("what was there\n", encoding="utf-8")
+
+    def ended(*_: object) -> Any:
+        raise end
+
+    monkeypatch.setattr(Alone, "as_they_come", ended)
+    arguments = ["--order", "3", "--search", "9", "--emit", str(kept)]
+    assert gark("design", str(path), *arguments).code in {3, 130}
+    assert kept.read_text(encoding="utf-8") == "what was there\n"
+    assert sorted(x.name for x in tmp_path.iterdir()) == ["family.yaml", "kept.gark.yaml"]
+
+
+def test_the_file_is_of_what_is_proved_most(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a numerical find and an exact one after it --emit writes the exact one."""
+    path, made = tmp_path / "family.yaml", tmp_path / "made.gark.yaml"
+    path.write_text(SDIRK2, encoding="utf-8")
+    work: Callable[..., Any] = Solution.result
+    first: list[object] = []
+
+    def weaker(self: Solution, search: Search) -> object:
+        found = work(self, search)
+        assert isinstance(found, Method)
+        if first:
+            return found
+        first.append(found)
+        digits = {"g": "0.7886751345948128822545743902509787278238"}
+        return replace(found, proof="numerical", values=digits, residual="1e-246")
+
+    monkeypatch.setattr(Solution, "result", weaker)
+    arguments = ["--order", "3", "--search", "9", "--emit", str(made)]
+    run = gark("design", str(path), *arguments)
+    assert run.out.index("numerical: residuals") < run.out.index("exact: order 3")
+    assert "# exact: order: 3" in made.read_text(encoding="utf-8")
+    assert gark("check", str(made)).code == 0
+
+
+def test_seconds_end_a_search(tmp_path: Path) -> None:
+    """A search ends with --seconds, with what was found by then: nothing, and exit code 3."""
+    path = tmp_path / "family.yaml"
+    path.write_text(SDIRK2, encoding="utf-8")
+    many = ["--order", "3", "--search", "1000000", "--seconds", "1e-9"]
+    run = gark("design", str(path), *many)
+    assert (run.code, "the time of --seconds was over" in run.out) == (3, True)

@@ -78,6 +78,7 @@ def test_known_sets(text: str, wanted: Wanted, known: list[object] | None) -> No
 
 
 IMPLICIT = "parameters: {t: free}\nA: [[t]]\nb: [1]\n"
+CONSISTENT = IMPLICIT + "c: [1/8]\ndesign: {consistent: true}\n"
 DIAGONAL = "parameters: {t: free}\nA: [[1, 0], [0, 1]]\nb: [t, 1 - t]\n"
 
 
@@ -85,20 +86,21 @@ DIAGONAL = "parameters: {t: free}\nA: [[1, 0], [0, 1]]\nb: [t, 1 - t]\n"
     ("text", "known"),
     [
         (IMPLICIT, [("1/2", None, True, False)]),
-        (IMPLICIT + "c: [1/8]\n", []),
-        (IMPLICIT + "c: [3/4]\n", [("3/4", "3/4", True, True)]),
+        (IMPLICIT + "c: [1/8]\n", [("1/2", None, True, False)]),
+        (CONSISTENT, []),
+        (CONSISTENT.replace("1/8", "3/4"), [("3/4", "3/4", True, True)]),
         (IMPLICIT + "design: {fix: {t: 1/8}}\n", []),
         (DIAGONAL + "design: {positive-weights: true}\n", [("0", "1", False, False)]),
         (IMPLICIT + "design: {nodes-in-unit-interval: true}\n", [("1/2", "1", True, True)]),
     ],
 )
 def test_what_the_file_wants_as_well(text: str, known: list[object]) -> None:
-    """Given nodes, fixed values and signs that are wanted cut the set as ranges do: R(z) of one
-    stage is that of the θ-method.
+    """Nodes that are to be row sums, fixed values and signs that are wanted cut the set as ranges
+    do, nodes that are data do not: R(z) of one stage is that of the θ-method.
     """
     values = found(text, "a-stable")
     assert texts(values) == known
-    assert values.has_wishes is (text != IMPLICIT)
+    assert values.has_wishes is ("design" in text)
 
 
 @pytest.mark.parametrize(
@@ -240,7 +242,7 @@ def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:
     path.write_text(f"{IMPLICIT}design: {{order: 2}}\n", encoding="utf-8")
     one = gark("design", str(path), "--a-stable")
     assert (one.code, "t = 1/2" in one.out) == (0, True)
-    path.write_text(f"{IMPLICIT}c: [1/8]\n", encoding="utf-8")
+    path.write_text(CONSISTENT, encoding="utf-8")
     none = gark("design", str(path), "--a-stable")
     wanted = "A-stable, and as the file wants it, for no value of t"
     assert (none.code, wanted in none.out) == (1, True)
@@ -261,3 +263,93 @@ def test_ends_that_are_algebraic_numbers(tmp_path: Path) -> None:
     assert run.code == 0
     assert "≤ t" in run.out
     assert "a root of" in run.out
+
+
+SEVENTH = "1 + (t**7 - t - 1)**2"
+INSIDE = f"""parameters: {{t: free}}
+methods: [{{family: gauss, stages: 1}}, {{family: lobatto-iiia, stages: 3}}]
+transfer: {{interpolation: "{SEVENTH}", collocation: "1 - ({SEVENTH})"}}
+"""
+
+
+def test_a_value_inside_that_is_not_decided(tmp_path: Path) -> None:
+    """With τ = 1 + p(t)², P-stable for every t as it is for τ ≥ 1, the root of p of degree 7 is not
+    decided: it is no part of the set, in text and JSON, and "exactly" is not said.
+    """
+    path = tmp_path / "inside.yaml"
+    path.write_text(INSIDE, encoding="utf-8")
+    values = found(INSIDE, "p-stable")
+    [root] = values.undecided
+    assert root.polynomial.degree() == 7
+    assert [(x.start, x.end) for x in values.found] == [(None, root), (root, None)]
+    assert not any(x.has_start or x.has_end for x in values.found)
+    run = gark("design", str(path), "--p-stable")
+    assert run.code == 0
+    assert "exactly" not in run.out
+    assert "and it is not decided, as fields are too large, for" in run.out
+    data = json.loads(gark("design", str(path), "--p-stable", "--format", "json").out)
+    assert [x["from_included"] or x["to_included"] for x in data["set"]] == [False, False]
+    only = INSIDE.replace("{t: free}", "{t: {free: true, range: [1, 2]}}")
+    assert [x.has_start for x in found(only, "p-stable").found] == [True, False]
+
+
+IMEX = """parameters: {g: free}
+ark:
+  A: [[[0, 0], [1/2, 0]], [[g, 0], [1 - 2*g, g]]]
+  b: [1/2, 1/2]
+"""
+
+
+@pytest.mark.parametrize(
+    ("options", "said", "known"),
+    [
+        (["--colour", "2"], "A-stable in colour 2 (the others with λ = 0)", True),
+        (["--colour", "1"], "A-stable in colour 1 (the others with λ = 0)", False),
+        ([], "A-stable (all colours with one λ)", None),
+    ],
+)
+def test_one_colour_of_several(
+    options: list[str], said: str, known: bool | None, tmp_path: Path
+) -> None:
+    """Colour 2 alone is the SDIRK method of its own, colour 1 is explicit; all with one λ is the
+    method whose matrix is the sum of both, and each is said.
+    """
+    path = tmp_path / "imex.yaml"
+    path.write_text(IMEX, encoding="utf-8")
+    run = gark("design", str(path), "--a-stable", *options)
+    assert said in " ".join(run.out.split())
+    data = json.loads(gark("design", str(path), "--a-stable", *options, "--format", "json").out)
+    assert data["colour"] == (int(options[1]) if options else None)
+    alone = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+    if known is None:
+        # y' = λ y + λ y: the sums of both matrices and weights
+        both = alone.replace("[[g, 0], [1 - 2*g, g]]", "[[g, 0], [3/2 - 2*g, g]]")
+        both = both.replace("b: [1/2, 1/2]", "b: [1, 1]")
+        assert texts(found(IMEX, "a-stable")) == texts(found(both, "a-stable"))
+        return
+    values = stable_values(loads_family(IMEX), "a-stable", colour=int(options[1]) - 1)
+    assert texts(values) == (texts(found(alone, "a-stable")) if known else [])
+    assert run.code == (0 if known else 1)
+
+
+def test_solutions_that_are_stable_in_one_colour(tmp_path: Path) -> None:
+    """--colour beside --order is the wish of the file, and its verdict names the colour; a colour
+    that is not there, or no kind of stability, is refused.
+    """
+    path = tmp_path / "imex.yaml"
+    text = IMEX.replace("[[0, 0], [1/2, 0]]", "[[0, 0], [1, 0]]")
+    path.write_text(text, encoding="utf-8")
+    option = gark("design", str(path), "--order", "2", "--l-stable", "--colour", "2")
+    path.write_text(f"{text}design: {{l-stable: {{2: true}}}}\n", encoding="utf-8")
+    wish = gark("design", str(path), "--order", "2")
+    assert option.out == wish.out
+    assert "L-stable in colour 2" in wish.out
+    assert option.code == wish.code == 0
+    path.write_text(text, encoding="utf-8")
+    for options, said in (
+        (["--a-stable", "--colour", "3"], "no colour 3"),
+        (["--p-stable", "--colour", "1"], "--colour goes with"),
+        (["--colour", "1"], "--colour goes with"),
+    ):
+        refused = gark("design", str(path), *options)
+        assert (refused.code, said in refused.err) == (2, True)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 
 import pytest
+from flint import fmpq
 
 from garkcli import find_order, loads
+from garkcli.check.analysis import inconsistent_blocks
 from garkcli.design.chosen import first_method
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
@@ -50,14 +52,44 @@ def test_entries_are_named_by_their_place() -> None:
     assert sorted(loads_family(prk).parameters) == names
 
 
-def test_given_nodes_are_conditions() -> None:
-    """With c₂ given the one method of order 2 is found; a node of its own is no freedom more."""
-    text = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\nc: [0, {}]\n'
+NODES = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\nc: [0, {}]\n'
+
+
+def test_given_nodes_are_data() -> None:
+    """As in ``gark check``, order conditions do not depend on nodes: the methods of order 2 are
+    those without them, one with other row sums among them, and ``gark check`` says order 2 of it.
+    """
+    found = find_parameters(loads_family(NODES.format("1/3")), 2)
+    without = find_parameters(loads_family(NODES.replace("c: [0, {}]\n", "")), 2)
+    assert dimensions(found) == dimensions(without) == [2, 1]
+    values = {"a21": "1", "b1": "1/2", "b2": "1/2"}
+    taken = find_parameters(loads_family(NODES.format("1/3"), settings={"a21": "1"}), 2)
+    (one,) = taken.last.found
+    assert {x: str(one.solution.values[x]) for x in ("b1", "b2")} == {"b1": "1/2", "b2": "1/2"}
+    method = loads(NODES.format("1/3"), settings=values)
+    assert find_order(method).order == 2
+    assert inconsistent_blocks(method.tableau) == ((0, 0),)
+
+
+def test_nodes_that_are_wanted_as_row_sums() -> None:
+    """``consistent``: with c₂ given the one method of order 2 is found; a node of its own is no
+    freedom more. Of two colours each block is meant, or those of the rows that are named.
+    """
+    text = NODES + "design: {{consistent: true}}\n"
     found = find_parameters(loads_family(text.format("1/3")), 2)
     (one,) = found.last.found
     assert list(map(str, one.solution.values.values())) == ["1/3", "-1/2", "3/2"]
     free = find_parameters(loads_family(text.format('"?"')), 2)
     assert dimensions(free) == [2, 1]
+    blocks = 'A: [[[["?"]], [["?"]]], [[["?"]], [["?"]]]]\nb: [[1], [1]]\nc: [[1/2], [1/3]]\n'
+    for wish, expected in (("true", ["1/2", "1/2", "1/3", "1/3"]), ("{2: true}", ["1/3", "1/3"])):
+        family = loads_family(f"{blocks}design: {{consistent: {wish}}}\n")
+        fixed = find_parameters(family, 1).last
+        assert fixed.ideal is not None
+        assert fixed.ideal.dimension == 4 - len(expected)
+        for name, value in zip(sorted(family.parameters)[-len(expected) :], expected, strict=True):
+            p, q = map(int, value.split("/"))
+            assert fixed.ideal.contains(family.ring.parameter(name).numerator - fmpq(p, q))
 
 
 @pytest.mark.parametrize("form", ["entries", "shape"])

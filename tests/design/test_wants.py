@@ -122,6 +122,27 @@ def test_nodes_are_filtered_by_exact_signs() -> None:
     assert taken(inside, "a21") == [1]
 
 
+def test_ranges_that_meet() -> None:
+    """A range under ``design`` and that of the parameter both hold; without a number in both the
+    file is refused.
+    """
+    text = """parameters: {{g: {{free: true, range: [{}]}}}}
+A: [[g, 0], [1 - 2*g, g]]
+b: [1/2, 1/2]
+design: {{range: {{g: [1/4, 1]}}}}
+"""
+    for own, ends, expected in (
+        ("0, 1/2", ("1/4", "1/2"), []),
+        ("1/2, 2", ("1/2", "1"), [0.7886751346]),
+        ("0, 2", ("1/4", "1"), [0.7886751346]),
+    ):
+        family = loads_family(text.format(own))
+        assert tuple(map(str, family.ranges["g"])) == ends
+        assert taken(find_parameters(family, 3), "g") == pytest.approx(expected)
+    with pytest.raises(MethodFileError, match=r"no number is in \[1/4, 1\] and in \[0, 1/8\]"):
+        loads_family(text.format("0, 1/8"))
+
+
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [

@@ -104,7 +104,7 @@ def test_a_design_says_what_was_found() -> None:
     family = garkcli.loads_family(FAMILY)
     design = garkcli.find_parameters(family)
     shown = lines(design._repr_html_())
-    assert "order 1 to 2   every value" in shown
+    assert "order 1 to 2   every value where t ≠ 0" in shown
     shown = lines(garkcli.minimise(design, "error")._repr_html_())
     assert "t = 2/3" in shown
 

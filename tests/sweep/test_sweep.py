@@ -19,8 +19,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import analyse, loads
-from garkcli.crew.processes import start_method
 from garkcli.errors import MethodFileError, UsageProblem
+from garkcli.exact.apart import start_method
 from garkcli.plots.sweep_plot import sweep_figure
 from garkcli.report.schemas import report_schema
 from garkcli.report.sweep import SweepReport

@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import product
-from time import monotonic
 from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from garkcli.design.groebner import NotDecided
+from garkcli.deadline import check_time
 
 Point: TypeAlias = tuple[fmpq, ...]
 Rank: TypeAlias = Callable[[Point], Any]
@@ -40,14 +39,13 @@ MOVES = 64
 """With one step: a value that is still better then may get better for ever, and it ends there."""
 
 
-def climbed(rank: Rank, coordinates: int, deadline: float | None = None) -> Point | None:
+def climbed(rank: Rank, coordinates: int) -> Point | None:
     """A point that none of its neighbours is better than, or that ``MOVES`` moves led to; None
     where the grid has no method.
 
     Args:
         rank: of a point.
         coordinates: up to 4.
-        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
 
     Raises:
         NotDecided: it takes too long.
@@ -55,8 +53,7 @@ def climbed(rank: Rank, coordinates: int, deadline: float | None = None) -> Poin
 
     @cache
     def known(point: Point) -> Any:
-        if deadline is not None and monotonic() > deadline:
-            raise NotDecided
+        check_time()
         return rank(point)
 
     values = [_rational(x) for x in GRID[coordinates]]

@@ -11,7 +11,6 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 from garkcli.design.admissible import is_admissible
 from garkcli.design.design import Design, order_of
-from garkcli.design.groebner import NotDecided
 from garkcli.design.member import member, value_of
 from garkcli.design.minimise.climbing import GRID, climbed
 from garkcli.design.minimise.line import Conditions
@@ -21,6 +20,7 @@ from garkcli.design.minimise.repeats import without_repeats
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.step import Found, Step
+from garkcli.errors import NotDecided
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one
@@ -45,7 +45,8 @@ class Comparison(ABC):
         limits: values that are approached.
         gradients: the numerators of derivatives, by the coordinate.
         parts: of the solution set.
-        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
+        share: the reading of ``time.monotonic`` until which critical points are looked for by
+            Gröbner bases; None for no limit.
     """
 
     design: Design
@@ -56,7 +57,7 @@ class Comparison(ABC):
     limits: list[Limit] = field(default_factory=list)
     gradients: list[tuple[str, Polynomial]] = field(default_factory=list)
     parts: list[Part] = field(default_factory=list)
-    deadline: float | None = None
+    share: float | None = None
 
     def result(self) -> Minimum:
         """The best of what was collected."""
@@ -190,7 +191,7 @@ class Comparison(ABC):
                 return None
             return (rank(self.value_of(solution, 0)),)
 
-        return climbed(ranked, len(names), self.deadline)
+        return climbed(ranked, len(names))
 
     def at_point(self, part: Part, point: tuple[fmpq, ...]) -> Solution | None:
         """The method at rational coordinates; None where there is none within the ranges."""

@@ -13,8 +13,9 @@ from math import comb
 
 from flint import fmpq_mpoly
 
-from garkcli.design.groebner import NotDecided
+from garkcli.deadline import check_time
 from garkcli.design.minimise.parts import Part
+from garkcli.errors import NotDecided
 
 MOST_MINORS = 200
 """Equations that are written down at most."""
@@ -45,6 +46,7 @@ def critical_equations(
         rows = [gradient]
         rows += [[p.derivative(i) for i in range(size)] for p in chosen]
         for columns in combinations(range(size), codimension + 1):
+            check_time()
             minor = [[row[j] for j in columns] for row in rows]
             zeros.append(_determinant(minor))
     return zeros

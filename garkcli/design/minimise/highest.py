@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from flint import fmpq
+
 from garkcli.design.member import member
 from garkcli.design.minimise.comparison import Comparison, at_root
 from garkcli.design.minimise.levels import MOST_DEGREE, height, on_levels
@@ -54,18 +56,19 @@ class Highest(Comparison):
         [name] = part.ring.names
         tableau = self.tableau(part)
 
-        def level(t: Number) -> Size:
+        def level(t: fmpq) -> Size:
             return self.objective.value(member(tableau, part.ring, {name: t}))
 
-        curves = self.objective.curves(tableau, part.ring)
-        found = on_levels(level, curves, self.conditions(part))
+        signs = self.objective.signs(tableau, part.ring)
+        found = on_levels(level, signs, self.conditions(part))
         if not found.is_decided:
             self.extent = "found"
         for one in found.attained:
             solution = self.whole(part, at_root(name, one.t))
             known = Found(solution, None, (one.t.number,))
-            is_constant = found.is_greatest and one.is_sample
-            candidate = Candidate(one.level, known, one.t.number, is_constant)
+            # between critical numbers levels are monotone: the greatest is one of a constant
+            is_constant = one.is_sample and not found.limits
+            candidate = Candidate(found.greatest, known, one.t.number, is_constant)
             self.candidates.append(candidate)
         for toward in found.limits:
             self.limits.append(Limit(toward.value, name, toward))

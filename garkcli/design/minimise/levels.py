@@ -1,12 +1,13 @@
 """The greatest level on a part of the line, exactly.
 
-The level L(t) is the first y > 0 at which the sign of a polynomial p(y, t) changes, or 0, or
-infinite. Between the t of ``garkcli.exact.projection`` and those where a curve p = 0 has a
+The level L(t) is the first y > 0 at which signs of polynomials p(y, t) end what holds from 0 on, or
+0, or infinite. Between the t of ``garkcli.exact.projection`` and those where a curve p = 0 has a
 horizontal tangent L is one branch of a curve, and that is monotone. So the greatest value is
-reached at such a t, or it is approached there without being reached: L may jump. That is then
-decided once more, without this argument: with the greatest value m found so far, L − m has one sign
-between the t at which p(m, t) = 0 for some p, and one t each decides. L at a critical t itself is
-computed there, or nothing is said of it.
+reached at such a t, or it is approached there without being reached: L may jump. At the t
+themselves, whatever their degree, L is that of ``garkcli.exact.fibre``.
+
+With a greatest value m of small degree that is then decided once more, without this argument:
+L − m has one sign between the t at which p(m, t) = 0 for some p, and one t each decides.
 """
 
 from __future__ import annotations
@@ -14,33 +15,37 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
+from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
 from garkcli.design.minimise.line import Conditions, Toward
-from garkcli.design.minimise.objective import ORIGIN, Size
-from garkcli.exact.cells import Point, between
-from garkcli.exact.field import ZERO, Number
+from garkcli.design.minimise.objective import ORIGIN, Signs, Size
+from garkcli.exact.cells import Point, between, sign_of
+from garkcli.exact.fibre import Fibre, Root
+from garkcli.exact.field import ZERO
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import PLANE, curves, in_t, projected
-from garkcli.exact.root_number import number_of
-from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.exact.projection import PLANE, at_y, curves, in_t, in_y, projected, resultant
+from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
 
+TRIALS = 16
+"""Numbers below the greatest level at which a smaller one may be seen."""
 MOST_DEGREE = 6
-"""Parameters and levels of a larger degree are not put into methods."""
+"""Greatest levels of a larger degree are not put into polynomials."""
+_Level: TypeAlias = "RealRoot | Root | None"
+"""A level; that on a fibre is known to any number of digits."""
 
 
 @dataclass(frozen=True)
 class HighAt:
-    """The level at an allowed number.
+    """The greatest level, at an allowed number.
 
     Attributes:
-        level: there.
         t: the number.
         is_sample: whether it is one of an interval without critical numbers.
     """
 
-    level: Size
     t: RealRoot
     is_sample: bool = False
 
@@ -50,17 +55,17 @@ class Levels:
     """What there is to be compared.
 
     Attributes:
-        attained: the greatest level at critical numbers and between them, once for each interval.
+        greatest: the greatest level that is attained; None for infinity.
+        attained: where: at critical numbers and between them, once for each interval; nowhere where
+            no number is allowed.
         limits: of a larger one that is approached where it is not attained.
-        is_decided: whether nothing larger is to be found.
-        is_greatest: whether no interval has a larger one: at a sample with the greatest level it
-            is then the same nearby.
+        is_decided: whether the level is known at every critical number.
     """
 
+    greatest: Size
     attained: tuple[HighAt, ...]
     limits: tuple[Toward, ...]
     is_decided: bool
-    is_greatest: bool = False
 
 
 def height(level: Size) -> tuple[bool, RealRoot]:
@@ -68,148 +73,183 @@ def height(level: Size) -> tuple[bool, RealRoot]:
     return level is None, ORIGIN if level is None else level
 
 
-def on_levels(
-    level: Callable[[Number], Size], polynomials: Sequence[fmpq_mpoly], allowed: Conditions
-) -> Levels:
-    """The candidates for the greatest level.
+def on_levels(level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> Levels:
+    """The greatest level.
 
     Args:
-        level: of one value of the parameter t.
-        polynomials: at whose zeros (y, t) the level can be.
+        level: of one rational value of the parameter t, by the ordinary engine.
+        signs: what decides it in the plane.
         allowed: which t.
     """
-    found = curves(polynomials)
-    ends = allowed.polynomials
-    critical = [*projected(found, [ZERO]), *_stationary(found), *ends]
-    attained = []
-    open_points = set()
-    points = _roots(critical)
-    for t in _in_turn(points):
-        if not allowed.hold(t):
-            continue
-        if not isinstance(t, RealRoot):
-            root = RealRoot.rational(t)
-            attained.append(HighAt(level(t), root, is_sample=True))
-            continue
-        number = number_of(t, MOST_DEGREE)
-        if number is None:
-            open_points.add(t)
-        else:
-            attained.append(HighAt(level(number), t))
-    is_decided = not open_points
+    line = _Line(level, signs, allowed)
+    attained = sorted(line.attained(), key=lambda pair: pair[0].t)
     if not attained:
-        return Levels((), (), is_decided)
-    greatest = max((x.level for x in attained), key=height)
-    best = _representatives(attained, greatest)
-    if greatest is None:
-        return Levels(best, (), is_decided=True, is_greatest=True)
-    crossing = _crossing(found, greatest)
-    if crossing is None:
-        return Levels(best, (), is_decided=False)
-    points = _roots([*critical, *crossing])
-    for left, right in _cells(points):
-        sample = between(left, right)
-        if allowed.hold(sample) and height(level(sample)) > height(greatest):
-            limits = tuple(
-                toward
-                for toward in _approached(level, found, allowed, critical)
-                if height(toward.value) > height(greatest) and toward.end not in open_points
-            )
-            return Levels(best, limits, is_decided)
-    # the sign of L − m decides between critical t, not what L is at one that was left out
-    return Levels(best, (), is_decided, is_greatest=True)
+        return Levels(ORIGIN, (), (), line.is_decided)
+    greatest, best = _greatest(attained)
+    limits: tuple[Toward, ...] = ()
+    if greatest is not None and line.may_exceed(greatest):
+        limits = tuple(
+            toward for toward in line.approached() if height(toward.value) > height(greatest)
+        )
+    return Levels(greatest, best, limits, line.is_decided)
 
 
-def _approached(
-    level: Callable[[Number], Size],
-    found: Sequence[fmpq_mpoly],
-    allowed: Conditions,
-    critical: Sequence[Polynomial],
-) -> tuple[Toward, ...]:
-    """The limits at ends of intervals, allowed or not, where the level grows towards these."""
-    limits = []
-    for left, right in _cells(_roots(critical)):
-        if not allowed.hold(between(left, right)):
-            continue
-        for end, is_right in ((left, False), (right, True)):
-            near = _Near(level, found, critical, (left, right), is_right)
-            if near.is_growing():
-                limits.append(Toward(near.limit(), end, is_right))
-    return tuple(limits)
+class _Line:
+    """The t-axis with what is critical on it."""
 
+    def __init__(self, level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> None:
+        self.level = level
+        self.signs = signs
+        self.allowed = allowed
+        self.found = curves(signs.polynomials)
+        critical = [*projected(self.found, [ZERO]), *_stationary(self.found)]
+        self.critical = [*critical, *allowed.polynomials]
+        self.points = _roots(self.critical)
+        self.is_decided = True
 
-class _Near:
-    """The levels near an end of a cell.
+    def attained(self) -> Iterator[tuple[HighAt, _Level]]:
+        """The level at every critical number that is allowed, and at one of each interval; 0 at
+        irrational numbers where it is less than another one, or not decided.
+        """
+        irrational = []
+        most: Size = ORIGIN
+        for t in _in_turn(self.points):
+            check_time()
+            if not self.allowed.hold(t):
+                continue
+            is_sample = not isinstance(t, RealRoot)
+            root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
+            if root.exact is None:
+                irrational.append(root)
+                continue
+            level = self.level(root.exact)
+            most = max(most, level, key=height)
+            yield HighAt(root, is_sample), level
+        for root in irrational:
+            yield HighAt(root), ORIGIN if self._is_less(root, most) else self._at(root)
 
-    A branch comes near to a zero of the coefficient of the highest power of t at infinity, of
-    p(y, t) at another end t, or to infinity. Near enough to the end no branch crosses any of these.
-    """
+    def _is_less(self, t: RealRoot, most: Size) -> bool:
+        """Whether some y below a level is seen not to be within that at a critical number."""
+        if most is None:
+            return True
+        top = between(ORIGIN, most) if most > ORIGIN else ZERO
+        tried = (top * k / TRIALS for k in range(TRIALS, 0, -1))
+        return any(not self._holds(t, y) for y in tried if y)
 
-    def __init__(
-        self,
-        level: Callable[[Number], Size],
-        found: Sequence[fmpq_mpoly],
-        critical: Sequence[Polynomial],
-        cell: tuple[RealRoot | None, RealRoot | None],
-        is_right: bool,
-    ) -> None:
+    def _holds(self, t: RealRoot, y: fmpq) -> bool:
+        return self.signs.holds([sign_of(at_y(p, y), t) for p in self.signs.polynomials])
+
+    def _at(self, t: RealRoot) -> _Level:
+        """The level at a critical number."""
+        check_time()
+        fibre = Fibre(t, self.found)
+        if self.signs.common and fibre.have_common_zero(self.signs.common):
+            self.is_decided = False
+            return ORIGIN
+        found = fibre.first_failure(self.signs.polynomials, self.signs.holds)
+        return RealRoot.rational(found) if isinstance(found, fmpq) else found
+
+    def may_exceed(self, m: RealRoot) -> bool:
+        """Whether levels between critical numbers may be larger than the greatest that is attained:
+        not where one number of each interval decides it.
+        """
+        crossing = _crossing(self.found, m)
+        if crossing is None:
+            return True
+        cells = _cells(_roots([*self.critical, *crossing]))
+        samples = (between(left, right) for left, right in cells)
+        return any(height(self.level(t)) > height(m) for t in samples if self.allowed.hold(t))
+
+    def approached(self) -> Iterator[Toward]:
+        """The limits at the ends of intervals at which the level may not be attained."""
+        for left, right in _cells(self.points):
+            if not self.allowed.hold(between(left, right)):
+                continue
+            for end, is_right in ((left, False), (right, True)):
+                is_kept = end is not None and self.signs.is_closed and self.allowed.hold(end)
+                if not is_kept:
+                    yield Toward(self._limit((left, right), is_right), end, is_right)
+
+    def _limit(self, cell: tuple[RealRoot | None, RealRoot | None], is_right: bool) -> Size:
+        """The limit of the level at an end of an interval.
+
+        It is a number where curves meet the line at the end, or 0 or infinity, and rational numbers
+        between these tell which: near enough to the end no curve has any of them as its y.
+        """
+        check_time()
+        end = cell[1] if is_right else cell[0]
+        meeting, gaps = self._meeting(end)
+        walls = [at_y(p, y) for p in self.found for y in gaps]
         left, right = cell
-        end = right if is_right else left
-        self.values = _limits_at(found, end)
-        crossing = [_where_level(p, self.values) for p in found]
-        points = _roots([*critical, *crossing])
-        ends = [left, *(x for x in points if _is_in(x, left, right)), right]
+        inside = [x for x in _roots(walls) if _is_in(x, left, right)]
+        ends = [left, *inside, right]
         start, stop = ends[-2:] if is_right else ends[:2]
-        t = between(start, stop)
-        root = RealRoot.rational(t)
-        nearer = between(root, stop) if is_right else between(start, root)
-        self.first, self.second = level(t), level(nearer)
+        level = self.level(between(start, stop))
+        if level is None:
+            return None
+        below = sum(1 for y in gaps if RealRoot.rational(y) < level)
+        if below == 0:
+            return ORIGIN
+        return None if below > len(meeting) else meeting[below - 1]()
 
-    def is_growing(self) -> bool:
-        """Whether the level grows towards the end."""
-        return height(self.second) > height(self.first)
+    def _meeting(self, end: RealRoot | None) -> tuple[list[Callable[[], RealRoot]], list[fmpq]]:
+        """Where curves meet the line at an end, and a number before, between and behind these."""
+        if end is not None:
+            fibre = Fibre(end, self.found)
+            return [_exact(root) for root in fibre.roots], fibre.gaps
+        # at infinity the coefficients of the highest powers of t
+        roots = [y for y in _roots(map(_highest, self.found)) if y > ORIGIN]
+        ends = [ORIGIN, *roots, None]
+        return [_known(y) for y in roots], [between(a, b) for a, b in pairwise(ends)]
 
-    def limit(self) -> Size:
-        """What it grows to."""
-        assert self.second is not None
-        roots = _roots([in_y(self.values)])
-        return min((x for x in roots if x > self.second), default=None)
+
+def _exact(root: Root) -> Callable[[], RealRoot]:
+    return lambda: root.exact
+
+
+def _known(y: RealRoot) -> Callable[[], RealRoot]:
+    return lambda: y
+
+
+def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[HighAt, ...]]:
+    """The greatest of levels, and where it is: of each run of neighbours one, of intervals the
+    shortest number.
+    """
+    exact: list[Size] = []
+    most: Size = ORIGIN
+    for _, level in attained:
+        if isinstance(level, Root):
+            # most are smaller by their first digits
+            is_less = most is None or level.ball(FIRST_BITS) < most.ball(FIRST_BITS)
+            level = ORIGIN if is_less else level.exact
+        exact.append(level)
+        most = max(most, level, key=height)
+    pairs = zip((one for one, _ in attained), exact, strict=True)
+    best = []
+    for is_greatest, run in groupby(pairs, key=lambda pair: pair[1] == most):
+        if is_greatest:
+            best.append(min((one for one, _ in run), key=_length))
+    return most, tuple(best)
 
 
 def _is_in(x: RealRoot, left: RealRoot | None, right: RealRoot | None) -> bool:
     return (left is None or left < x) and (right is None or x < right)
 
 
-def _limits_at(found: Iterable[fmpq_mpoly], end: RealRoot | None) -> fmpq_mpoly:
-    """A polynomial in y with the limits of all branches as t tends to an end."""
-    product = PLANE.constant(fmpq(1))
-    for p in found:
-        if end is None:
-            highest = p.degrees()[1]
-            terms: dict[tuple[int, ...], fmpq] = {
-                (j, 0): a for (j, k), a in p.to_dict().items() if k == highest
-            }
-            product *= PLANE.from_dict(terms)
-        else:
-            modulus = PLANE.from_dict(
-                {(0, k): fmpq(a) for k, a in enumerate(end.polynomial.coeffs())}
-            )
-            at_end = p.resultant(modulus, "t")
-            product *= at_end if at_end else PLANE.constant(fmpq(1))
-    return product
-
-
-def in_y(p: fmpq_mpoly) -> Polynomial:
-    """A polynomial in y alone."""
-    powers = {int(j): a for (j, _), a in p.to_dict().items()}
-    return Polynomial([powers.get(j, fmpq(0)) for j in range(max(powers) + 1)])
+def _highest(p: fmpq_mpoly) -> Polynomial:
+    """The coefficient of the highest power of t, a polynomial in y."""
+    _, highest = p.degrees()
+    terms: dict[tuple[int, ...], fmpq] = {
+        (j, 0): a for (j, k), a in p.to_dict().items() if k == highest
+    }
+    return in_y(PLANE.from_dict(terms))
 
 
 def _where_level(p: fmpq_mpoly, values: fmpq_mpoly) -> Polynomial:
     """All t at which a curve has one of several levels."""
     if not p.degrees()[0]:
         return in_t(p)
-    return in_t(values.resultant(p, "y"))
+    return in_t(resultant(values, p))
 
 
 def _stationary(found: Iterable[fmpq_mpoly]) -> list[Polynomial]:
@@ -218,7 +258,7 @@ def _stationary(found: Iterable[fmpq_mpoly]) -> list[Polynomial]:
     for curve in found:
         by_t = curve.derivative(1)
         if by_t and curve.degrees()[0]:
-            made.append(in_t(curve.resultant(by_t, "y")))
+            made.append(in_t(resultant(curve, by_t)))
     return [p for p in made if p]
 
 
@@ -234,17 +274,6 @@ def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot |
     """The open intervals between points."""
     ends = [None, *points, None]
     return list(pairwise(ends))
-
-
-def _representatives(attained: Iterable[HighAt], greatest: Size) -> tuple[HighAt, ...]:
-    """Those with the greatest level, one of each run of neighbours, of intervals the shortest
-    number.
-    """
-    found = []
-    for is_greatest, run in groupby(attained, key=lambda x: x.level == greatest):
-        if is_greatest:
-            found.append(min(run, key=_length))
-    return tuple(found)
 
 
 def _length(one: HighAt) -> tuple[bool, int]:
@@ -265,9 +294,7 @@ def _in_turn(points: Sequence[RealRoot]) -> Iterator[Point]:
 def _crossing(found: Iterable[fmpq_mpoly], level: RealRoot) -> list[Polynomial] | None:
     """Polynomials with all t at which a curve has a level; None where its degree is too large."""
     if level.exact is not None:
-        _, t = PLANE.gens()
-        y = PLANE.constant(level.exact)
-        return [in_t(p.compose(y, t)) for p in found]
+        return [at_y(p, level.exact) for p in found]
     if level.polynomial.degree() > MOST_DEGREE:
         return None
     modulus = PLANE.from_dict({(k, 0): fmpq(a) for k, a in enumerate(level.polynomial.coeffs())})

@@ -12,6 +12,7 @@ from typing import cast
 
 from flint import fmpq
 
+from garkcli.deadline import check_time
 from garkcli.design.solutions import value_at
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import NumberField
@@ -104,6 +105,7 @@ def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Conditions)
     limits = []
     if gradient:
         for root, _ in real_roots(gradient):
+            check_time()
             if allowed.hold(root):
                 attained[root] = At(value(root), root)
     for interval in allowed.intervals:

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from time import monotonic
 
+from garkcli.deadline import seconds_left, until, within
 from garkcli.design.design import Design
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.coordinates import nodes_as_coordinates
 from garkcli.design.minimise.highest import Highest
 from garkcli.design.minimise.objective import Either, Level, Objective
-from garkcli.design.minimise.parts import parts_of
+from garkcli.design.minimise.parts import Part, parts_of
 from garkcli.design.minimise.registry import find_objective
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
@@ -64,21 +65,27 @@ def minimise(
             "leave it out, and ask gark check of what is found",
         )
     step = step_to_minimise(design)
-    now = monotonic()
-    deadline = None if seconds is None else now + SHARE * seconds
     if isinstance(objective, str):
         objective = find_objective(objective)
     comparison = _comparison(design, step, objective)
-    comparison.deadline = None if seconds is None else now + seconds
-    if step.kind == "solutions":
-        comparison.selection()
-    else:
-        assert step.ideal is not None
-        nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
-        for part in parts_of(step.ideal, deadline, nodes):
-            comparison.parts.append(part)
-            comparison.over(part)
-    return comparison.result()
+    with within(seconds):
+        left = seconds_left()
+        comparison.share = None if left is None else monotonic() + SHARE * left
+        if step.kind == "solutions":
+            comparison.selection()
+        else:
+            comparison.parts += _parts(design, step, comparison.share)
+            for part in comparison.parts:
+                comparison.over(part)
+        return comparison.result()
+
+
+def _parts(design: Design, step: Step, share: float | None) -> list[Part]:
+    """The parts of a solution set."""
+    assert step.ideal is not None
+    nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
+    with until(share):
+        return list(parts_of(step.ideal, nodes))
 
 
 def _comparison(design: Design, step: Step, objective: Objective | Level | Either) -> Comparison:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.minimise.squared_error import Quotient
+from garkcli.exact.fibre import Holds
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.root_number import square_root
 from garkcli.exact.roots import RealRoot
@@ -40,16 +41,40 @@ class Objective:
     formula: Formula
 
 
+def none_is_negative(signs: Sequence[int]) -> bool:
+    """Whether no sign is −1."""
+    return min(signs, default=0) >= 0
+
+
+@dataclass(frozen=True)
+class Signs:
+    """What a level is decided by.
+
+    Attributes:
+        polynomials: in ``PLANE``, in y and the parameter t.
+        holds: whether y is within the level, by the signs of the polynomials at it, if all smaller
+            ones are.
+        is_closed: whether what holds for t near some number holds there too.
+        common: what a step is made of; where these have a zero y in common for one t, that is no
+            zero of the step.
+    """
+
+    polynomials: Sequence[fmpq_mpoly]
+    holds: Holds = none_is_negative
+    is_closed: bool = True
+    common: Sequence[fmpq_mpoly] = ()
+
+
 @dataclass(frozen=True)
 class Level:
-    """Something that is made as large as possible: the first root y > 0 of some polynomials at
-    which a sign changes, or 0 or infinity.
+    """Something that is made as large as possible: the y up to which something holds from 0 on,
+    which the signs of polynomials decide; 0 or infinity among them.
 
     Attributes:
         key: its name, which begins with a minus sign.
         summary: what it is, in words.
         value: the level y of one method, by the ordinary engine.
-        curves: of a tableau of one parameter t: the polynomials in y and t, in ``PLANE``.
+        signs: of a tableau of one parameter: what decides it.
         is_square: whether what people mean is √y.
         claim: the name by which method files claim it, if they can.
     """
@@ -57,7 +82,7 @@ class Level:
     key: str
     summary: str
     value: Callable[[Tableau], Size]
-    curves: Callable[[Tableau, Parameters], Sequence[fmpq_mpoly]]
+    signs: Callable[[Tableau, Parameters], Signs]
     is_square: bool = False
     claim: str | None = None
 

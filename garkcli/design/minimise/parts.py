@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from time import monotonic
 from typing import TypeAlias, cast
 
-from flint import fmpq, fmpq_mpoly, fmpz_mpoly
+from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.groebner import NotDecided
-from garkcli.design.ideal import Ideal, integral_scale
+from garkcli.deadline import check_time
+from garkcli.design.ideal import Ideal, factors, rational
 from garkcli.design.member import value_of
 from garkcli.design.minimise.coordinates import Changes
 from garkcli.exact.field import Number
@@ -54,7 +53,7 @@ class Part:
     @property
     def equations(self) -> list[fmpq_mpoly]:
         """What the coordinates satisfy."""
-        return [_rational(p, self.ring) for p in self.ideal.basis]
+        return [rational(p, self.ring) for p in self.ideal.basis]
 
     def expressed(self, polynomial: fmpq_mpoly, ring: Parameters) -> Mixed:
         """A polynomial in all unknowns, ``ring``, as a function of the coordinates."""
@@ -62,29 +61,26 @@ class Part:
         return cast("Mixed", value_of(polynomial, ring, values))
 
 
-def parts_of(
-    ideal: Ideal, deadline: float | None, changes: Changes | None = None
-) -> Iterator[Part]:
+def parts_of(ideal: Ideal, changes: Changes | None = None) -> Iterator[Part]:
     """The zeros of an ideal in parts.
 
     Args:
         ideal: of what is asked of all unknowns.
-        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
         changes: unknowns that are replaced by others.
 
     Raises:
         NotDecided: a Gröbner basis takes too long.
     """
     changed = changes or Changes(ideal.ring, ideal.ring, {})
-    splitting = _Splitting(changed.ring, deadline)
-    nonzero = _factors([changed.polynomial(p) for p in ideal.nonzero])
-    polynomials = [changed.polynomial(p) for p in without_unit(ideal)]
+    splitting = _Splitting(changed.ring)
+    nonzero = factors(map(changed.polynomial, ideal.nonzero))
+    polynomials = [changed.polynomial(p) for p in ideal.cleared]
     yield from splitting.parts(polynomials, nonzero, changed.values(), changed.ring.names)
 
 
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
     """The parts of a part at which further polynomials in its coordinates are zero."""
-    splitting = _Splitting(part.ring, part.ideal.deadline)
+    splitting = _Splitting(part.ring)
     polynomials = [*part.equations, *zeros]
     for smaller in splitting.all_parts(polynomials, part.nonzero):
         known = cast("Mapping[str, Number]", smaller.values)
@@ -95,37 +91,6 @@ def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
             denominator = value_of(under, part.ring, known)
             values[name] = cast("Mixed", numerator / denominator)
         yield replace(smaller, values=values)
-
-
-def without_unit(ideal: Ideal) -> list[fmpq_mpoly]:
-    """Polynomials with the zeros of an ideal: its basis with 1/Π nonzero in place of the unknown
-    that stands for it, times a power of Π.
-    """
-    context = ideal.ring.context
-    product = context.constant(fmpq(1))
-    for factor in ideal.nonzero:
-        product *= factor * integral_scale(factor)
-    size = len(ideal.ring.names)
-    found = []
-    for p in ideal.basis:
-        terms = [(tuple(map(int, e)), a) for e, a in p.to_dict().items()]
-        highest = max(sum(e[size:]) for e, _ in terms)
-        total = context.constant(fmpq(0))
-        for e, a in terms:
-            monomial = context.from_dict({e[:size]: fmpq(a)})
-            total += monomial * product ** (highest - sum(e[size:]))
-        if total:
-            found.append(total)
-    return found
-
-
-def _factors(polynomials: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The irreducible factors, each once."""
-    found: dict[str, fmpq_mpoly] = {}
-    for p in polynomials:
-        for factor, _ in p.factor()[1]:
-            found[str(factor)] = factor
-    return list(found.values())
 
 
 @dataclass(frozen=True)
@@ -143,7 +108,6 @@ class _Splitting:
     """Takes solution sets apart; polynomials are in the ring of all unknowns."""
 
     ring: Parameters
-    deadline: float | None
 
     def all_parts(
         self, polynomials: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly]
@@ -170,21 +134,19 @@ class _Splitting:
             values: of the unknowns, functions of those that are left.
             left: the names of these.
         """
-        if self.deadline is not None and monotonic() > self.deadline:
-            raise NotDecided
+        check_time()
         simpler = [self._without(p, nonzero) for p in polynomials]
-        nothing = Ideal(self.ring, (), self.deadline)
-        ideal = nothing.with_zeros_apart(simpler)
+        ideal = Ideal(self.ring).with_zeros(simpler)
         if ideal.is_everything:
             return
-        basis = [_rational(p, self.ring) for p in ideal.basis]
+        basis = [rational(p, self.ring) for p in ideal.basis]
         zeros = []
         for p in basis:
-            factors = [x for x in _factors([p]) if x not in nonzero]
-            if len(factors) != 1:
-                yield from self._factored(factors, basis, nonzero, values, left)
+            found = [x for x in factors([p]) if x not in nonzero]
+            if len(found) != 1:
+                yield from self._factored(found, basis, nonzero, values, left)
                 return
-            zeros += factors
+            zeros += found
         if any(p.total_degree() > q.total_degree() for p, q in zip(basis, zeros, strict=True)):
             yield from self.parts(zeros, nonzero, values, left)
             return
@@ -195,28 +157,28 @@ class _Splitting:
         if linear.cost[0]:
             both = [linear.A, linear.B]
             yield from self.parts([*zeros, *both], nonzero, values, left)
-            nonzero = [*nonzero, *_factors([linear.A])]
+            nonzero = [*nonzero, *factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
     def _without(self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
         """Each factor once, but those that are not zero."""
         product = self.ring.constant(fmpq(1))
-        for factor in _factors([p]):
+        for factor in factors([p]):
             if factor not in nonzero:
                 product *= factor
         return product if p else p
 
     def _factored(
         self,
-        factors: Sequence[fmpq_mpoly],
+        alternatives: Sequence[fmpq_mpoly],
         polynomials: Sequence[fmpq_mpoly],
         nonzero: Sequence[fmpq_mpoly],
         values: Values,
         left: Sequence[str],
     ) -> Iterator[Part]:
         """One factor after the other is zero, those before it are not."""
-        for k, factor in enumerate(factors):
-            others = [*nonzero, *factors[:k]]
+        for k, factor in enumerate(alternatives):
+            others = [*nonzero, *alternatives[:k]]
             yield from self.parts([*polynomials, factor], others, values, left)
 
     def _linear(
@@ -231,7 +193,7 @@ class _Splitting:
                     continue
                 A = p.derivative(index)
                 v = self.ring.context.gen(index)
-                is_new = any(x not in nonzero for x in _factors([A]))
+                is_new = any(x not in nonzero for x in factors([A]))
                 degree = int(p.total_degree())
                 cost = (is_new, len(A.to_dict()), degree, -index)
                 name = self.ring.names[index]
@@ -271,7 +233,7 @@ class _Splitting:
             return
         expressed = {name: at(x) for name, x in values.items()}
         names = [name for name in left if name != linear.name]
-        yield from self.parts(smaller, _factors(others), expressed, names)
+        yield from self.parts(smaller, factors(others), expressed, names)
 
     def _part(
         self,
@@ -293,16 +255,9 @@ class _Splitting:
                 return x
             return ring.quotient(moved(x.numerator), moved(x.denominator))
 
-        ideal = Ideal(ring, (), self.deadline)
         return Part(
             ring,
             {name: moved_value(x) for name, x in values.items()},
             tuple(moved(p) for p in nonzero),
-            ideal.with_zeros([moved(p) for p in zeros]),
+            Ideal(ring).with_zeros([moved(p) for p in zeros]),
         )
-
-
-def _rational(p: fmpz_mpoly, ring: Parameters) -> fmpq_mpoly:
-    """The same polynomial over ℚ."""
-    terms = {tuple(map(int, e)): fmpq(a) for e, a in p.to_dict().items()}
-    return ring.context.from_dict(terms)

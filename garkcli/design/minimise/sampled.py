@@ -7,6 +7,7 @@ from itertools import islice
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
 from garkcli.design.member import member
 from garkcli.design.sampling import largest_degree, through, values_without
 from garkcli.exact.parametric import Parameters, common_denominator
@@ -36,6 +37,7 @@ def in_plane(
     points = list(islice(values_without(denominator), degree + 1))
     rows: list[Sequence[Polynomial]] = []
     for t in points:
+        check_time()
         scale = fmpq(denominator(t)) ** size
         found = decided(member(tableau, ring, {name: t}))
         rows.append([p * scale for p in found])

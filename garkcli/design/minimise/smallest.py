@@ -10,7 +10,7 @@ from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.groebner import NotDecided
+from garkcli.deadline import check_time, until
 from garkcli.design.member import member
 from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.comparison import Comparison, at_root
@@ -26,6 +26,7 @@ from garkcli.design.minimise.refining import critical_point_near
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.step import Found
+from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, between
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import in_one
@@ -154,10 +155,12 @@ class Smallest(Comparison):
         try:
             if len(part.ring.names) > MOST_COORDINATES:
                 raise NotDecided
-            numerator, denominator = self._formula(part)
-            critical = critical_equations(part, numerator, denominator)
-            self._over_smaller(part, critical)
+            with until(self.share):
+                numerator, denominator = self._formula(part)
+                critical = critical_equations(part, numerator, denominator)
+                self._over_smaller(part, critical)
         except NotDecided:
+            check_time()
             self._by_trial(part)
             return
         for end in (*self.design.family.not_negative, *self.ends()):

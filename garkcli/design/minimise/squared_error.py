@@ -20,6 +20,7 @@ from itertools import chain
 
 from flint import fmpq
 
+from garkcli.deadline import check_time
 from garkcli.design.minimise.tensors import (
     Entry,
     Pair,
@@ -281,6 +282,7 @@ def _joined(algebra: TensorAlgebra, a: _Branch, b: _Branch) -> _Branch:
 
 
 def _dot(a: Sequence[Entry], b: Sequence[Entry]) -> Entry:
+    check_time()
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         if x and y:

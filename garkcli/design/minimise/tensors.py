@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from garkcli.deadline import check_time
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 
@@ -57,6 +58,7 @@ def _added(a: Row, b: Row) -> Row:
 
 
 def scaled(row: Row, factor: Entry) -> Row:
+    check_time()
     return tuple(x * factor for x in row)
 
 
@@ -76,6 +78,7 @@ class TensorAlgebra:
         return self._reduced(raised)
 
     def _convolved(self, pairs: Sequence[tuple[Row, Row]]) -> list[Entry]:
+        check_time()
         s = self.space.stages
         out = [self.zero] * (2 * s - 1)
         for u, v in pairs:
@@ -151,4 +154,5 @@ def squared(x: Pair) -> Tensor:
 
 def multiplied(u: Row, v: Row) -> Row:
     """The product, entry by entry."""
+    check_time()
     return tuple(x * y for x, y in zip(u, v, strict=True))

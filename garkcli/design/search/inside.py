@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mpoly
 
+from garkcli.design.admissible import not_negative
 from garkcli.design.search.rational import RationalFunction, as_ball
 from garkcli.tableau.family import Family
 
@@ -29,7 +30,7 @@ class Inside:
         self.bits = bits
         self.nonzero = self._functions(family.nonzero)
         self.positive = self._functions(family.positive)
-        self.not_negative = self._functions(family.not_negative)
+        self.not_negative = self._functions(list(not_negative(family)))
 
     def _functions(self, polynomials: Sequence[fmpq_mpoly]) -> list[RationalFunction]:
         ring = self.family.ring
@@ -46,7 +47,7 @@ class Inside:
         with ctx.workprec(self.bits):
             box = x + arb(0, arb(1) / arb(2) ** (self.bits // 2))
             values = dict(zip(self.family.ring.names, box[:, 0], strict=True))
-            if not self._is_within(values) or not self._is_meant(values):
+            if not self._is_meant(values):
                 return "no"
             if any(_value(f, box).contains(0) for f in self.nonzero):
                 return "no"
@@ -57,21 +58,10 @@ class Inside:
                 return "no"
             return "yes" if all(value >= 0 for value in signs) else "open"
 
-    def _is_within(self, values: Mapping[str, arb]) -> bool:
-        """Whether parameters are in their ranges."""
-        for name, (least, greatest) in self.family.ranges.items():
-            if least is not None and not values[name] > arb(least):
-                return False
-            if greatest is not None and not values[name] < arb(greatest):
-                return False
-        return True
-
     def _is_meant(self, values: Mapping[str, arb]) -> bool:
-        """Whether roots are those that are meant."""
+        """Whether roots of polynomials are those that are meant."""
         for radical in self.family.radicals:
             value = values[radical.name]
-            if radical.is_positive and not value > 0:
-                return False
             meant = radical.meant
             if meant is not None:
                 ball = meant.ball(self.bits // 2)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, arb_mat, ctx
 
+from garkcli.deadline import check_time
 from garkcli.design.search.rational import as_ball
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ def is_proved(
         bits: of the arithmetic.
         nonzero: functions that are not to be zero at the solution.
     """
+    check_time()
     with ctx.workprec(bits):
         residuals, jacobians = system.at(point)
         equations, unknowns, _ = jacobians.shape

@@ -16,6 +16,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from garkcli.deadline import check_time
+
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
 
@@ -71,6 +73,7 @@ def least_squares(
     with np.errstate(all="ignore"):
         run = _Run(system, points)
         for _ in range(steps):
+            check_time()
             done = run.largest < small
             succeeded[alive[done]] = True
             points[:, alive] = run.x

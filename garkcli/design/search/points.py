@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.deadline import check_time
 from garkcli.design.search.rational import RationalFunction, as_ball, as_float
 
 if TYPE_CHECKING:
@@ -146,6 +147,7 @@ def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None
     chosen = rank(jacobian[:, :, 0])
     working = FIRST_BITS
     while True:
+        check_time()
         with ctx.workprec(working):
             if not _newton(system, x, chosen):
                 return None

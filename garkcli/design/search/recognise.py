@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
 
+from garkcli.deadline import check_time
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
@@ -128,6 +129,7 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
     x^2 + (-2)
     """
     for degree in range(1, MAX_DEGREE + 1):
+        check_time()
         with ctx.workprec(bits):
             powers = [number**k for k in range(degree + 1)]
         relation = _relation(powers, bits)

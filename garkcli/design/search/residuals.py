@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.deadline import check_time
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.search.rational import Constant, RationalFunction, Slope, as_ball, as_float
 from garkcli.exact.parametric import Parameters
@@ -216,6 +217,7 @@ class _Evaluation:
         self, image: _Vectors, i: int, slope: Slope, vectors: _Vectors, j: int
     ) -> None:
         """Add a_ij v_j to the entry i."""
+        check_time()
         v = vectors.values[:, j]
         image.values[:, i] += slope.value * v
         image.derivatives[:, i] += slope.value * vectors.derivatives[:, j]
@@ -224,6 +226,7 @@ class _Evaluation:
 
     def _grow(self, segment: Segment) -> None:
         """The trees of a segment: their stage vectors and residuals."""
+        check_time()
         table, root = self.table, segment.root
         ids = slice(segment.ids.start, segment.ids.stop)
         space = self.system.tableau.colours[root].space

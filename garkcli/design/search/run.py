@@ -7,16 +7,18 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
 from time import process_time
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from garkcli.crew.work import Alone, Workers, in_order
+from garkcli.deadline import within
 from garkcli.design.design import Whose
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import Method, told
-from garkcli.errors import UsageProblem, counted
+from garkcli.errors import NotDecided, UsageProblem, counted
 from garkcli.tableau.family import Family
 
 Start: TypeAlias = list[float]
+Ending: TypeAlias = Literal["interrupt", "time", "worker"]
 FIRST = 64
 """Starts of the first batch, so that something is found soon; batches grow twofold, for speed."""
 SAME = 1e-6
@@ -34,7 +36,7 @@ class Result:
             no solution with more digits is near.
         methods: each once, in the order of the starts.
         seconds: of the processor.
-        is_interrupted: whether there were more starts.
+        ending: what ended the search before its last start; None where nothing did.
     """
 
     starts: int = 0
@@ -42,7 +44,12 @@ class Result:
     degenerate: int = 0
     methods: list[Method] = field(default_factory=list)
     seconds: float = 0.0
-    is_interrupted: bool = False
+    ending: Ending | None = None
+
+    @property
+    def is_interrupted(self) -> bool:
+        """Whether there were more starts."""
+        return self.ending is not None
 
     def __repr__(self) -> str:
         methods = counted(len(self.methods), "method")
@@ -107,6 +114,7 @@ def search_methods(
     seed: int = 0,
     most: int = MOST,
     whose: Whose = "method",
+    seconds: float | None = None,
 ) -> Result:
     """Search a family for methods of an order, from random starts.
 
@@ -117,6 +125,7 @@ def search_methods(
         seed: of the starts; the same seed has the same finds everywhere.
         most: methods that are looked for at most; other successes are counted.
         whose: order is meant: of the method, its symplectic conjugate or its pair.
+        seconds: after which the search ends with what was found; None for never.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
@@ -128,8 +137,12 @@ def search_methods(
             "leave it out, and ask gark check of what is found",
         )
     result = Result()
-    for found in results(Search(family, order, whose), starts, seed, most):
-        result = found
+    try:
+        with within(seconds):
+            for found in results(Search(family, order, whose), starts, seed, most):
+                result = found
+    except NotDecided:
+        result.ending = "time"
     return result
 
 

@@ -126,9 +126,8 @@ class Search:
                 return False
             if greatest is not None and values[name] > as_float(greatest) + 1e-9:
                 return False
-        return all(
-            values[radical.name] > 0 for radical in self.family.radicals if radical.is_positive
-        )
+        roots = [values[radical.name] for radical in self.family.radicals if radical.is_even]
+        return all(value >= -1e-9 for value in roots)
 
     def find(self, start: int, point: list[float]) -> Find | None:
         """What can be proved of a solution in floats; None where it is no solution after all.

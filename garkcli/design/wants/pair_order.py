@@ -11,7 +11,6 @@ from garkcli.tableau.forms import pair
 
 def _meaning(asked: Asked) -> Meaning:
     conditions = FamilyConditions(pair(asked.tableau), asked.ring)
-    conditions.deadline = asked.deadline
     one = asked.ring.constant(fmpq(1))
     zeros: list[object] = []
     for k in range(1, cast("int", asked.value) + 1):

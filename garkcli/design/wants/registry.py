@@ -11,6 +11,7 @@ WANTS = (
     "stiffly-accurate",
     "R-infinity",
     "stage-order",
+    "consistent",
     "positive-weights",
     "nodes-in-unit-interval",
     "a-stable",

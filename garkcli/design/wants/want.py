@@ -28,15 +28,12 @@ class Asked:
         ring: the parameters.
         value: a count, or a number, which may have parameters; True for a flag.
         colours: of which colours it is wanted, counted from 0.
-        deadline: the reading of ``time.monotonic`` at which what it means is given up; None for
-            never.
     """
 
     tableau: Tableau
     ring: Parameters
     value: object
     colours: tuple[int, ...]
-    deadline: float | None = None
 
     def block(self, l: int, m: int, key: str) -> Matrix:
         """A^{l,m}.
@@ -98,7 +95,7 @@ class Want:
         key: in method files.
         kind: of its value.
         summary: what it says.
-        meaning: what it asks of the parameters; it may raise ``NotDecided`` at the deadline.
+        meaning: what it asks of the parameters; it raises ``NotDecided`` where the time is over.
     """
 
     key: str

@@ -1,11 +1,7 @@
 """The interval of stability on the imaginary axis."""
 
-from collections.abc import Sequence
-
-from flint import fmpq_mpoly
-
 from garkcli.design.minimise.intervals import fraction_in_plane, refuse_partitioned
-from garkcli.design.minimise.objective import Level, Size
+from garkcli.design.minimise.objective import Level, Signs, Size
 from garkcli.design.stability_kinds import squared_modulus
 from garkcli.exact.cells import first_end
 from garkcli.exact.parametric import Parameters
@@ -18,18 +14,17 @@ def _value(tableau: Tableau) -> Size:
     return first_end(imaginary_set(stability_function(tableau)))
 
 
-def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
-    """Where |R| = 1 and where R has a pole, in the square of the imaginary part."""
+def _signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """|Q|² − |P|² in the square of the imaginary part; it is negative at a pole."""
     P, Q = fraction_in_plane(tableau, ring)
-    under = squared_modulus(Q)
-    return [under - squared_modulus(P), under]
+    return Signs([squared_modulus(Q) - squared_modulus(P)])
 
 
 OBJECTIVE = Level(
     "-imaginary-interval",
     "the y with |R| ≤ 1 on [−iy, iy], the vector fields all equal",
     _value,
-    _curves,
+    _signs,
     is_square=True,
     claim="imaginary-stability",
 )

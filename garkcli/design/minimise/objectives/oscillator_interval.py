@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq
 
-from garkcli.design.minimise.objective import Level, Size
+from garkcli.design.minimise.objective import Level, Signs, Size
 from garkcli.design.stability_kinds import oscillator_curves
 from garkcli.design.step_plane import step_plane
 from garkcli.exact.cells import first_end
@@ -24,18 +24,32 @@ def _value(tableau: Tableau) -> Size:
     return first_end(oscillator_stability(tableau, _problem(tableau)).stable)
 
 
-def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
+def _signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
     problem = _problem(tableau)
     fields = [problem.matrix(colour) for colour in tableau.colours]
-    signs, others = oscillator_curves(step_plane(tableau, ring, fields))
-    return [*signs, *others]
+    conditions, others = oscillator_curves(step_plane(tableau, ring, fields))
+    poles, _, _, upper, lower = others
+    polynomials = [poles, *conditions, upper, lower]
+    return Signs(polynomials, _is_bounded, is_closed=False, common=others)
+
+
+def _is_bounded(signs: Sequence[int]) -> bool:
+    """Whether all powers of the step are bounded: no pole, no eigenvalue outside the unit circle,
+    and no double one ±1 that makes them grow.
+    """
+    pole, area, right, left, upper, lower = signs
+    if not pole or min(area, right, left) < 0:
+        return False
+    is_double = area == 0 and 0 in (right, left)
+    return not is_double or upper == lower == 0
 
 
 OBJECTIVE = Level(
     "-oscillator-interval",
     "the z such that all powers of the step are bounded on the oscillator for hω ≤ z",
     _value,
-    _curves,
+    _signs,
     is_square=True,
 )
 """E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, section I.5.2."""

@@ -1,11 +1,8 @@
 """The SSP coefficient."""
 
-from collections.abc import Sequence
 from itertools import chain
 
-from flint import fmpq_mpoly
-
-from garkcli.design.minimise.objective import Level, Size
+from garkcli.design.minimise.objective import Level, Signs, Size
 from garkcli.design.minimise.sampled import in_plane
 from garkcli.errors import UsageProblem
 from garkcli.exact.parametric import Parameters
@@ -24,8 +21,8 @@ def _value(tableau: Tableau) -> Size:
     return found.value
 
 
-def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
-    """D det(I + rK) and d (I + rK)⁻¹ v are polynomials, of degree one in each row of K."""
+def _signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """det(I + rK) and det(I + rK) (I + rK)⁻¹ v are of degree one in each row of K."""
     if not all(isinstance(x, PointSpace) for x in tableau.spaces):
         raise UsageProblem(
             "-ssp: families by name have no rational entries",
@@ -36,8 +33,8 @@ def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
     for colour in tableau.colours:
         entries += colour.b
     size = 2 + sum(space.stages for space in tableau.spaces)
-    return in_plane(tableau, ring, entries, size, conditions_at)
+    return Signs([p for p in in_plane(tableau, ring, entries, size, conditions_at) if p])
 
 
-OBJECTIVE = Level("-ssp", "the SSP coefficient", _value, _curves, claim="ssp-coefficient")
+OBJECTIVE = Level("-ssp", "the SSP coefficient", _value, _signs, claim="ssp-coefficient")
 """J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991."""

@@ -1,0 +1,283 @@
+"""The half line y > 0 over an algebraic number t_0 of any degree, in the plane.
+
+Polynomials p(y, t) are there polynomials in y over ℚ(t_0). How often roots are multiple, and
+whether two polynomials have one in common, is known by greatest common divisors over that field,
+which need no digits; where roots are is known by balls; and the sign at a rational y is that of a
+polynomial in t at t_0. No field has the degrees of y and t_0 together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import TypeAlias
+
+from flint import arb, fmpq, fmpq_mpoly
+
+from garkcli.deadline import check_time
+from garkcli.exact.cells import sign_of
+from garkcli.exact.field import Algebraic, Number, NumberField
+from garkcli.exact.isolating import precision
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, in_y, resultant
+from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign_at
+
+Holds: TypeAlias = Callable[[Sequence[int]], bool]
+"""Whether something holds where polynomials have these signs."""
+
+
+@dataclass(frozen=True, eq=False)
+class Root:
+    """A number y > 0 at which curves meet the line.
+
+    Attributes:
+        fibre: the line.
+        polynomial: over ℚ(t_0), in y; the number is a simple root of it, and the only one from
+            ``low`` to ``high``.
+        low, high: rational numbers, equal where y is that number.
+        curves: which curves meet the line there, by their places.
+    """
+
+    fibre: Fibre
+    polynomial: Polynomial
+    low: fmpq
+    high: fmpq
+    curves: frozenset[int]
+
+    def refined(self, bits: int) -> Root:
+        """The same with the ends no further apart than 2^−bits."""
+        low, high = self.low, self.high
+        if high - low <= fmpq(1, 1 << bits):
+            return self
+        left = self.fibre.sign_on(self.polynomial, low)
+        while high - low > fmpq(1, 1 << bits):
+            check_time()
+            middle = (low + high) / 2
+            sign = self.fibre.sign_on(self.polynomial, middle)
+            if sign == 0:
+                low = high = middle
+            elif sign == left:
+                low = middle
+            else:
+                high = middle
+        return replace(self, low=low, high=high)
+
+    def ball(self, bits: int) -> arb:
+        """An enclosure, by ``bits`` behind the point."""
+        found = self.refined(bits)
+        with precision(2 * bits):
+            return arb(found.low).union(arb(found.high))
+
+    @property
+    def exact(self) -> RealRoot:
+        """The number by its polynomial over ℚ."""
+        curve = self.fibre.found[min(self.curves)]
+        candidates = [y for y, _ in real_roots(in_y(resultant(curve, self.fibre.modulus, "t")))]
+        bits = FIRST_BITS
+        while len(candidates) > 1:
+            mine = self.ball(bits)
+            candidates = [y for y in candidates if y.ball(bits).overlaps(mine)]
+            bits *= 2
+        return candidates[0]
+
+
+class Fibre:
+    """Where curves meet the line t = t_0, y > 0.
+
+    Args:
+        t: the number t_0.
+        found: irreducible curves, no two of them the same.
+    """
+
+    def __init__(self, t: RealRoot, found: Sequence[fmpq_mpoly]) -> None:
+        self.t = t
+        self.found = found
+        self._monic = Polynomial.from_flint(t.polynomial).monic().to_flint()
+        self._field = NumberField(self._monic, ())
+        self._signs: dict[tuple[Polynomial, fmpq], int] = {}
+
+    @property
+    def modulus(self) -> fmpq_mpoly:
+        """The polynomial of t_0 in the plane."""
+        powers = enumerate(self.t.polynomial.coeffs())
+        return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
+
+    def polynomial(self, p: fmpq_mpoly) -> Polynomial:
+        """p(y, t_0)."""
+        degree, _ = p.degrees()
+        rows = (in_t(coefficient_of(p, k)).to_flint() for k in range(degree + 1))
+        return Polynomial([self._field.element(row) for row in rows])
+
+    def sign_on(self, p: Polynomial, y: fmpq) -> int:
+        """The sign of a polynomial over ℚ(t_0) at a rational number."""
+        key = p, y
+        if key not in self._signs:
+            value = p(y)
+            element = value.poly if isinstance(value, Algebraic) else Polynomial([value]).to_flint()
+            self._signs[key] = sign_at(Polynomial.from_flint(element), self.t)
+        return self._signs[key]
+
+    @cached_property
+    def roots(self) -> list[Root]:
+        """All of them, in ascending order; no two have ends in common."""
+        found: list[Root] = []
+        for place, curve in enumerate(self.found):
+            p = self.polynomial(curve)
+            if p.degree > 0:
+                simple = p.square_free()
+                ends = self._isolated(simple)
+                found += [Root(self, simple, *x, frozenset({place})) for x in ends]
+        bits = FIRST_BITS
+        while True:
+            found = sorted((root.refined(bits) for root in found), key=lambda x: (x.low, x.high))
+            together = self._joined(found)
+            if all(a.high < b.low for a, b in pairwise(together)):
+                return together
+            found = together
+            bits *= 2
+
+    def _joined(self, found: Sequence[Root]) -> list[Root]:
+        """Roots of different curves that are the same number as one."""
+        joined: list[Root] = []
+        for root in found:
+            for place, other in enumerate(joined):
+                same = self._common(other, root)
+                if same is not None:
+                    joined[place] = same
+                    break
+            else:
+                joined.append(root)
+        return joined
+
+    def _common(self, a: Root, b: Root) -> Root | None:
+        """Two roots as one, if they are the same number."""
+        low, high = max(a.low, b.low), min(a.high, b.high)
+        if low > high or a.curves & b.curves:
+            return None
+        check_time()
+        p = gcd(a.polynomial, b.polynomial)
+        if p.degree < 1 or self.sign_on(p, low) * self.sign_on(p, high) > 0:
+            return None
+        return Root(self, p, low, high, a.curves | b.curves)
+
+    def _isolated(self, p: Polynomial) -> Iterator[tuple[fmpq, fmpq]]:
+        """Ends around each positive root of a polynomial without multiple ones."""
+        bits = FIRST_BITS
+        while True:
+            try:
+                yield from list(self._halved(p, bits))
+            except _NotFineEnough:
+                bits *= 2
+            else:
+                return
+
+    def _halved(self, p: Polynomial, bits: int) -> Iterator[tuple[fmpq, fmpq]]:
+        """The same: intervals are halved until p or its derivative has no zero there."""
+        values = self._enclosed(p, bits)
+        slopes = self._enclosed(p.derivative(), bits)
+        waiting = [(fmpq(0), _bound(values, bits))]
+        while waiting:
+            check_time()
+            low, high = waiting.pop()
+            with precision(bits):
+                interval = arb(low).union(arb(high))
+                if not _at(values, interval).contains(0):
+                    continue
+                is_monotone = not _at(slopes, interval).contains(0)
+            if is_monotone:
+                if self.sign_on(p, low) * self.sign_on(p, high) < 0:
+                    yield low, high
+                continue
+            if high - low < fmpq(1, 1 << bits // 2):
+                raise _NotFineEnough
+            middle = (low + high) / 2
+            if self.sign_on(p, middle) == 0:
+                yield middle, middle
+            waiting += [(middle, high), (low, middle)]
+
+    def _enclosed(self, p: Polynomial, bits: int) -> list[arb]:
+        """The coefficients in balls."""
+        t = self.t.ball(bits)
+        with precision(bits):
+            return [_ball(a, t) for a in p.coefficients]
+
+    @cached_property
+    def gaps(self) -> list[fmpq]:
+        """A rational number before, between and behind the roots."""
+        if not self.roots:
+            return [fmpq(1)]
+        between = [(a.high + b.low) / 2 for a, b in pairwise(self.roots)]
+        first, bits = self.roots[0], FIRST_BITS
+        while first.low <= 0:
+            first = first.refined(bits)
+            bits *= 2
+        return [first.low / 2, *between, self.roots[-1].high + 1]
+
+    def first_failure(self, polynomials: Sequence[fmpq_mpoly], holds: Holds) -> Root | fmpq | None:
+        """The y up to which something holds from 0 on.
+
+        Args:
+            polynomials: products of the curves and of what has no zero on the line.
+            holds: by their signs.
+
+        Returns:
+            the y; 0 where it fails at once; None where it does not fail.
+        """
+        divisors = [self._curves_of(p) for p in polynomials]
+        if not holds([self._sign(p, self.gaps[0]) for p in polynomials]):
+            return fmpq(0)
+        for root, gap in zip(self.roots, self.gaps[1:], strict=True):
+            behind = [self._sign(p, gap) for p in polynomials]
+            there = [0 if root.curves & x else s for x, s in zip(divisors, behind, strict=True)]
+            if not holds(there) or not holds(behind):
+                return root
+        return None
+
+    def have_common_zero(self, polynomials: Sequence[fmpq_mpoly]) -> bool:
+        """Whether polynomials have a zero in common on the line, real or complex."""
+        common = Polynomial([])
+        for p in polynomials:
+            common = gcd(common, self.polynomial(p))
+        return common.degree > 0
+
+    def _curves_of(self, p: fmpq_mpoly) -> frozenset[int]:
+        """Which of the curves divide a polynomial, by their places."""
+        return frozenset(k for k, curve in enumerate(self.found) if p and not p % curve)
+
+    def _sign(self, p: fmpq_mpoly, y: fmpq) -> int:
+        return sign_of(at_y(p, y), self.t)
+
+
+class _NotFineEnough(Exception):
+    """Balls are too wide."""
+
+
+def _ball(a: Number, t: arb) -> arb:
+    """A number of ℚ(t_0) at an enclosure of t_0."""
+    poly = Polynomial.from_flint(a.poly) if isinstance(a, Algebraic) else Polynomial([a])
+    return poly.enclosed_at(t)
+
+
+def _at(coefficients: Sequence[arb], x: arb) -> arb:
+    total = arb(0)
+    for a in reversed(coefficients):
+        total = total * x + a
+    return total
+
+
+def _bound(coefficients: Sequence[arb], bits: int) -> fmpq:
+    """A power of 2 that all roots are below (Cauchy).
+
+    Raises:
+        _NotFineEnough: the leading coefficient may be 0.
+    """
+    with precision(bits):
+        *lower, leading = coefficients
+        if leading.contains(0):
+            raise _NotFineEnough
+        bound = fmpq(2)
+        while not all(abs(a / leading) < arb(bound) - 1 for a in lower):
+            bound *= 2
+        return bound

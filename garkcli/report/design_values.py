@@ -1,0 +1,106 @@
+"""Which values of parameters are meant: polynomials that are zero, and where, as text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from flint import fmpq, fmpq_mpoly, fmpz_mpoly
+
+from garkcli.design.ideal import integral_scale
+from garkcli.design.step import Step
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.tableau.family import Family, Radical
+
+AnyPolynomial: TypeAlias = "fmpq_mpoly | fmpz_mpoly"
+_NAME = re.compile(r"[A-Za-z_]\w*")
+
+
+def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
+    """Polynomials that are zero, with roots as the file writes them; without those that say of a
+    root what it is.
+    """
+    known = [_terms(x.relation) for x in family.radicals]
+    return [_text(family, p) for p in polynomials if _terms(p) not in known]
+
+
+def conditions(family: Family, step: Step) -> list[str]:
+    """What else is true of the values: where there is a method, and which the file admits."""
+    found = [f"{_text(family, p)} ≠ 0" for p in step.nonzero if _may_vanish(family, p)]
+    ends, others = _bounds(family)
+    for name, (least, greatest) in ends.items():
+        below = "" if least is None else f"{least} ≤ "
+        above = "" if greatest is None else f" ≤ {greatest}"
+        found.append(f"{below}{name}{above}")
+    numbers: set[str] = set()
+    for radical in family.radicals:
+        if _is_number(family, radical, numbers):
+            numbers.add(radical.name)
+        elif radical.is_even:
+            found.append(f"{radical.text} is real")
+    for relation, polynomials in ((">", family.positive), ("≥", others)):
+        found += [f"{_text(family, p)} {relation} 0" for p in polynomials if not p.is_constant()]
+    return list(dict.fromkeys(found))
+
+
+Ends: TypeAlias = "tuple[fmpq | None, fmpq | None]"
+
+
+def _bounds(family: Family) -> tuple[dict[str, Ends], list[fmpq_mpoly]]:
+    """Between which numbers unknowns are, by ranges and by what is not to be negative; the rest of
+    that.
+    """
+    ends = {name: x for name, x in family.ranges.items() if x != (None, None)}
+    others = []
+    for p in family.not_negative:
+        name = next((x for k, x in enumerate(family.ring.names) if p.degrees()[k]), "")
+        if p.total_degree() != 1 or sum(p.degrees()) != 1 or name not in family.ranges:
+            others.append(p)
+            continue
+        slope = p.leading_coefficient()
+        bound = -p(*[fmpq(0)] * len(family.ring.names)) / slope
+        least, greatest = ends.get(name, (None, None))
+        if slope > 0:
+            least = bound if least is None else max(least, bound)
+        else:
+            greatest = bound if greatest is None else min(greatest, bound)
+        ends[name] = (least, greatest)
+    return ends, others
+
+
+def _terms(p: AnyPolynomial) -> dict[tuple[int, ...], fmpq]:
+    """A polynomial but for a factor."""
+    terms = {tuple(map(int, e)): fmpq(a) for e, a in p.to_dict().items()}
+    highest = terms[max(terms)]
+    return {e: a / highest for e, a in terms.items()}
+
+
+def _text(family: Family, p: AnyPolynomial) -> str:
+    """A multiple with whole coefficients, by a positive number."""
+    if isinstance(p, fmpq_mpoly):
+        p = p * integral_scale(p)
+    written = {x.name: x.text for x in family.radicals}
+    return _NAME.sub(lambda found: written.get(found[0], found[0]), str(p))
+
+
+def _may_vanish(family: Family, p: fmpq_mpoly) -> bool:
+    """Whether a polynomial may be zero; of one parameter whether it is in its range."""
+    used = [k for k, degree in enumerate(p.degrees()) if degree]
+    if len(used) > 1:
+        return True
+    powers = {int(e[used[0]]): a for e, a in p.to_dict().items()}
+    alone = Polynomial([powers.get(k, fmpq(0)) for k in range(max(powers) + 1)])
+    least, greatest = family.ranges.get(family.ring.names[used[0]], (None, None))
+    return any(
+        (least is None or RealRoot.rational(least) <= root)
+        and (greatest is None or root <= RealRoot.rational(greatest))
+        for root, _ in real_roots(alone)
+    )
+
+
+def _is_number(family: Family, radical: Radical, numbers: set[str]) -> bool:
+    """Whether no parameter is under a root, given which of the roots inside are numbers."""
+    degrees = zip(family.ring.names, radical.relation.degrees(), strict=True)
+    return all(name in {radical.name, *numbers} for name, degree in degrees if degree)

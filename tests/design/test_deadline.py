@@ -1,0 +1,222 @@
+"""One deadline for every engine of ``gark design``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from itertools import count
+
+import pytest
+from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx
+
+from garkcli import deadline, loads, search_methods
+from garkcli.deadline import check_time, only_small, until, within
+from garkcli.design.choices import walk_down
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.covering import least_meeting
+from garkcli.design.design import Design, find_parameters
+from garkcli.design.groebner import groebner_basis, grown_basis, unproved_basis
+from garkcli.design.ideal import Ideal, characteristic_polynomial
+from garkcli.design.minimise.climbing import climbed
+from garkcli.design.minimise.coordinates import nodes_as_coordinates
+from garkcli.design.minimise.minimise import minimise
+from garkcli.design.minimise.parts import parts_of
+from garkcli.design.minimise.refining import critical_point_near
+from garkcli.design.minimise.squared_error import squared_error
+from garkcli.design.real_points import has_methods, without_complex
+from garkcli.design.search.run import results
+from garkcli.design.search.search import Search
+from garkcli.design.solutions import solutions
+from garkcli.design.springs_kind import TwoSprings
+from garkcli.design.stable_values import stable_values
+from garkcli.errors import NotDecided
+from garkcli.exact.apart import apart, first_of
+from garkcli.exact.definite import is_nowhere_negative, kept_sign
+from garkcli.exact.fibre import Fibre
+from garkcli.exact.parametric import Parameters
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.projection import PLANE, curves, discriminant, projected, resultant
+from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.methodfile.family import loads_family
+from garkcli.order.certificate import find_order
+
+SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+RANGE3 = "parameters: {a: free}\nA: [[0, 0, 0], [2*a, 0, 0], [0, 1/2, 0]]\nb: [0, 0, 1]\n"
+EXPLICIT3 = "unknown: {stages: 3, shape: explicit}\n"
+FULL2 = "unknown: {stages: 2, shape: full}\n"
+VERLET = "parameters: {t: free}\nsplitting: {a: [t, 1 - 2*t, t], b: [1/2, 1/2]}\n"
+SPRINGS = """parameters: {t: free}
+methods:
+  - {family: lobatto-iiia, stages: 2}
+  - {family: gauss, stages: 1}
+transfer: {default: collocation, blocks: {"2,1": [[1/2 - t, t]]}}
+structure: semi-separable
+"""
+CONTEXT = fmpz_mpoly_ctx.get(("x", "y"), Ordering.degrevlex)
+X, Y = CONTEXT.gens()
+PAIR = Parameters(["x", "y"])
+P, Q = PAIR.context.gens()
+PLANE_Y, PLANE_T = PLANE.gens()
+CURVE = PLANE_Y**3 - PLANE_T * PLANE_Y + PLANE_T**2 - 2
+QUINTIC = Polynomial([-1, -1, 0, 0, 0, 1])
+
+
+def designed(text: str, order: int) -> Design:
+    """What an order asks of a family."""
+    return find_parameters(loads_family(text), order)
+
+
+def ideal_of(text: str, order: int) -> Ideal:
+    """The ideal of an order."""
+    found = designed(text, order).last.ideal
+    assert found is not None
+    return found
+
+
+def engines() -> Iterator[tuple[str, Callable[[], object]]]:
+    """Everything that may take long, each on a small input that is made before."""
+    sdirk, explicit = loads_family(SDIRK2), loads_family(EXPLICIT3)
+    third = designed(EXPLICIT3, 3)
+    gauss = ideal_of(FULL2, 4)
+    family = ideal_of(EXPLICIT3, 3)
+    square = Ideal(PAIR).with_zeros([P**2 + Q**2])
+    root = real_roots(QUINTIC)[0][0]
+    yield "conditions", lambda: list(FamilyConditions(explicit.tableau, explicit.ring).of_order(4))
+    yield "Gröbner basis", lambda: groebner_basis([X**2 + Y, X * Y - 1], CONTEXT)
+    yield "Gröbner basis that grows", lambda: grown_basis([X], [X], [Y], CONTEXT)
+    yield "msolve", lambda: unproved_basis([X**2 + Y, X * Y - 1], CONTEXT)
+    yield "ideal", lambda: Ideal(PAIR).with_zeros([P * Q - 1])
+    yield "elimination", lambda: Ideal(PAIR, [P])._with_generators([]).with_zeros([Q]).closure
+    yield "covering", lambda: least_meeting([frozenset({1, 2})])
+    yield "quotient", lambda: Ideal(PAIR).with_zeros([P**2 - Q, Q**2 - 1]).multiplications
+    yield "characteristic polynomial", lambda: characteristic_polynomial(fmpq_mat(2, 2))
+    yield "solutions", lambda: solutions(gauss)
+    yield "real methods", lambda: has_methods(explicit, family, family, lambda *_: True)
+    yield "definite forms", lambda: without_complex(square)
+    yield "signs in the plane", lambda: kept_sign(P**2 + P * Q + Q**2)
+    yield "cells of the plane", lambda: is_nowhere_negative(CURVE)
+    yield "parameters", lambda: decided(find_parameters(sdirk, 3))
+    yield "choices", lambda: walk_down(third, {"c2": ("1/2", fmpq(1, 2))})
+    yield "parts", lambda: list(parts_of(family, nodes_as_coordinates(third.tableau, family.ring)))
+    yield "error", lambda: squared_error(sdirk.tableau, 3, sdirk.ring)
+    line, points, split = designed(RANGE3, 2), designed(SDIRK2, 3), designed(VERLET, 2)
+    for name in ("error", "coefficients", "-ssp", "-real-interval", "-imaginary-interval"):
+        yield f"minimise {name}", lambda key=name: minimise(line, key)
+    yield "minimise -oscillator-interval", lambda: minimise(split, "-oscillator-interval")
+    yield "minimise on a plane", lambda: minimise(third, "error")
+    yield "minimise by trial", lambda: minimise(third, "-ssp")
+    yield "minimise of solutions", lambda: minimise(points, "error")
+    yield "trial", lambda: climbed(lambda point: (point[0],), 1)
+    yield (
+        "critical point",
+        lambda: critical_point_near([fmpq(1), fmpq(1)], [P - 1, Q - 1], [], PAIR),
+    )
+    yield "stable values", lambda: stable_values(sdirk, "a-stable")
+    yield "stable on the oscillator", lambda: stable_values(split.family, "p-stable")
+    springs = loads_family(SPRINGS)
+    yield (
+        "stable on two springs",
+        lambda: stable_values(springs, "p-stable", two_springs=TwoSprings(fmpq(1), 1)),
+    )
+    yield "search", lambda: list(results(Search(sdirk, 3), 3))
+    yield "proof of a find", lambda: Search(sdirk, 3).find(1, [0.7886751345948129])
+    yield "real roots", lambda: real_roots(QUINTIC)
+    yield "comparison of roots", lambda: root < RealRoot.rational(fmpq(2))
+    yield "projection", lambda: projected([CURVE], [fmpq(0)])
+    yield "discriminant", lambda: discriminant(CURVE)
+    yield "resultant", lambda: resultant(CURVE, PLANE_Y - PLANE_T)
+    yield "fibre", lambda: Fibre(root, curves([CURVE])).roots
+    method = loads("A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]]\nb: [1/2, 1/2]\n")
+    yield "certificate", lambda: find_order(method.tableau)
+    yield "process", lambda: apart(sorted, [2, 1])
+    yield "processes", lambda: first_of((sorted, ([2, 1],)))
+
+
+def decided(found: Design) -> None:
+    """An order that is left open, as the exception that other engines raise."""
+    if found.last.kind == "undecided":
+        raise NotDecided
+
+
+FEW_LOOKS = 8
+"""At the clock."""
+SPARE_LOOKS = 4
+"""Of what is tried in other ways where the time is over."""
+ENGINES = [pytest.param(run, id=name) for name, run in engines()]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_no_engine_works_after_the_deadline(engine: Callable[[], object]) -> None:
+    """Each one gives up at once where the time is over; without a limit it ends."""
+    with within(0), pytest.raises(NotDecided):
+        engine()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_no_engine_works_past_the_deadline(
+    engine: Callable[[], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of as many looks at the clock as it takes, the second half is not reached where the time is
+    over in the middle. What looks fewer times works in a process of its own, or is one step.
+    """
+
+    def looks(most: float) -> int:
+        readings = count()
+        with monkeypatch.context() as patched, until(most):
+            patched.setattr(deadline, "monotonic", lambda: next(readings))
+            with suppress(NotDecided):
+                engine()
+        return next(readings)
+
+    everything = looks(1e5)
+    if everything > FEW_LOOKS:
+        assert looks(everything // 2) <= everything // 2 + SPARE_LOOKS
+
+
+def test_what_is_said_without_time() -> None:
+    """The first order is left open, an order below one that takes too long is not."""
+    family = loads_family(SDIRK2)
+    with within(0):
+        found = find_parameters(family)
+    assert [(x.kind, x.has_methods) for x in found.steps] == [("undecided", None)]
+    assert found.reaches() is None
+
+
+def test_a_search_without_time() -> None:
+    """It has what was found by then, which is nothing, and says why it ended."""
+    found = search_methods(loads_family(SDIRK2), 3, starts=3, seconds=0)
+    assert (found.ending, found.starts, found.methods) == ("time", 0, [])
+
+
+def test_only_what_is_small() -> None:
+    """What needs a process of its own is refused without a limit, and the rest is done."""
+    with only_small():
+        assert groebner_basis([X * Y - 1, Y - 1], CONTEXT)
+        with pytest.raises(NotDecided):
+            apart(sorted, [2, 1])
+
+
+def test_limits_within_limits() -> None:
+    """An earlier deadline around another one stays, and none is left behind."""
+    with within(1e6):
+        outer = deadline.seconds_left()
+        with within(1e8):
+            inner = deadline.seconds_left()
+        with within(None):
+            check_time()
+    assert outer is not None
+    assert inner is not None
+    assert inner <= outer
+    assert deadline.seconds_left() is None
+
+
+def test_a_process_that_fails_leaves_it_open() -> None:
+    """Where one ends without a result the other one has it; where all do, it is open."""
+    with within(60):
+        assert first_of((_fails, ()), (sorted, ([2, 1],))) == [1, 2]
+        with pytest.raises(NotDecided):
+            apart(_fails)
+
+
+def _fails() -> list[int]:
+    raise MemoryError
