@@ -87,20 +87,23 @@ def test_stage_order() -> None:
     assert values == {"c2": "1", "gamma": "1/2", "b1": "1/2", "b2": "1/2"}
 
 
-def test_stage_orders_above_the_number_of_stages() -> None:
-    """Beyond it only a method whose nodes are all 0 is left, for which nothing is added: each C(q)
-    has the zeros of C(s + 1), checked on the conditions themselves.
+def test_stage_order_asks_for_the_weights_too() -> None:
+    """One stage with C(2) has the node 0, for which B(2) fails: no method has stage order 2, as the
+    simplifying assumptions of Euler's method say.
     """
-    text = "A: [[a, b], [c, d]]\nb: [1/2, 1/2]\ndesign: {{stage-order: {}}}\n"
-    head = "parameters: {a: free, b: free, c: free, d: free}\n"
+    text = "A: [['?']]\nb: ['?']\ndesign: {stage-order: 2}\n"
+    assert find_parameters(loads_family(text), 1).last.found == ()
+    euler = simplifying(loads("A: [[0]]\nb: [1]\n").tableau, 9)
+    assert (euler.eta, euler.stage_order) == (9, 1)
+
+
+def test_stage_orders_above_the_number_of_stages() -> None:
+    """B(2s + 1) has no solution, and orders above it add no equation."""
+    text = "A: [[a, b], [c, d]]\nb: [e, f]\ndesign: {{stage-order: {}}}\n"
+    head = f"parameters: {{{', '.join(f'{name}: free' for name in 'abcdef')}}}\n"
     highest = loads_family(head + text.format(60))
-    assert highest.relations == loads_family(head + text.format(3)).relations
-    nodes = {"a": 2, "b": -2, "c": 1, "d": -1}
-    for values, holds in ((nodes, True), ({**nodes, "d": 0}, False)):
-        at = [fmpq(values[name]) for name in highest.parameters]
-        assert all(p(*at) == 0 for p in highest.relations) is holds
-    fixed = "A: [[2, -2], [1, -1]]\nb: [1/2, 1/2]\n"
-    assert simplifying(loads(fixed).tableau, 9).eta == 9
+    assert highest.relations == loads_family(head + text.format(5)).relations
+    assert find_parameters(highest, 1).last.found == ()
 
 
 def test_an_implicit_explicit_method() -> None:
