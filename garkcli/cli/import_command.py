@@ -124,8 +124,10 @@ def _nothing(
 
     for result in results:
         place = f"{result.table.source}:{result.table.line}"
-        name = result.table.name or "a table"
-        message = f"{place}: {name} is no method: {result.trouble}"
+        name = result.table.name
+        message = f"{place}: no method: {result.trouble}"
+        if name:
+            message = f"{place}: {name} is no method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read")
     for table in left_out:
         return UsageProblem(_other(table), _take_it(table))
