@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import insort
 from collections.abc import Sequence
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly
+
+from garkcli.exact.field import ZERO
 
 Polynomials: TypeAlias = tuple[fmpq_mpoly, ...]
 _Place: TypeAlias = tuple[int, tuple[int, ...]]
@@ -39,20 +42,21 @@ class CoefficientSpan:
     def _reduced(self, row: _Row) -> _Row:
         """The row minus its part along those before; its largest place is no pivot of theirs."""
         settled: _Row = {}
-        while row:
-            place = max(row)
+        places = sorted(row)
+        while places:
+            place = places.pop()
             factor = row.pop(place)
             known = self._rows.get(place)
             if known is None:
-                settled[place] = factor
+                if factor:
+                    settled[place] = factor
                 continue
             for other, a in known.items():
-                if other != place:
-                    changed = row.get(other, fmpq(0)) - factor * a
-                    if changed:
-                        row[other] = changed
-                    else:
-                        row.pop(other, None)
+                if other == place or not factor:
+                    continue
+                if other not in row:
+                    insort(places, other)
+                row[other] = row.get(other, ZERO) - factor * a
         return settled
 
 

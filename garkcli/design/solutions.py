@@ -109,14 +109,17 @@ def _trace(matrix: fmpq_mat) -> fmpq:
 
 
 def _trace_form(matrices: Sequence[fmpq_mat]) -> fmpq_mat:
-    """Tr(v w) for the elements v, w of a basis of the algebra."""
-    products = list(_basis_matrices(matrices))
-    size = len(products)
-    form = fmpq_mat(size, size)
-    for i, left in enumerate(products):
-        for j in range(i + 1):
-            form[i, j] = form[j, i] = _trace(left * products[j])
-    return form
+    """Tr(v w) for the elements v, w of a basis of the algebra.
+
+    The trace is a linear function of what an element does to 1: its coordinates, the first column
+    of its matrix.
+    """
+    basis = list(_basis_matrices(matrices))
+    size = len(basis)
+    coordinates = fmpq_mat([[x[i, 0] for x in basis] for i in range(size)])
+    trace = fmpq_mat([[_trace(x) for x in basis]]) * coordinates.inv()
+    images = [trace * x for x in basis]
+    return fmpq_mat([[x[0, k] for k in range(size)] for x in images]) * coordinates
 
 
 def _basis_matrices(matrices: Sequence[fmpq_mat]) -> Iterator[fmpq_mat]:
