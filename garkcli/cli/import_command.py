@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import INPUT
 from garkcli.cli.options import CONTEXT, PATH, Output, help_option
 from garkcli.errors import UsageProblem, counted, printable
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @click.command("import", context_settings=CONTEXT)
-@click.argument("sources", nargs=-1, type=PATH, metavar="SOURCE...", required=True)
+@click.argument("sources", nargs=-1, type=INPUT, metavar="SOURCE...", required=True)
 @click.option(
     "-o",
     "--output",
