@@ -8,6 +8,7 @@ GarkError                     what is wrong, and the cure
 │   ├── ShapeMismatch         a matrix or row of the wrong size
 │   ├── CoincidingNodes       a rule interpolates at nodes that are not distinct
 │   ├── BlockTooLarge         interpolation whose exact entries would fill the memory
+│   ├── TooManyTerms          a product of polynomials in the parameters that would fill it
 │   ├── ZeroWeight            a conjugate divides by a weight that is zero
 │   └── UnknownFamily         no such family, or not with that many stages
 ├── TreeError                 a text that is no tree, or trees that there are none of
@@ -92,6 +93,10 @@ class CoincidingNodes(MethodError):
 
 class BlockTooLarge(MethodError):
     """Interpolation was asked for whose exact entries would take minutes, or all memory."""
+
+
+class TooManyTerms(MethodError):
+    """Polynomials in free parameters would be multiplied out to more terms than fit."""
 
 
 class ZeroWeight(MethodError):

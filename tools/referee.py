@@ -39,6 +39,12 @@ def demand(holds, what):
         raise NotProved(what)
 
 
+def rational(text):
+    """A fraction as gark writes it; with an exponent a short text could be a number without end."""
+    demand(re.fullmatch("-?[0-9]{1,4300}(/[0-9]{1,4300})?", text), "a number that is no fraction")
+    return Fraction(text)
+
+
 def bounds(polynomial, low, high):
     """Bounds of a polynomial on an interval, by Horner's scheme; its value where low is high."""
     least = most = Fraction(0)
@@ -67,9 +73,9 @@ class Field:
     """ℚ(θ), with θ the root of the modulus in an interval."""
 
     def __init__(self, data):
-        self.modulus = [Fraction(a) for a in data["modulus"]]
+        self.modulus = [rational(a) for a in data["modulus"]]
         self.degree = len(self.modulus) - 1
-        self.low, self.high = map(Fraction, data["theta_between"])
+        self.low, self.high = map(rational, data["theta_between"])
         slope = [k * a for k, a in enumerate(self.modulus)][1:]
         ends = [bounds(self.modulus, x, x)[0] for x in (self.low, self.high)]
         demand(self.modulus[-1] == 1, "the modulus of the field is not monic")
@@ -79,7 +85,7 @@ class Field:
     def number(self, data):
         given = data if isinstance(data, list) else [data]
         demand(len(given) in (1, self.degree), "a number of another field")
-        return [Fraction(x) for x in given] + [Fraction(0)] * (self.degree - len(given))
+        return [rational(x) for x in given] + [Fraction(0)] * (self.degree - len(given))
 
     def times(self, number):
         """The map x → number · x."""
@@ -98,17 +104,18 @@ class Space:
         self.field, self.stages = field, data["stages"]
         demand(0 < self.stages <= 10_000, "an impossible number of stages")
         self.size = self.stages * field.degree
-        self.modulus = [Fraction(a) for a in data.get("modulus", [])]
-        places = range(0, self.size, field.degree)
-        self.basis = [[Fraction(i == j) for i in range(self.size)] for j in places]
-        units = places[:1] if self.modulus else places
-        self.one = [Fraction(i in units) for i in range(self.size)]
+        self.modulus = [rational(a) for a in data.get("modulus", [])]
+        self.places = range(0, self.size, field.degree)
+        self.one = self.unit(self.places[:1] if self.modulus else self.places)
         if self.modulus:
-            points = [Fraction(x) for x in data["between_nodes"]]
+            points = [rational(x) for x in data["between_nodes"]]
             values = [bounds(self.modulus, x, x)[0] for x in points]
             changes = sum(a * b < 0 for a, b in pairwise(values))
             demand(points == sorted(points) and self.modulus[-1] == 1, "nodes without an order")
             demand(changes == self.stages == len(self.modulus) - 1, "nodes not real and distinct")
+
+    def unit(self, places):
+        return [Fraction(i in places) for i in range(self.size)]
 
     def product(self, u, v):
         """In ℚ[θ] stage by stage, or in ℚ[x, θ], a row a stage or a power of x; then reduced."""
@@ -202,9 +209,7 @@ class Tableau:
         return [first - Fraction(1, order_of(tree)), *others]
 
     def assumed(self):
-        """What is taken for granted of the vector fields: linear, or free of what a colour drives,
-        where stages have no block of it. Without a word on it conditions could be left out.
-        """
+        """Colours that are linear, or free of what others drive, by words or for want of blocks."""
         found = {"linear": [l for l in self.colours if self.linear[l]]}
         for m in self.colours:
             blind = [l for l in self.colours if (l, m) not in self.blocks]
@@ -250,10 +255,9 @@ class Tableau:
         demand(order_of(tree) == k, "the witness has another order")
         least, most = bounds(self.defect(tree), self.field.low, self.field.high)
         demand(least > 0 or most < 0, "the witness does not fail")
-        told = self.field.number(data["value"])
         weight = [x * Fraction(k, density(tree)) for x in apply(self.b[tree[0]], self.psi(tree))]
-        demand(told == weight, "the witness has another value")
-        demand(Fraction(data["required"]) == Fraction(1, density(tree)), "it requires another one")
+        demand(self.field.number(data["value"]) == weight, "the witness has another value")
+        demand(rational(data["required"]) == Fraction(1, density(tree)), "it requires another one")
 
     def pairs(self):
         """The colours l, m that the symplectic form pairs; it has a word on every block."""
@@ -292,9 +296,9 @@ def check_conjugate(method, other):
         demand(is_same, "the conjugate has other weights or nodes")
         forth, back = other.blocks.get((l, m)), method.blocks.get((m, l))
         demand((forth is None) == (back is None), "the conjugate has other blocks")
-        for f in here.basis if forth else ():
+        for f in map(here.unit, zip(here.places)) if forth else ():
             weight = method.field.times(apply(method.b[l], f))
-            for g in there.basis:
+            for g in map(there.unit, zip(there.places)):
                 one = apply(method.b[l], here.product(f, apply(forth, g)))
                 two = apply(method.b[m], there.product(apply(back, f), g))
                 both = [x + y for x, y in zip(one, two, strict=True)]

@@ -27,19 +27,23 @@ class Comment:
         mark: before each line.
         begin: a line before all; empty for none.
         end: a line after all.
-        forbidden: pairs of signs that this language alone does not allow.
     """
 
     mark: str
     begin: str = ""
     end: str = ""
-    forbidden: tuple[str, ...] = ()
+
+    @property
+    def _pairs(self) -> tuple[str, ...]:
+        """The pairs of signs that its begin and its end are made of: ``--`` and ``->`` of XML."""
+        marks = (self.begin.strip(), self.end.strip())
+        return tuple(x[i : i + 2] for x in marks for i in range(len(x) - 1))
 
     def lines(self, texts: Iterable[str]) -> list[str]:
         """Texts as comment lines, long ones broken; commands, which begin with a blank, are not."""
         found = [self.begin] if self.begin else []
         for text in texts:
-            plain = harmless(text, self.forbidden)
+            plain = harmless(text, self._pairs)
             broken = wrap(plain, WIDTH) or [""]
             if text.startswith(" "):
                 broken = [plain]
@@ -51,7 +55,8 @@ HASH = Comment("# ")
 C = Comment(" * ", begin="/*", end=" */")
 BANG = Comment("! ")
 PERCENT = Comment("% ")
-XML = Comment("", begin="<!--", end="-->", forbidden=("--",))
+STARRED = Comment("   ", begin="(*", end="*)")
+XML = Comment("  ", begin="<!--", end="-->")
 
 
 def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import C
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Written
@@ -23,7 +24,15 @@ def driver(
         build: the compiler with its options, and libraries.
         before: lines before ``main``; the vector field is ``field(t, y, d)``, of pointers.
         steps: the lines that make y[0] and y[1] of these, in n steps of h.
+
+    Raises:
+        CannotExport: no header can have the name of the file.
     """
+    if {'"', "\\"} & set(file) or not file.isprintable():
+        raise CannotExport(
+            f"C++ includes a header by the name of its file, and {file} is none",
+            "-o NAME.hpp, without quotes and backslashes",
+        )
     trial = trial_of(payload)
     stem = file.removesuffix(".hpp")
     problem = f"{stem}_problem.yaml"

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from functools import cached_property
-from keyword import iskeyword
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.bridges import names
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.rounding import Cell, TooWide
-from garkcli.errors import printable
-from garkcli.page.plaintext import plain_line
 from garkcli.tableau.pointwise import Block, Entries, Row
 from garkcli.tableau.tableau import Tableau
 from garkcli.version import __version__
@@ -92,25 +89,17 @@ class Payload:
         return self.entries.is_exact
 
     @cached_property
-    def identifier(self) -> str:
-        """The name as languages have them: lower case ASCII letters, digits, single underscores.
+    def stem(self) -> str:
+        """The name as ASCII letters, digits and underscores, for what is put behind ``gark_``."""
+        return names.stem_of(self.name)
 
-        It begins with a letter and has 40 signs at most.
-        """
-        plain = plain_line(printable(self.name)).lower()
-        stem = plain.removesuffix(".yaml").removesuffix(".gark")
-        words = re.findall("[a-z0-9]+", stem)
-        joined = "_".join(words)[:40].strip("_")
-        if not joined:
-            return "method"
-        return f"method_{joined}" if joined[0].isdigit() else joined
+    def identifier(self, language: str) -> str:
+        """The name as one of a language, which its files do not have for anything else."""
+        return names.identifier(self.name, language)
 
-    @property
-    def class_name(self) -> str:
+    def class_name(self, language: str = "python") -> str:
         """The same as the name of a class: ``RalstonEuler``."""
-        name = "".join(x.capitalize() for x in self.identifier.split("_"))
-        # None, True and False are no names
-        return f"{name}Method" if iskeyword(name) else name
+        return names.class_name(self.name, language)
 
     def number(self, x: Cell, style: Style = EXACT) -> str:
         """An entry in the style of a language, with the digits that were asked for.

@@ -37,7 +37,7 @@ def driver(
         sides: the right-hand sides, the explicit one first.
     """
     trial = trial_of(payload)
-    register = f"gark_{payload.identifier}_register"
+    register = f"gark_{payload.stem}_register"
     lines = [
         *_comment(payload, file),
         "#include <math.h>",

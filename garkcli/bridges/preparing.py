@@ -11,6 +11,7 @@ from flint import arb, fmpq
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
+from garkcli.errors import printable
 from garkcli.methodfile.infinitesimal import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
@@ -46,7 +47,7 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
-        name=_name(method),
+        name=printable(_name(method)),
         kind=kind_of(tableau),
         tableau=in_points(tableau) or tableau,
         entries=found,
@@ -55,7 +56,7 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
         dense=None if dense is None else dense.weights,
         tolerance=method.tolerance,
         structure=method.structure,
-        reference=str(method.reference),
+        reference=printable(str(method.reference)),
         digits=digits,
         coupling=coupling_of(method),
     )

@@ -37,7 +37,7 @@ def driver(
         "",
         *imports,
         "",
-        f'path = Path(__file__).with_name("{file}")',
+        f"path = Path(__file__).with_name({file!a})",
         'spec = importlib.util.spec_from_file_location("table", path)',
         "table = importlib.util.module_from_spec(spec)",
         "spec.loader.exec_module(table)",

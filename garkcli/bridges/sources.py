@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import PurePath
 
 from garkcli.bridges.readers.found import MAX_CHARACTERS
 from garkcli.bridges.readers.registry import suffixes
 from garkcli.errors import UsageProblem, printable
+from garkcli.files import STDIN, NotAFile, leads_away, read_bytes
+from garkcli.methodfile.folders import no_one
 
-STDIN = "-"
 STDIN_NAME = "<stdin>"
 MAX_FILES = 100_000
 """Most files of a source tree that are looked at."""
 
 
-def _no_one(text: str) -> None:
-    del text
-
-
-def source_files(paths: Iterable[str], told: Callable[[str], None] = _no_one) -> Iterator[str]:
+def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
     """The files meant by ``paths``: of a folder all that some reader reads, in order.
 
     Hidden files and folders are left out, and links to folders are not followed. A file of a folder
-    that cannot be read is no reason to read none.
+    that cannot be read is no reason to read none, nor is a link out of the folder.
 
     Args:
         paths: files and folders.
@@ -35,15 +31,15 @@ def source_files(paths: Iterable[str], told: Callable[[str], None] = _no_one) ->
         if path == STDIN or not os.path.isdir(path):
             yield path
             continue
-        for file in _below(path):
-            reason = _why_not(file)
+        for file in _below(path, told):
+            reason = _why_not(file, path)
             if reason:
                 told(f"{printable(file)} is left out: {reason}")
             else:
                 yield file
 
 
-def _why_not(path: str) -> str:
+def _why_not(path: str, folder: str) -> str:
     """Why a file of a folder is not read; empty where it is."""
     try:
         size = os.stat(path).st_size
@@ -53,12 +49,14 @@ def _why_not(path: str) -> str:
         return "it is no ordinary file"
     if not os.access(path, os.R_OK):
         return "it is protected"
+    if leads_away(path, folder):
+        return f"it is a link out of {printable(folder)}"
     if size > MAX_CHARACTERS:
         return f"it has more than {MAX_CHARACTERS} bytes"
     return ""
 
 
-def _below(folder: str) -> Iterator[str]:
+def _below(folder: str, told: Callable[[str], None]) -> Iterator[str]:
     known = suffixes()
     count = 0
     for place, folders, files in os.walk(folder):
@@ -67,10 +65,11 @@ def _below(folder: str) -> Iterator[str]:
             is_known = PurePath(name).suffix.lower() in known
             if name.startswith(".") or not is_known:
                 continue
+            if count == MAX_FILES:
+                told(f"{printable(folder)} has more than {MAX_FILES} files: the rest is left out")
+                return
             yield os.path.join(place, name)
             count += 1
-            if count >= MAX_FILES:
-                return
 
 
 def source_text(path: str) -> tuple[str, str]:
@@ -81,7 +80,11 @@ def source_text(path: str) -> tuple[str, str]:
     """
     name = STDIN_NAME if path == STDIN else path
     try:
-        data = _bytes(path)
+        data = read_bytes(path, MAX_CHARACTERS)
+    except NotAFile as error:
+        message = f"{name} cannot be read: {error.strerror}"
+        cure = "name a file or a folder, or - for standard input"
+        raise UsageProblem(message, cure) from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "no file has such a name"
         message = f"{name} cannot be read: {reason}"
@@ -90,12 +93,3 @@ def source_text(path: str) -> tuple[str, str]:
         message = f"{name} has more than {MAX_CHARACTERS} bytes"
         raise UsageProblem(message, "give the part with the tables")
     return data.decode("utf-8-sig", errors="replace"), name
-
-
-def _bytes(path: str) -> bytes:
-    if path != STDIN:
-        with open(path, "rb") as stream:
-            return stream.read(MAX_CHARACTERS + 1)
-    if sys.stdin is None:
-        raise UsageProblem("standard input is closed", "name a file")
-    return sys.stdin.buffer.read(MAX_CHARACTERS + 1)

@@ -20,7 +20,8 @@ class MethodProof:
         name: of the method.
         method: its order.
         conjugate: that of its symplectic conjugate, or None where a weight is zero.
-        pair: that of the symplectic pair, or None likewise.
+        pair: that of the symplectic pair, or None likewise; of a partitioned method it needs the
+            weights of the positions alone.
         obstacle: why there is no conjugate; empty where there is one.
     """
 

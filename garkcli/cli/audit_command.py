@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.method_argument import INPUT
+from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.errors import UsageProblem, counted
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ FORMATS = ("text", "json", "github", "sarif", "markdown")
 
 
 @click.command("audit", context_settings=CONTEXT)
-@click.argument("paths", nargs=-1, type=PATH, metavar="PATH...", required=True)
+@click.argument("paths", nargs=-1, type=INPUT, metavar="PATH...", required=True)
 @common(["auto", *FORMATS])
 def command(paths: tuple[str, ...], output: Output) -> int:
     """The tables of a solver's source tree against what they declare.

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.method_argument import files_argument
+from garkcli.cli.method_argument import INPUT, files_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     digits_option,
+    files_meant,
     refuse_settings_of_several,
     settings_option,
 )
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--baseline",
-    type=PATH,
+    type=INPUT,
     metavar="REPORT",
     help="Fail only on what is worse than in an earlier JSON report.",
 )
@@ -158,10 +158,9 @@ def _outcomes(
 ) -> list[Outcome]:
     """The outcome of each file that is meant, in order."""
     from garkcli.cli.parallel import check_files
-    from garkcli.methodfile.finding import find_files
     from garkcli.page.progress import tracked
 
-    paths = list(find_files(files))
+    paths = files_meant(files, output)
     refuse_settings_of_several(settings, paths)
     jobs = wanted.jobs or os.cpu_count() or 1
     running = check_files(paths, wanted.max_order, wanted.error_constants, jobs, settings)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, Output, common, files_meant
 
 
 @click.command("cite", context_settings=CONTEXT)
@@ -19,12 +19,11 @@ def command(files: tuple[str, ...], output: Output) -> int:
     note, one without a reference is told.
     """
     from garkcli.methodfile.bibliography import reference_of
-    from garkcli.methodfile.finding import find_files
     from garkcli.methodfile.load import read_method_text
     from garkcli.report.citation import Cited, render, together
 
     cited = []
-    for path in find_files(files):
+    for path in files_meant(files, output):
         text, source = read_method_text(path)
         cited.append(Cited((source,), *reference_of(text, source)))
     found = together(cited)

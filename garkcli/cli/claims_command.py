@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, Output, common, files_meant
 from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -48,13 +48,12 @@ def command(
     is no longer what it was.
     """
     from garkcli.check.check_file import check_file
-    from garkcli.methodfile.finding import find_files
     from garkcli.report import claims as report
 
     _refuse_unknown(keys)
     if is_written and "-" in files:
         raise UsageProblem("--write needs a file", "name one in place of -")
-    paths = list(find_files(files))
+    paths = files_meant(files, output)
     if is_written:
         _refuse_names(paths)
     told = [_claims(check_file(path), wants_all, keys) for path in paths]
@@ -130,4 +129,4 @@ def _write(claims: TrueClaims) -> None:
 
     text = write_claims(claims.file, claims.text, claims.claims)
     if text != claims.text:
-        write_whole(claims.file, [text])
+        write_whole(claims.file, [text], is_renewed=True)

@@ -10,7 +10,14 @@ import click
 
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
 from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import CONTEXT, Output, common, refuse_settings_of_several, settings_option
+from garkcli.cli.options import (
+    CONTEXT,
+    Output,
+    common,
+    files_meant,
+    refuse_settings_of_several,
+    settings_option,
+)
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
 from garkcli.cli.problems import ProblemType, note_changing, problem_options
 from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, stepped_tableau
@@ -82,9 +89,7 @@ def command(
     Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
     step fails, 2 a file cannot be read, or its method is not for this problem.
     """
-    from garkcli.methodfile.finding import find_files
-
-    paths = list(find_files(files))
+    paths = files_meant(files, output)
     refuse_settings_of_several(settings, paths)
     asked = Asked(**options)
     _check(asked)

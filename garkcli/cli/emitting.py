@@ -9,8 +9,8 @@ from garkcli.cli.options import Output
 from garkcli.design.chosen import Chosen, accepted_methods, first_method
 from garkcli.design.design import CLAIMS, Design
 from garkcli.errors import MethodError, UsageProblem
+from garkcli.files import STDIN
 from garkcli.methodfile.family import FamilyFile, with_values
-from garkcli.methodfile.folders import STDIN
 from garkcli.page.writing import write_whole
 
 _STANDARD_INPUT = {STDIN, "<stdin>"}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import INPUT
 from garkcli.cli.options import CONTEXT, PATH, Output, help_option
 from garkcli.errors import UsageProblem, counted, printable
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @click.command("import", context_settings=CONTEXT)
-@click.argument("sources", nargs=-1, type=PATH, metavar="SOURCE...", required=True)
+@click.argument("sources", nargs=-1, type=INPUT, metavar="SOURCE...", required=True)
 @click.option(
     "-o",
     "--output",
@@ -124,8 +125,10 @@ def _nothing(
 
     for result in results:
         place = f"{result.table.source}:{result.table.line}"
-        name = result.table.name or "a table"
-        message = f"{place}: {name} is no method: {result.trouble}"
+        name = result.table.name
+        message = f"{place}: no method: {result.trouble}"
+        if name:
+            message = f"{place}: {name} is no method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read")
     for table in left_out:
         return UsageProblem(_other(table), _take_it(table))

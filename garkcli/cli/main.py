@@ -28,6 +28,7 @@ from garkcli.cli.streams import (
 )
 from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import GarkError, MethodFileError, UsageProblem, counted
+from garkcli.files import noting_inputs
 from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
@@ -170,7 +171,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 def _exit_code(arguments: list[str]) -> int:
     """Run the command line, say what went wrong, and return the exit code."""
     try:
-        with ending():
+        with ending(), noting_inputs():
             code = _run(arguments)
             flush()
             return code

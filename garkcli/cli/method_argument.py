@@ -11,6 +11,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from garkcli.errors import GarkError, UsageProblem
+from garkcli.files import note_input
 
 F = TypeVar("F", bound=Callable[..., Any])
 _NOTES = "garkcli.notes"
@@ -18,13 +19,29 @@ _NOTES = "garkcli.notes"
 _VARIABLE = "GARK_PATH"
 
 
-class MethodType(click.Path):
-    """A path, a name or an alias; whoever reads it says what is wrong with it."""
+class InputType(click.Path):
+    """A path that the command reads, so that nothing is written over it; whoever reads it says what
+    is wrong with it.
+    """
 
     name = "file"
 
     def __init__(self) -> None:
         super().__init__(readable=False)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path as it is given, remembered as an input."""
+        found = super().convert(value, param, ctx)
+        note_input(str(found))
+        return found
+
+
+INPUT = InputType()
+"""The type of arguments and options that are files which are read."""
+
+
+class MethodType(InputType):
+    """A path, a name or an alias."""
 
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str

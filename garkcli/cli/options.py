@@ -11,13 +11,14 @@ import click
 from garkcli.cli.method_argument import notes
 from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
 from garkcli.errors import UsageProblem
+from garkcli.files import note_input
 from garkcli.page.paint import Paint
 
 F = TypeVar("F", bound=Callable[..., Any])
 CONTEXT = {"help_option_names": [], "max_content_width": 100}
 """Settings of every command; ``-h`` and ``--help`` are options of ``common``."""
 PATH = click.Path(readable=False)
-"""The type of arguments that are files: shells complete them, whoever reads them checks them."""
+"""The type of options that are places to write to; ``INPUT`` is that of files that are read."""
 
 
 def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -174,10 +175,18 @@ class Output:
         self.path = path
         self.verbosity = verbosity
         self._color = color
-        if path is not None:
+        self.check_place()
+
+    def check_place(self) -> None:
+        """Look whether the report may be written where it is to go.
+
+        Raises:
+            UsageProblem: it may not.
+        """
+        if self.path is not None:
             from garkcli.page.writing import refuse_unwritable
 
-            refuse_unwritable(path)
+            refuse_unwritable(self.path)
 
     @property
     def paint(self) -> Paint:
@@ -222,3 +231,19 @@ class Output:
         """A remark beside the report, on stderr."""
         if self.verbosity >= 0:
             say(text)
+
+
+def files_meant(arguments: Sequence[str], output: Output) -> list[str]:
+    """The files that FILE... means: folders and patterns are looked into, and none of the files is
+    written over.
+
+    Raises:
+        UsageProblem: the report is to go to one of them.
+    """
+    from garkcli.methodfile.finding import find_files
+
+    paths = list(find_files(arguments, output.note))
+    for path in paths:
+        note_input(path)
+    output.check_place()
+    return paths

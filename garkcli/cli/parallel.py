@@ -13,6 +13,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import in_order
 from garkcli.errors import Fault
+from garkcli.files import is_stream
 from garkcli.methodfile.load import NO_SETTINGS
 
 Work = Callable[[str], Outcome]
@@ -32,8 +33,8 @@ def check_files(
     """
     check = partial(check_file, limit=limit, want_constants=want_constants, settings=settings)
     work: Work = partial(_checked, check)
-    # standard input is this process's
-    jobs = 1 if "-" in paths else min(jobs, len(paths))
+    # standard input is this process's, and so are other streams
+    jobs = 1 if any(map(is_stream, paths)) else min(jobs, len(paths))
     with hired(work, _ended, jobs) as workers:
         yield from in_order(workers, paths)
 

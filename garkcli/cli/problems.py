@@ -11,6 +11,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.files import note_input
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -44,6 +45,7 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         if value not in PROBLEMS and not is_path(value):
             cure = did_you_mean(value, tuple(PROBLEMS))
             self.fail(f"no problem {value!r} (a problem file ends in .yaml); {cure}", param, ctx)
+        note_input(value)
         return value
 
     def shell_complete(

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.files import is_inside
 from garkcli.page.plain import printable
 
 OWN = ".gark.toml"
@@ -111,13 +112,19 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
         if not is_right(value):
             cure = f"write {key} = {example}"
             raise UsageProblem(f"{shown}: {key} is not {wanted}", cure)
+    from garkcli.methodfile.finding import fixed_part
+
     required = table.get("require-claims", False)
-    paths = [_from_here(os.path.join(folder, path)) for path in table.get("paths", ())]
+    paths = [os.path.join(folder, path) for path in table.get("paths", ())]
+    for path, given in zip(paths, table.get("paths", ()), strict=True):
+        if not is_inside(fixed_part(path), folder):
+            message = f"{shown}: paths: {printable(given)} leads out of the project"
+            raise UsageProblem(message, "name files and folders of the project")
     names = {"format": "format", "max-order": "max_order", "jobs": "jobs"}
     defaults = {names[key]: table[key] for key in names if key in table}
     return Project(
         file,
-        tuple(paths),
+        tuple(map(_from_here, paths)),
         required is True,
         tuple(required) if isinstance(required, list) else (),
         defaults,

@@ -7,7 +7,14 @@ from typing import Any
 import click
 
 from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import CONTEXT, Output, common, refuse_settings_of_several, settings_option
+from garkcli.cli.options import (
+    CONTEXT,
+    Output,
+    common,
+    files_meant,
+    refuse_settings_of_several,
+    settings_option,
+)
 
 
 @click.command("report", context_settings=CONTEXT)
@@ -41,12 +48,11 @@ def command(
     is written in each case, and says so.
     """
     from garkcli.cli.streams import say_faults
-    from garkcli.methodfile.finding import find_files
     from garkcli.page.progress import tracked
     from garkcli.webpage.page import render
     from garkcli.webpage.reported import reported
 
-    paths = list(find_files(files))
+    paths = files_meant(files, output)
     refuse_settings_of_several(settings, paths)
     found = (reported(path, options["order"], options["pictures"], settings) for path in paths)
     shows_bar = output.may_show_progress

@@ -14,6 +14,7 @@ from garkcli.cli.options import (
     Output,
     common,
     digits_option,
+    files_meant,
     refuse_settings_of_several,
     settings_option,
 )
@@ -65,14 +66,13 @@ def command(
     its intervals of stability, P-stability, phase lag; algebraic stability; the SSP coefficient.
     Of a file with free parameters R(z) with these, and for which values it is stable.
     """
-    from garkcli.methodfile.finding import find_files
     from garkcli.methodfile.load import load
     from garkcli.report.stability import render
 
     _check_options(slow, fast, plot, order_star)
     ratios = [_ratio(text) for text in ratio]
     reports = []
-    paths = list(find_files(files))
+    paths = files_meant(files, output)
     refuse_settings_of_several(settings, paths)
     for file in paths:
         try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.method_argument import catalogue_option
+from garkcli.cli.method_argument import INPUT, catalogue_option
 from garkcli.cli.options import CONTEXT, PATH, Output, common
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command("sweep", context_settings=CONTEXT)
-@click.argument("spec", type=PATH, metavar="SPEC")
+@click.argument("spec", type=INPUT, metavar="SPEC")
 @click.option(
     "--rows",
     type=PATH,

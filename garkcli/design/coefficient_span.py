@@ -56,7 +56,8 @@ class CoefficientSpan:
                 continue
             known = self._rows.get(place)
             if known is None:
-                settled[place] = factor
+                if factor:
+                    settled[place] = factor
                 continue
             for other, a in known.items():
                 if other == place:

@@ -22,7 +22,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.design.coefficient_span import CoefficientSpan, Polynomials
 from garkcli.exact.matrix import Vector
-from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.exact.parametric import Parameters, common_denominator, fraction, times
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
@@ -90,7 +90,7 @@ class FamilyConditions:
         made = []
         for x in row:
             numerator, own = fraction(x, self.ring)
-            made.append(numerator * (denominator // own))
+            made.append(times(numerator, denominator // own))
         return tuple(made)
 
     def of_order(self, order: int) -> Iterator[Condition]:
@@ -98,13 +98,14 @@ class FamilyConditions:
 
         Raises:
             NotDecided: the time was not enough; they may be asked for again.
+            TooManyTerms: they are too long.
         """
         for l in range(self.tableau.size):
             weights = self._weights[l]
             for member in self._stage_vectors(l, order):
                 value = self._zero
                 for b, x in zip(weights, member.vector, strict=True):
-                    value += b * x
+                    value += times(b, x)
                 required = member.scale * self._of_weights / fmpq(order)
                 tree = Tree(l, member.branches)
                 yield Condition(tree, value - required)
@@ -135,9 +136,9 @@ class FamilyConditions:
                     total = self._zero
                     for a, x in zip(row, member.vector, strict=True):
                         if a and x:
-                            total += a * x
+                            total += times(a, x)
                     image.append(total * fmpq(order))
-                scale = self._of_blocks * member.scale
+                scale = times(self._of_blocks, member.scale)
                 branch = Tree(m, member.branches)
                 yield _Member(scale, tuple(image), (branch,))
 
@@ -149,7 +150,7 @@ class FamilyConditions:
             for branch in branches[j]:
                 for rest in forests[order - j]:
                     trees = (*branch.branches, *rest.branches)
-                    scale = branch.scale * rest.scale
+                    scale = times(branch.scale, rest.scale)
                     vector = self._product(rows, branch.vector, rest.vector)
                     yield _Member(scale, vector, trees)
 
@@ -157,13 +158,13 @@ class FamilyConditions:
         space = self.tableau.spaces[rows]
         if not isinstance(space, PolynomialSpace):
             pairs = zip(u, v, strict=True)
-            return tuple(x * y for x, y in pairs)
+            return tuple(times(x, y) for x, y in pairs)
         s = space.stages
         out = [self._zero] * (2 * s - 1)
         for i, x in enumerate(u):
             for j, y in enumerate(v):
                 if x and y:
-                    out[i + j] += x * y
+                    out[i + j] += times(x, y)
         # x^k for k ≥ s, by the node polynomial, from the highest down
         for k in range(2 * s - 2, s - 1, -1):
             for j in range(s):

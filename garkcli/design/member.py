@@ -12,7 +12,7 @@ from garkcli.deadline import check_time
 from garkcli.errors import VanishingDenominator
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.parametric import Parameters, Parametric
+from garkcli.exact.parametric import Parameters, Parametric, fraction
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -48,6 +48,9 @@ class _At:
 
     def __init__(self, values: list[Number]) -> None:
         self.values = values
+        functions = [x for x in cast("list[object]", values) if isinstance(x, Parametric)]
+        self._ring = functions[0].ring if functions else None
+        self._monomials = None if self._ring is None else _monomials(values, self._ring)
 
     def space(self, space: StageSpace) -> StageSpace:
         if isinstance(space, PointSpace):
@@ -72,6 +75,10 @@ class _At:
 
     def polynomial(self, polynomial: fmpq_mpoly) -> Number:
         check_time()
+        if self._ring is not None and self._monomials is not None:
+            # parameters that have other names, or values
+            found = polynomial.compose(*self._monomials, ctx=self._ring.context)
+            return cast("Number", self._ring.quotient(found, self._ring.constant(fmpq(1))))
         total: Number = ZERO
         for exponents, a in polynomial.to_dict().items():
             term: Number = ONE * fmpq(a)
@@ -80,3 +87,16 @@ class _At:
                     term = term * value
             total = total + term
         return total
+
+
+def _monomials(values: list[Number], ring: Parameters) -> list[fmpq_mpoly] | None:
+    """Values as polynomials of one term each; None where they are others."""
+    found = []
+    for x in values:
+        if not isinstance(x, (fmpq, Parametric)):
+            return None
+        numerator, denominator = fraction(x, ring)
+        if len(numerator) > 1 or not denominator.is_one():
+            return None
+        found.append(numerator)
+    return found

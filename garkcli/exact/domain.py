@@ -27,6 +27,8 @@ Radical: TypeAlias = Root | AlgebraicRoot
 """What generates a number field."""
 MAX_BITS = 60_000
 """Largest numerator or denominator a coefficient may grow to, in bits."""
+MAX_BITS_TOGETHER = 20_000_000
+"""Most bits of all different coefficients of one file."""
 MAX_RADICALS = 32
 """Most different radicals of one file."""
 MAX_DEGREE = 48
@@ -58,6 +60,7 @@ class Domain:
     ) -> None:
         self.field: NumberField | None = None
         self._are_real = are_real
+        self._size = 0
         self._values: dict[Radical, Number] = {}
         found: list[Radical] = []
         for expression in expressions:
@@ -81,6 +84,20 @@ class Domain:
     def degree(self) -> int:
         """The dimension over ℚ."""
         return self.field.degree if self.field else 1
+
+    def coefficient(self, expression: Expression) -> Number:
+        """The exact value, which is kept.
+
+        Raises:
+            UndefinedValue: division by zero, or a name without a value.
+            LimitExceeded: it is too large, or it and those before are together.
+        """
+        value = self.evaluate(expression)
+        self._size += _size(value)
+        if self._size > MAX_BITS_TOGETHER:
+            message = f"the coefficients have more than {MAX_BITS_TOGETHER} bits together"
+            raise LimitExceeded(message, "write them smaller", expression.start, expression.end)
+        return value
 
     def evaluate(self, expression: Expression) -> Number:
         """The exact value; all roots in it must be among those the domain was made for.
@@ -254,6 +271,13 @@ def _bits(number: Number) -> int:
         bits = [int(x.height_bits()) for x in number.poly.coeffs()]
         return max(bits)
     return int(number.height_bits())
+
+
+def _size(number: Number) -> int:
+    """About the bits of a number."""
+    if isinstance(number, Algebraic):
+        return _bits(number) * number.poly.length()
+    return _bits(number)
 
 
 def _bounded(number: Number, at: Expression) -> Number:

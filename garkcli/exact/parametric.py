@@ -11,12 +11,16 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import comb, prod
 from typing import TypeAlias, cast
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly
 
 from garkcli.deadline import check_time
+from garkcli.errors import TooManyTerms
 
+MAX_TERMS = 500_000
+"""Most terms of a product, multiplied out."""
 _NAME = re.compile(r"[A-Za-z_]\w*")
 Mixed: TypeAlias = "fmpq | Parametric"
 """A rational number or a rational function."""
@@ -128,9 +132,9 @@ class Parameters:
         total = self.constant(fmpq(0))
         for exponents, a in polynomial.to_dict().items():
             powers = [int(e) for e in exponents]
-            times, powers[rule.index] = divmod(powers[rule.index], rule.degree)
+            count, powers[rule.index] = divmod(powers[rule.index], rule.degree)
             rest = self.context.from_dict({tuple(powers): a})
-            total += rest * rule.instead**times
+            total += times(rest, power(rule.instead, count))
         return total
 
     @contextmanager
@@ -213,8 +217,8 @@ class Parametric:
         p, q = parts
         if self.denominator == q:
             return self.ring.quotient(self.numerator + p, q)
-        total = self.numerator * q + p * self.denominator
-        return self.ring.quotient(total, self.denominator * q)
+        total = times(self.numerator, q) + times(p, self.denominator)
+        return self.ring.quotient(total, times(self.denominator, q))
 
     __radd__ = __add__
 
@@ -234,7 +238,7 @@ class Parametric:
         if parts is None:
             return NotImplemented
         p, q = parts
-        return self.ring.quotient(self.numerator * p, self.denominator * q)
+        return self.ring.quotient(times(self.numerator, p), times(self.denominator, q))
 
     __rmul__ = __mul__
 
@@ -249,7 +253,7 @@ class Parametric:
             return NotImplemented
         p, q = parts
         self.ring.tell_apart(p)
-        return self.ring.quotient(self.numerator * q, self.denominator * p)
+        return self.ring.quotient(times(self.numerator, q), times(self.denominator, p))
 
     def __rtruediv__(self, other: object) -> Mixed:
         if self._parts(other) is None:
@@ -292,6 +296,79 @@ class Parametric:
         if self.denominator.is_one():
             return numerator
         return f"({numerator})/({self.ring.text(self.denominator)})"
+
+
+def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
+    """The product of two polynomials.
+
+    Raises:
+        TooManyTerms: it would fill the memory, and is not computed.
+    """
+    if len(p) * len(q) > MAX_TERMS and terms_of_product(p, q) > MAX_TERMS:
+        raise _too_many_terms()
+    return p * q
+
+
+def power(p: fmpq_mpoly, exponent: int) -> fmpq_mpoly:
+    """A power of a polynomial.
+
+    Raises:
+        TooManyTerms: it would fill the memory, and is not computed.
+    """
+    if terms_of_power(p, exponent) > MAX_TERMS:
+        raise _too_many_terms()
+    return p**exponent
+
+
+def _too_many_terms() -> TooManyTerms:
+    message = f"a polynomial of more than {MAX_TERMS} terms in the free parameters"
+    return TooManyTerms(message, "give values to some of them: --set NAME=1/2")
+
+
+def terms_of_product(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
+    """At least so many terms as the product has.
+
+    >>> x, y = Parameters(["x", "y"]).context.gens()
+    >>> terms_of_product((1 + x) ** 5, (1 + x) ** 6), len((1 + x) ** 11)
+    (12, 12)
+    """
+    if not p or not q:
+        return 0
+    degrees = [a + b for a, b in zip(p.degrees(), q.degrees(), strict=True)]
+    return min(len(p) * len(q), monomials(degrees, p.total_degree() + q.total_degree()))
+
+
+def terms_of_sum(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
+    """At least so many terms as the sum has."""
+    if not p or not q:
+        return len(p) + len(q)
+    degrees = [max(pair) for pair in zip(p.degrees(), q.degrees(), strict=True)]
+    return min(len(p) + len(q), monomials(degrees, max(p.total_degree(), q.total_degree())))
+
+
+def terms_of_power(p: fmpq_mpoly, exponent: int) -> int:
+    """At least so many terms as the power has; the exponent is at least 0.
+
+    >>> x, y = Parameters(["x", "y"]).context.gens()
+    >>> terms_of_power(1 + x + y, 20), len((1 + x + y) ** 20)
+    (231, 231)
+    """
+    if not p:
+        return 1
+    degrees = [exponent * a for a in p.degrees()]
+    each = comb(len(p) + exponent - 1, exponent)
+    return min(each, monomials(degrees, exponent * p.total_degree()))
+
+
+def monomials(degrees: Sequence[int], total: int) -> int:
+    """The monomials of some degrees in each variable at most, and of a total degree at most; a few
+    that are beyond one of both are counted too.
+
+    >>> monomials([1, 1, 0], 2), monomials([9, 9], 2)
+    (4, 6)
+    """
+    used = sum(map(bool, degrees))
+    return min(prod(int(a) + 1 for a in degrees), comb(int(total) + used, used))
 
 
 def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:

@@ -12,7 +12,14 @@ from garkcli.errors import ExpressionError, LimitExceeded
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
-from garkcli.exact.parametric import Parameters, Parametric, fraction
+from garkcli.exact.parametric import (
+    Parameters,
+    Parametric,
+    fraction,
+    terms_of_power,
+    terms_of_product,
+    terms_of_sum,
+)
 from garkcli.exact.radicands import perfect_root
 from garkcli.exact.rewriting import format_expression, roots_in
 from garkcli.exact.roots import RealRoot
@@ -22,6 +29,10 @@ from garkcli.tableau.family import Radical
 
 MAX_DEGREE = 200
 """Largest degree of a coefficient in the parameters."""
+MAX_TERMS = 2_000
+"""Most terms of the numerator and of the denominator of a coefficient, multiplied out."""
+MAX_TERMS_TOGETHER = 200_000
+"""Most terms of all different coefficients of a file."""
 ROOT = "_root"
 """What the names of unknowns begin with that stand for radicals."""
 
@@ -99,6 +110,7 @@ class _FamilyDomain(Domain):
         self.divisors: list[fmpq_mpoly] = []
         self._values = {}
         self._are_real = True
+        self._size = self._terms = 0
         self.field = None
         for root in found:  # the inner ones first
             self._values[root] = self._root(root)
@@ -134,15 +146,61 @@ class _FamilyDomain(Domain):
         self.radicals.append(Radical(name, relation, meant=meant, text=text, latex=latex))
         return cast("Number", self.ring.parameter(name))
 
+    def coefficient(self, expression: Expression) -> Number:
+        value = super().coefficient(expression)
+        parts = fraction(value, self.ring)
+        self._limit(max(map(self._terms_of, parts)), 0, expression)
+        self._terms += sum(map(len, parts))
+        if self._terms > MAX_TERMS_TOGETHER:
+            message = f"the coefficients have more than {MAX_TERMS_TOGETHER} terms together"
+            cure = "give values to some of the free parameters: --set NAME=1/2"
+            raise LimitExceeded(message, cure, expression.start, expression.end)
+        return value
+
     def evaluate(self, expression: Expression) -> Number:
         if isinstance(expression, Name):
             return cast("Number", self.ring.parameter(expression.name))
         return super().evaluate(expression)
 
     def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
+        p, q = fraction(left, self.ring)
+        u, v = fraction(right, self.ring)
         if sign == "/":
             self._note_divisor(right)
+            u, v = v, u
+        if sign in "*/":
+            found = [terms_of_product(p, u), terms_of_product(q, v)]
+        elif q == v:
+            found = [terms_of_sum(p, u)]
+        else:
+            found = [terms_of_product(p, v) + terms_of_product(u, q), terms_of_product(q, v)]
+        degree = sum(max(0, x.total_degree()) for x in (p, q, u, v))
+        self._limit(max(found), 0 if sign in "+-" and q == v else degree, at)
         return super()._apply(sign, left, right, at)
+
+    def _terms_of(self, polynomial: fmpq_mpoly) -> int:
+        """The terms that a polynomial has at most once powers of radicals are written out."""
+        if not self.radicals:
+            return len(polynomial)
+        found = 0
+        for exponents in polynomial.monoms():
+            terms = 1
+            for radical in self.radicals:
+                place = self.ring.names.index(radical.name)
+                index = radical.relation.degrees()[place]
+                terms *= terms_of_power(radical.relation, exponents[place] // index)
+            found += terms
+        return found
+
+    def _limit(self, terms: int, degree: int, at: Expression) -> None:
+        """Refuse what would be larger than any coefficient, before it is multiplied out."""
+        if degree > MAX_DEGREE:
+            message = f"a degree of more than {MAX_DEGREE} in the parameters"
+            raise LimitExceeded(message, "write it smaller", at.start, at.end)
+        if terms > MAX_TERMS:
+            message = f"more than {MAX_TERMS} terms in the parameters, multiplied out"
+            cure = "give values to some of them: --set NAME=1/2"
+            raise LimitExceeded(message, cure, at.start, at.end)
 
     def _note_divisor(self, number: Number) -> None:
         """Keep where a divisor is zero: it may cancel, and is one all the same."""
@@ -154,8 +212,7 @@ class _FamilyDomain(Domain):
         if exponent < 0:
             self._note_divisor(number)
         numerator, denominator = fraction(number, self.ring)
-        degree = numerator.total_degree() + denominator.total_degree()
-        if degree > 0 and degree * abs(exponent) > MAX_DEGREE:
-            message = f"a degree of more than {MAX_DEGREE} in the parameters"
-            raise LimitExceeded(message, "write it smaller", at.start, at.end)
+        degree = abs(exponent) * (max(0, numerator.total_degree()) + denominator.total_degree())
+        terms = [terms_of_power(p, abs(exponent)) for p in (numerator, denominator)]
+        self._limit(max(terms), degree, at)
         return super()._power(number, exponent, at)

@@ -6,39 +6,44 @@ What cannot be looked into is kept, to be told.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 
-from garkcli.methodfile.folders import STDIN, files_below
+from garkcli.files import STDIN
+from garkcli.methodfile.folders import files_below, no_one, within
 from garkcli.methodfile.naming import PREFIX, expanded, is_both
 
 _MAGIC = frozenset("*?[")
 
 
-def find_files(paths: Iterable[str]) -> Iterator[str]:
+def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
     """The files meant by ``paths``, in order.
 
     A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
     it matches. What stands for nothing stays, to be reported as missing, and so does a folder below
-    that cannot be looked into. Links to folders are not followed: they may lead back. Names of the
-    catalogue stay as they are; ``catalogue:`` stands for all, ``catalogue:FOLDER`` for a folder.
+    that cannot be looked into. Links to folders are not followed: they may lead back. Links to
+    files elsewhere are left out. Names of the catalogue stay as they are; ``catalogue:`` stands for
+    all, ``catalogue:FOLDER`` for a folder.
+
+    Args:
+        paths: files, folders, patterns, names.
+        told: who is told of what is left out.
     """
     for path in paths:
         if path == STDIN:
             yield path
         elif os.path.isdir(path):
             # a folder that is called as a method is told where it is read
-            found = [] if is_both(path) else files_below(path)
-            yield from found or [path]
+            yield from [path] if is_both(path) else files_below(path, told) or [path]
         elif path.startswith(PREFIX):
             yield from expanded(path) or [path]
         elif _MAGIC & set(path) and not os.path.lexists(path):
-            yield from _matching(path) or [path]
+            yield from _matching(path, told) or [path]
         else:
             yield path
 
 
-def _matching(pattern: str) -> list[str]:
+def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
     """What a pattern matches, where ``**`` stands for folders of any depth; a folder stands for
     what is below it.
     """
@@ -50,10 +55,22 @@ def _matching(pattern: str) -> list[str]:
     found: set[str] = set()
     for match in _expanded(start, parts):
         if os.path.isdir(match):
-            found.update(files_below(match))
+            found.update(files_below(match, told))
         else:
             found.add(match)
-    return sorted(found)
+    return within(sorted(found), fixed_part(pattern), told)
+
+
+def fixed_part(pattern: str) -> str:
+    """The folder that a pattern begins with; a path without signs of patterns is all fixed.
+
+    >>> fixed_part("methods/**/*.yaml"), fixed_part("methods/rk4.yaml"), fixed_part("*.yaml")
+    ('methods', 'methods/rk4.yaml', '')
+    """
+    fixed = pattern
+    while _MAGIC & set(fixed):
+        fixed = os.path.dirname(fixed)
+    return fixed
 
 
 def _expanded(place: str, parts: Sequence[str]) -> Iterator[str]:

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
+from garkcli.files import STDIN
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
 from garkcli.methodfile.description import Description, left_behind
 from garkcli.methodfile.finding import find_files
-from garkcli.methodfile.folders import STDIN, SUFFIX
+from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free

@@ -13,8 +13,8 @@ from contextlib import suppress
 from itertools import chain
 
 from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
+from garkcli.files import STDIN
 from garkcli.methodfile.file_kind import METHOD_FILE
-from garkcli.methodfile.folders import STDIN
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.shelves import Shelf, Shelved, key_of, others, own_folders, package
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import stat
-import sys
+import re
 from itertools import islice
 
 from garkcli.errors import Fault, MethodFileError, nearest, printable
+from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, read_bytes
 from garkcli.methodfile.file_kind import FileKind
-from garkcli.methodfile.folders import STDIN
 from garkcli.methodfile.source import MAX_BYTES
 
 MOST_COMPARED = 1_000
@@ -24,36 +23,44 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     Raises:
         MethodFileError: there is no such file, or no such text in it.
     """
-    if path == STDIN:
-        if sys.stdin is None:
-            raise MethodFileError("<stdin>", [Fault("standard input is closed", "name a file")])
-        return decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
+    name = "<stdin>" if path == STDIN else path
     try:
-        status = os.stat(path)
+        data = read_bytes(path, MAX_BYTES)
     except FileNotFoundError:
         fault = Fault("no such file", _cure_of_missing(path))
         raise MethodFileError(path, [fault]) from None
     except ValueError:
         fault = Fault("no file has such a name", "leave out what is no text")
         raise MethodFileError(path, [fault]) from None
+    except NotAFile:
+        fault = Fault("not a regular file", f"give a {kind.name}, or - for standard input")
+        raise MethodFileError(path, [fault]) from None
     except OSError as error:  # among them names that are too long, and links in a circle
-        fault = Fault(f"cannot be read: {error.strerror}")
-        raise MethodFileError(path, [fault]) from None
-    if not stat.S_ISREG(status.st_mode):
-        fault = Fault("not a regular file", f"give a {kind.name}")
-        raise MethodFileError(path, [fault])
-    try:
-        with open(path, "rb") as stream:
-            # no more than there is: to clear a megabyte takes longer than to read most files
-            size = min(status.st_size, MAX_BYTES)
-            data = stream.read(size + 1)
-            # it may have grown, or be one whose size no system knows
-            if len(data) > size:
-                data += stream.read(MAX_BYTES - size)
-    except OSError as error:
-        fault = Fault(f"cannot be read: {error.strerror}")
-        raise MethodFileError(path, [fault]) from None
-    return decoded(path, data), path
+        raise MethodFileError(name, [Fault(f"cannot be read: {error.strerror}")]) from None
+    text = decoded(name, data)
+    if not is_stream(path) and not _may_be_quoted(path, text, kind):
+        raise MethodFileError(path, [_not_quoted(path, kind)])
+    return text, name
+
+
+def _not_quoted(path: str, kind: FileKind) -> Fault:
+    """What is said of a file that may hold anything."""
+    if is_elsewhere(path):
+        message = f"a link to a file elsewhere, which has no key of a {kind.name}"
+        return Fault(message, "name the file that is meant")
+    message = f"no key of a {kind.name} is in this file, and its name has no ending"
+    return Fault(message, f"{kind.start} or call it something.yaml")
+
+
+def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
+    """Whether errors may quote a file: it has a key of its kind, or is where it seems to be and its
+    name has an ending. Whoever leads us to a file with secrets is not told what is in it.
+    """
+    if not is_elsewhere(path) and os.path.splitext(path)[1]:
+        return True
+    keys = "|".join(kind.keys)
+    pattern = rf"^(?:\{{[ \t]*)?(?:(?:{keys})|'(?:{keys})'|[ \t]*\"(?:{keys})\")[ \t]*:"
+    return re.search(pattern, text, re.MULTILINE) is not None
 
 
 def _cure_of_missing(path: str) -> str:

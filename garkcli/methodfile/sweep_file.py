@@ -27,6 +27,7 @@ from garkcli.methodfile.words import one_line, shortened, unquoted
 
 SWEEP_FILE = FileKind(
     "sweep file",
+    ("columns", "methods"),
     "the smallest file has methods or files, and columns",
     "start with methods:",
     "docs/sweep.md",

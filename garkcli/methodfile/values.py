@@ -47,7 +47,7 @@ class Values:
             key = id(entry.expression)
             try:
                 if key not in known:
-                    known[key] = domain.evaluate(entry.expression)
+                    known[key] = domain.coefficient(entry.expression)
                 self._values[id(entry)] = known[key]
             except ExpressionError as error:
                 numbers.source.expression_fault(entry.node, entry.where, error)

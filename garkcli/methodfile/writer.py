@@ -153,8 +153,16 @@ def can_spell_out(tableau: Tableau) -> bool:
 
 
 def _is_prk(tableau: Tableau) -> bool:
+    """Whether the form ``prk`` says everything: it has both blocks, and a colour that is linear
+    where q̇ = p alone.
+    """
     parts = [colour.part for colour in tableau.colours]
-    return parts == ["q", "p"]
+    linear = [colour.is_linear for colour in tableau.colours]
+    if parts != ["q", "p"]:
+        return False
+    if len(tableau.spaces) == 1:
+        return _is_complete(tableau) and not any(linear)
+    return set(tableau.blocks) == {(0, 1), (1, 0)} and not linear[1]
 
 
 def _is_ark(tableau: Tableau) -> bool:
@@ -256,7 +264,7 @@ def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
     """
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
-        block = tableau.block(seen_at, drives) or ()
+        block = tableau.blocks[tableau.colours[seen_at].space, drives]
         weights = tableau.colours[drives].b
         nodes = tableau.colours[seen_at].c
         lines.append(f"  {part}:")

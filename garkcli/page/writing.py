@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import stat
 import sys
 from collections.abc import Iterable, Iterator
@@ -12,13 +11,13 @@ from pathlib import Path
 from typing import BinaryIO
 
 from garkcli.errors import UsageProblem
+from garkcli.files import is_input, own_stream
 
-_OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d{1,9}|stdout|stderr)|/proc/self/fd/(\d{1,9})")
 _MOST_LINKS = 40
 """As many links in a row as Linux follows."""
 
 
-def write_whole(path: str, pieces: Iterable[str | bytes]) -> None:
+def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> None:
     """Write a file beside its place, then rename it into place.
 
     A link stays a link, and what it leads to is written; a file that exists keeps its permissions.
@@ -28,14 +27,17 @@ def write_whole(path: str, pieces: Iterable[str | bytes]) -> None:
     Args:
         path: where to.
         pieces: text, which is written as UTF-8, or bytes.
+        is_renewed: whether it is meant to be a file that the command has read.
 
     Raises:
-        UsageProblem: the file cannot be written; nothing is left behind.
+        UsageProblem: the file cannot be written, or is an input; nothing is left behind.
     """
     with _told(path):
         target = _without_links(path)
-        stream = _own_stream(target)
+        stream = own_stream(str(target))
         before = None if stream is not None else _status(target)
+        if before is not None and not is_renewed:
+            _refuse_input(path, before)
         if stream is not None:
             sys.stdout.flush()
             with os.fdopen(os.dup(stream), "wb") as opened:
@@ -54,18 +56,20 @@ def refuse_unwritable(path: str) -> None:
 
     Raises:
         UsageProblem: the name is empty, there is no such folder, it or the file is protected, or it
-            is a folder.
+            is a folder or an input.
     """
     if not path:
         message = "the name of the file to be written is empty"
         raise UsageProblem(message, "name a file")
     with _told(path):
         target = _without_links(path)
-        if _own_stream(target) is not None:
+        if own_stream(str(target)) is not None:
             return
         if target.is_dir():
             raise IsADirectoryError(0, "it is a folder")
-        if _status(target) is not None:
+        before = _status(target)
+        if before is not None:
+            _refuse_input(path, before)
             _refuse_protected(target)
             return
         if not target.parent.is_dir():
@@ -86,23 +90,20 @@ def _told(path: str) -> Iterator[None]:
         raise UsageProblem(f"cannot write {path}: {why}", "choose another place") from None
 
 
+def _refuse_input(path: str, status: os.stat_result) -> None:
+    """Never write over what was read, whatever it is called here and there."""
+    if is_input(status):
+        raise UsageProblem(f"cannot write {path}: the command reads it", "choose another place")
+
+
 def _without_links(path: str) -> Path:
     """Where a path leads; a stream of this process, which is a link of its own kind, stays."""
     target = Path(path)
     for _ in range(_MOST_LINKS):
-        if _own_stream(target) is not None or not target.is_symlink():
+        if own_stream(str(target)) is not None or not target.is_symlink():
             return target
         target = target.parent / target.readlink()
     raise OSError(0, "too many links")
-
-
-def _own_stream(target: Path) -> int | None:
-    """The descriptor that such a path means, or None."""
-    found = _OWN_STREAM.fullmatch(target.as_posix())
-    if found is None:
-        return None
-    word = found[1] or found[2]
-    return {"stdout": 1, "stderr": 2}.get(word) or int(word)
 
 
 def _status(target: Path) -> os.stat_result | None:

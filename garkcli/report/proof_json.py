@@ -209,6 +209,11 @@ _PROOF: Record[Proof] = Record(
 )
 
 
+def _pair(proof: MethodProof) -> Proof | None:
+    """The pair where a reader can make it, of the method and its conjugate."""
+    return None if proof.conjugate is None else proof.pair
+
+
 def _obstacle(proof: MethodProof) -> str | None:
     return proof.obstacle or None
 
@@ -220,6 +225,6 @@ _REPORT: Record[MethodProof] = Record(
     _FIELD.or_null("field", lambda x: x.method.tableau.field),
     _PROOF.whole("method", lambda x: x.method),
     _PROOF.optional("conjugate", lambda x: x.conjugate),
-    _TRUTH.optional("pair", lambda x: x.pair),
+    _TRUTH.optional("pair", _pair),
     Field("no_conjugate", TEXT, _obstacle, is_optional=True),
 )

@@ -195,7 +195,7 @@ def differing(
 
 def read_back_c(payload: Payload, header: str, folder: Path, precision: Precision) -> list[str]:
     """The entries of a header that are not the nearest numbers, by a program of C."""
-    stem = payload.identifier
+    stem = payload.stem
     (folder / f"{stem}.h").write_text(header, encoding="utf-8")
     text, arrays = program_of_c(header, f"{stem}.h")
     (folder / "read_back.c").write_text(text, encoding="utf-8")

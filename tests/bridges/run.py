@@ -109,7 +109,7 @@ def _place(folder: Path) -> Path:
 def _written(runner: Runner, payload: Payload, folder: Path) -> str:
     """The table, the program and the problem file; the name without its ending."""
     bridge = bridges()[runner.target]
-    stem = payload.identifier
+    stem = payload.stem
     file = stem + bridge.suffix
     assert bridge.test_driver is not None
     (folder / file).write_text(bridge.written(payload), encoding="utf-8")

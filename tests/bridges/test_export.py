@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from garkcli.bridges.comments import XML, harmless
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.methodfile.load import load, loads
@@ -82,34 +81,6 @@ def test_a_tolerance_is_named() -> None:
     assert "order conditions met within" in written
 
 
-HOSTILE = [
-    "a */ int x; /*",
-    "(* a *) b",
-    "-- --> <!--",
-    "coding: latin-1 -*- vim: fileencoding=utf-16",
-    "ends with \\\\",
-    "??/",
-    "%{ #= =# %}",
-    "Größe: ∞ 中 \\u202e \\n new line",
-    "'''\\\"\\\"\\\"",
-]
-
-
-@pytest.mark.parametrize("name", HOSTILE)
-def test_no_name_leaves_its_comment(name: str) -> None:
-    """A module with any name runs, and has nothing but the arrays; it is ASCII."""
-    text = f'name: "{name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
-    payload = prepared(loads(text))
-    written = bridges()["numpy"].written(payload)
-    assert written.isascii()
-    names = set(executed(written)) - {"__builtins__"}
-    assert names == {"np", "order", "A", "b", "c"}
-    assert payload.identifier.isidentifier()
-    for pair in ("*/", "/*", "(*", "*)", "??", "\n"):
-        assert pair not in harmless(payload.name)
-    assert "--" not in harmless(payload.name, XML.forbidden)
-
-
 def test_what_there_is_no_target_for() -> None:
     """A misspelt target, and a test of data, are usage errors with a cure."""
     path = "methods/rk4.gark.yaml"
@@ -159,13 +130,6 @@ def test_nothing_is_written_where_there_is_no_test(tmp_path: Path) -> None:
     run = gark(*("export", "three.yaml", "--to", "petsc", "--test", "-o", "x.c"), cwd=tmp_path)
     assert run.code == 2
     assert [x.name for x in tmp_path.iterdir()] == ["three.yaml"]
-
-
-@pytest.mark.parametrize("name", ["none", "True", "3/8 rule", "ß", "import"])
-def test_names_of_classes_are_names(name: str) -> None:
-    """No keyword, and no digit first."""
-    payload = prepared(loads(f'name: "{name}"\nA: [[0]]\nb: [1]\n'))
-    compile(f"class {payload.class_name}: pass", "name", "exec")
 
 
 @pytest.mark.parametrize("target", sorted(bridges()))

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import random
+import sys
 from pathlib import Path
+from types import FrameType
 
 import pytest
 
-from garkcli.bridges.readers.registry import all_readers, find_tables, readers_for
+from garkcli.bridges.readers import allowance
+from garkcli.bridges.readers.registry import all_readers, find_tables, reader_named, readers_for
 from garkcli.bridges.readers.scalars import MAX_LENGTH
 from tests.cli.harness import gark
 
@@ -55,6 +59,119 @@ def test_nothing_is_raised(name: str) -> None:
             assert all(len(x) <= MAX_LENGTH for x in texts)
 
 
+def _doubled(line: str, first: str, count: int = 24) -> str:
+    """Lines of which each has twice the numbers of the one before."""
+    return f"{first}\n" + "".join(line.format(k + 1, k) for k in range(count))
+
+
+GROWING = {
+    "python": _doubled("x{0} = [x{1}, x{1}]\n", "x0 = [1, 1]"),
+    "python, entries": "x = [[1], [1]]\n" + "x[0] = [x, x]\n" * 24,
+    "python, zeros": "import numpy as np\n" + "x = np.zeros((200, 200))\n" * 50,
+    "python, products": f"y = [{'1, ' * 200}]\nq = {'9' * 3_000}\n" + "x = y*q\n" * 9,
+    "python, lists of nothing": _doubled("x{0} = [x{1}, x{1}]\n", "x0 = []"),
+    "python, names": f"q = {'9' * 3_000}\n" + "".join(f"x{k} = q\n" for k in range(400)),
+    "python, rows of zeros": "".join(
+        f"class C{k}:\n A = [[1]]\n b = [{'1, ' * 200}]\n" for k in range(20)
+    ),
+    "julia": _doubled("x{0} = [x{1}, x{1}]\n", "x0 = [1, 1]"),
+    "matlab": _doubled("x{0} = [x{1} x{1}];\n", "x0 = [1 1];"),
+    "matlab, cells": _doubled("x{0} = {{x{1}, x{1}}};\n", "x0 = {1, 1};"),
+    "matlab, entries": "".join(f"m{k}.A(199,199)=1; m{k}.b(199)=1;\n" for k in range(50)),
+    "mathematica": _doubled("x{0} = {{x{1}, x{1}}};\n", "x0 = {1, 1};"),
+    "c": _doubled("double x{0}[] = {{x{1}, x{1}}};\n", "double x0[] = {1, 1};"),
+    "c, entries": "{A[199][199] = 1; b[199] = 1;}\n" * 50,
+    "c, arrays": "{double A[200][200] = {{1}};}\n" * 50,
+    "csv": ("1," * 200 + "1\n" + "1\n" * 199 + ",1" * 200 + "\n\n") * 20,
+    "json": json.dumps([{"A": [[1]], "b": [1] * 200}] * 20),
+    "latex": (
+        r"\begin{array}{c|c}" + "0&" * 200 + r"0\\" * 200 + r"\hline" + "&1" * 200 + r"\end{array}"
+    )
+    * 20,
+}
+"""Short sources whose numbers are many when they are written out."""
+
+
+@pytest.mark.parametrize("name", GROWING)
+def test_what_a_short_source_says_is_counted_before_it_is_written_out(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A source that becomes too large has a line that says so, and no table."""
+    monkeypatch.setattr(allowance, "MAX_WRITTEN", 1_000_000)
+    found = find_tables(GROWING[name], "x", [reader_named(name.partition(",")[0])])
+    assert [table.trouble for table in found] == [
+        "the source has more than 1000000 characters of numbers when its names and zeros are "
+        "written out"
+    ]
+
+
+def test_a_list_that_two_names_have_is_two_lists() -> None:
+    """An entry that is assigned to one name is not one of the other, and no list holds itself."""
+    text = "a = [[0, 0], [1, 0]]\nA = a\na[1] = [9, 9]\nA[0] = A[0]\nb = [1/2, 1/2]\n"
+    (table,) = find_tables(text, "x.py", [reader_named("python")])
+    assert table.A == (((("0", "0"), ("1", "0")),),)
+
+
+LONG_WAYS = {
+    "c": ["a[", "a->", "a.b.", "a1->A[0][0] = 1;"],
+    "julia": ["Tableau{", "a.b.", "x = -"],
+    "matlab": ["a."],
+    "mathematica": ["x = Sqrt["],
+}
+"""Pieces that a reader went over again and again."""
+
+
+@pytest.mark.parametrize(
+    ("reader", "piece"), [(name, piece) for name, pieces in LONG_WAYS.items() for piece in pieces]
+)
+def test_twice_the_source_is_twice_the_work(reader: str, piece: str) -> None:
+    """Of a source of many open brackets, signs or members, by the calls that reading it takes."""
+    of_one, of_two = (_calls(reader, piece * count) for count in (1_000, 2_000))
+    assert of_two < 2.2 * of_one
+
+
+def _calls(reader: str, text: str) -> int:
+    """How many functions are called while a text is read."""
+    count = 0
+
+    def profile(frame: FrameType, event: str, given: object) -> None:
+        nonlocal count
+        del frame, given
+        count += event in {"call", "c_call"}
+
+    find_tables("", "x", [reader_named(reader)])
+    sys.setprofile(profile)
+    try:
+        find_tables(text, "x", [reader_named(reader)])
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+@pytest.mark.parametrize(
+    ("reader", "piece"), [("c", "TSRKRegister("), ("julia", "Tableau("), ("matlab", "x = zeros(")]
+)
+def test_what_is_read_again_is_counted(
+    reader: str, piece: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Calls that are not closed end the reading, with the reason."""
+    monkeypatch.setattr(allowance, "MAX_READ_AGAIN", 100_000)
+    (table,) = find_tables(piece * 3_000, "x", [reader_named(reader)])
+    assert table.trouble == "the source has more than 100000 words in values and brackets that " + (
+        "do not end"
+    )
+
+
+def test_tables_and_words_have_a_limit() -> None:
+    """What stands behind the last table or word that is read is not passed over in silence."""
+    many = "def f():\n A = [[0]]\n b = [1]\n" * 1_001
+    for text, limit in ((many, "1000 tables"), ("1," * 300_000, "500000 words and signs")):
+        (table,) = find_tables(text, "x.py", [reader_named("python")])
+        assert table.trouble == f"the source has more than {limit}"
+    (table,) = find_tables("1;" * 600_000, "x.c", [reader_named("c")])
+    assert table.trouble == "the source has more than 1000000 words and signs"
+
+
 @pytest.mark.parametrize("path", SOURCES, ids=lambda x: x.name)
 def test_damaged_sources(path: Path) -> None:
     """Cut, doubled, exchanged and foreign pieces: readers find what they find, and raise
@@ -80,3 +197,10 @@ def test_the_command_says_what_is_missing(name: str) -> None:
     assert run.code == 2
     assert run.out == ""
     assert run.err.startswith("gark: no table is found in -")
+
+
+def test_the_command_names_the_line_at_which_a_source_is_too_large() -> None:
+    """Exit code 2, the line and the limit."""
+    run = gark("import", "-", "--from", "python", stdin=GROWING["python"])
+    assert run.code == 2
+    assert run.err.startswith("gark: <stdin>:20: no method: the source has more than 10000000 ch")

@@ -22,7 +22,7 @@ from garkcli.bridges.trials import SEPARABLE, STEPS, TRIALS, WHOLE, Trial
 from garkcli.convergence.convergence import converge
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import load_problem
-from tests.bridges.test_export import HOSTILE
+from tests.bridges.test_hostile_names import HOSTILE, named
 from tests.cli.harness import ROOT, gark
 
 CC = shutil.which("cc") or shutil.which("gcc")
@@ -154,7 +154,7 @@ def compiled(tmp_path: Path, program: str, *flags: str) -> list[str]:
 
 def printing(payload: Payload, header: str) -> tuple[str, list[float]]:
     """A program that prints every number of a header in hexadecimal, and the nearest floats."""
-    name = f"gark_{payload.identifier}"
+    name = f"gark_{payload.stem}"
     lines = ["#include <stdio.h>", f'#include "{header}"', "int main(void)", "{"]
     wanted: list[float] = []
     several = payload.size > 1
@@ -261,7 +261,7 @@ def test_no_name_leaves_the_comments_of_c(tmp_path: Path) -> None:
     """Headers of methods with hostile names and references compile without a warning."""
     lines = []
     for place, name in enumerate(HOSTILE):
-        text = f'name: "n{place} {name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
+        text = named(f"n{place} {name}", "A: [[0]]\nb: [1]\n")
         header = bridges()["c"].written(prepared(loads(text)))
         (tmp_path / f"h{place}.h").write_text(header)
         lines.append(f'#include "h{place}.h"')
@@ -273,7 +273,7 @@ def test_no_name_leaves_the_comments_of_c(tmp_path: Path) -> None:
 def test_heads_are_comments(target: str, mark: str) -> None:
     """Whatever the name, the lines of the head begin with the mark of the language."""
     for name in HOSTILE:
-        text = f'name: "{name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
+        text = named(name, "A: [[0]]\nb: [1]\n")
         written = bridges()[target].written(prepared(loads(text))).splitlines()
         marked = [line.startswith(mark) for line in written]
         head = marked.index(False)

@@ -165,8 +165,8 @@ def test_a_file_is_named_without_its_folder(tmp_path: Path) -> None:
     path.write_text("A: [[0]]\nb: [1]\n")
     payload = prepared(load(str(path)))
     assert payload.name == "my method"
-    assert payload.identifier == "my_method"
-    assert payload.class_name == "MyMethod"
+    assert payload.stem == "my_method"
+    assert payload.class_name() == "MyMethod"
 
 
 def test_tables_know_their_last_stage() -> None:

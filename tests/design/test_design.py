@@ -240,6 +240,21 @@ def _at(polynomial: object, t: object) -> object:
     return total
 
 
+@pytest.mark.parametrize("command", ["check", "design --order 4", "conditions -n 4", "stability"])
+def test_products_that_would_fill_the_memory(command: str, tmp_path: Path) -> None:
+    """Coefficients of a few hundred terms, whose products are not multiplied out."""
+    names = [f"x{k}" for k in range(29)]
+    (tmp_path / "m.yaml").write_text(
+        f"parameters: {{{', '.join(f'{x}: free' for x in names)}, "
+        f"p: ({' + '.join(names)})**2, q: ({' + 2*'.join(names)})**2}}\n"
+        "A: [[p, 0, 0], [p, q, 0], [q, p + q, p - q]]\nb: [p, q, 1 - p - q]\n"
+    )
+    name, *options = command.split()
+    run = gark(name, "m.yaml", *options, cwd=tmp_path)
+    assert run.code == 2
+    assert "a polynomial of more than 500000 terms in the free parameters" in run.out + run.err
+
+
 def test_too_little_time() -> None:
     """Twelve unknowns without structure are left undecided, with what would help."""
     names = [f"a{i}{j}" for i in range(3) for j in range(3)]

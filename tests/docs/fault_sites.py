@@ -18,7 +18,7 @@ ERRORS = {
     *("LimitExceeded", "UndefinedValue", "CannotExport", "CannotConvert"),
     *("NoUniqueStep", "NoMethod", "NoSuchMethod", "TableTooLarge"),
     *("WorkerLost", "NotationError", "TreeError", "NoSuchColour"),
-    "NotDecided",
+    *("NotDecided", "TooManyTerms"),
 }
 """Errors whose first argument is the message."""
 READERS = PACKAGE / "bridges" / "readers"

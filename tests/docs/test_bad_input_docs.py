@@ -27,6 +27,17 @@ What is wrong with a file or with options is told with the place, the line with 
 one run; the exit code is 2. Nothing in a file is ever executed, and no file is met with a traceback. Each kind of fault has a code:
 `error[unknown-key]` in text, `code` in JSON, `properties.code` in SARIF. `gark explain CODE` says what is below, and `gark explain` of a message leads to its kind.
 
+## Files that gark does not open or does not quote
+
+Regular files, standard input (`-`) and the streams that a shell hands over (`gark check <(make-method)`) are read. A named pipe, a device or a
+socket is refused at once: reading it may never end. Those in a folder are named and left out by `gark import` and `gark audit`.
+
+An error quotes the line that it is about, so a file may be read only where it is what it seems to be. A link in a folder that leads out of it,
+and out of the folder we are in, is named and left out. A file that a link leads to from elsewhere, or whose name has no ending, is read where a line begins with a
+key of its kind (`A:`, `methods:`, `variables:`, …); otherwise the error says this alone, and quotes nothing. The `paths` of `.gark.toml` stay inside the project.
+
+No command writes over a file that it reads, by whatever name, link or pattern; `gark claims --write` alone changes its files.
+
 ## Codes
 
 """

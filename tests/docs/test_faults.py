@@ -42,7 +42,7 @@ JOINED = {
 """Messages that are joined of the keys that stand together."""
 NO_MESSAGES = {
     *("MethodFileError", "HasFreeParameters"),  # have faults, with messages
-    *("StepFailed", "Unreadable"),  # are caught where they are made
+    *("StepFailed", "Unreadable", "TooLarge"),  # are caught where they are made
 }
 
 

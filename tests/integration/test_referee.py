@@ -6,9 +6,12 @@ import ast
 import importlib.util
 import json
 import os
+import re
 import subprocess
 import sys
-from collections.abc import Callable
+import tracemalloc
+from collections.abc import Callable, Iterator
+from fractions import Fraction
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -90,6 +93,28 @@ def test_every_method_is_proved(
         for name, order in zip(names, orders, strict=True)
         if order is not None
     ]
+
+
+CATALOGUE = sorted((ROOT / "garkcli/catalogue/data").rglob("*.gark.yaml"))
+
+
+def test_the_catalogue_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The referee accepts the certificate of every exact method of the catalogue. Where a weight
+    is zero it has no pair: nobody can make one from it.
+    """
+    seen = set()
+    for path in CATALOGUE:
+        method = load(path)
+        if method.tolerance is not None:
+            continue
+        data = json.loads(render(prove_method(method)))
+        assert judged(data, tmp_path) == 0, path.name
+        assert ("conjugate" in data) == ("pair" in data) == ("no_conjugate" not in data)
+        proved = re.findall(r"^  (\w+): order (?:at least )?(\d+)", capsys.readouterr().out, re.M)
+        parts = ("method", "conjugate", "pair")
+        assert proved == [(x, str(data[x]["order"])) for x in parts if x in data]
+        seen.add(path.name.split(".")[0])
+    assert {"leapfrog-2", "candy-rozmus-4", "gauss-2"} <= seen
 
 
 def test_as_a_program(tmp_path: Path) -> None:
@@ -286,6 +311,58 @@ def test_a_pair_needs_its_conjugate(tmp_path: Path) -> None:
     data = certificate(COLLOCATION)
     _pair_without_conjugate(data)
     assert judged(data, tmp_path) == 1
+
+
+ENDLESS = ("1e1000000000", "1E-1000000000", "1/1e9999999999", "9" * 10_000_000)
+
+
+@pytest.mark.parametrize("number", ENDLESS, ids=["power", "small", "below", "digits"])
+def test_no_number_is_without_end(
+    number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A text of which a number of gigabytes would be made is refused before it is one, wherever a
+    certificate has numbers.
+    """
+    made: list[object] = []
+
+    class Counted(Fraction):
+        def __new__(cls, *parts: Any) -> Any:
+            made.extend(x for x in parts if isinstance(x, str))
+            assert number not in made
+            return Fraction(*parts)
+
+    monkeypatch.setattr(REFEREE, "Fraction", Counted)
+    for text in (COLLOCATION, RADICALS):
+        data = certificate(text)
+        for holder, key in list(_numbers(data)):
+            kept, holder[key] = holder[key], number
+            assert judged(data, tmp_path) == 1
+            holder[key] = kept
+    assert len(made) > 100
+
+
+def _numbers(data: Any) -> Iterator[tuple[Any, Any]]:
+    """Where a number of each kind is, the first of every list."""
+    if isinstance(data, dict):
+        for key, value in data.items():
+            if key in {"required", "value"}:
+                yield data, key
+            yield from _numbers(value)
+    elif isinstance(data, list) and data:
+        if isinstance(data[0], str) and "[" not in data[0]:
+            yield data, 0
+        yield from (pair for x in data[:1] for pair in _numbers(x))
+
+
+def test_many_stages_need_no_memory(tmp_path: Path) -> None:
+    """Stages of which a file says only how many there are take no room for pairs of them."""
+    data = certificate(COLLOCATION)
+    data["method"]["spaces"].append({"stages": 10_000})
+    tracemalloc.start()
+    judged(data, tmp_path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 100_000_000
 
 
 @pytest.mark.parametrize("entry", ["1/0", "x", 1e999, None, [], {"a": 1}])

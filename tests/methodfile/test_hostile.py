@@ -95,6 +95,23 @@ def wide(stages: int) -> str:
     return f"methods: [{{A: [[1/2]], b: [{', '.join(['1'] * stages)}]}}]\n"
 
 
+def free(count: int, entry: str, more: str = "") -> str:
+    """A family with one coefficient in quotes, which has so many parameters x0, x1, …"""
+    names = ", ".join(f"x{k}: free" for k in range(count))
+    return f"parameters: {{{names}{more}}}\nA: [['{entry}']]\nb: [1]\n"
+
+
+def summed(count: int, term: str = "x{}") -> str:
+    """A sum of terms, one for each parameter."""
+    return "+".join(term.format(k) for k in range(count))
+
+
+def many(first: str) -> str:
+    """A matrix of 200 rows whose entries are a parameter p and a number, all different."""
+    rows = "".join(f"- [{', '.join(f'p+{200 * i + j}' for j in range(200))}]\n" for i in range(200))
+    return f"parameters: {{{first}}}\nA:\n{rows}b: [{', '.join(['1/200'] * 200)}]\n"
+
+
 HOSTILE: dict[str, str | bytes] = {
     "aliases of aliases": bomb(12, 12),
     "a few aliases, used often": bomb(4, 90),
@@ -161,6 +178,14 @@ HOSTILE: dict[str, str | bytes] = {
     "a true minus": number("−1"),
     "Arabic stages": "methods: [{family: gauss, stages: ٢}]\n",
     "an empty file": b"",
+    "a power of a sum of parameters": free(30, f"({summed(30)})**20"),
+    "a product of sums of parameters": free(30, "*".join(f"(1+x{k})" for k in range(30))),
+    "a sum of fractions in parameters": free(30, summed(30, "1/(1+x{})")),
+    "powers of powers of a sum": free(2, "(((1+x0+x1)**6)**6)**5"),
+    "powers in parameters": free(3, "c", ", a: (1+x0+x1+x2)**9, b: (a+1)**9, c: (b+1)**9"),
+    "a power of the root of a sum": free(29, f"sqrt(1+{summed(29)})**64"),
+    "long coefficients, many of them": many("p: ((10**64)**64)**4"),
+    "long polynomials, many of them": many("x: free, y: free, z: free, p: (1+x+y+z)**20"),
 }
 
 

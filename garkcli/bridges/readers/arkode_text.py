@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row
 
 NAME = "arkode-text"
@@ -32,7 +33,7 @@ def find(text: str, source: str) -> list[FoundTable]:
         elif line:
             parts[name] = tuple(_numbers(begun[2]))
     _note(found, source, line, rows, parts)
-    return found
+    return Allowance().tables(found)
 
 
 def _numbers(text: str) -> Row:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
 from garkcli.bridges.readers.parsing import ValueParser
 from garkcli.bridges.readers.scalars import Value
 
-MAX_NAMES = 20_000
-"""Most names that are remembered."""
+MAX_MEMBERS = 10
+"""Most members of a name, such as those of ``a.b.c``."""
 MAX_INDICES = 12
 """Most tokens between the brackets of indices."""
 _CLOSERS = {"(": ")", "[": "]", "{": "}"}
@@ -64,6 +65,7 @@ class Walk:
         wanted: which functions make tables.
         ends: what may stand behind a value.
         begins: the title that a token gives to what follows; empty for most.
+        allowance: of the source.
     """
 
     def __init__(
@@ -73,13 +75,15 @@ class Walk:
         wanted: Mapping[str, object],
         ends: frozenset[str],
         begins: Callable[[list[Token], int], str],
+        allowance: Allowance,
     ) -> None:
         self._tokens = tokens
         self._wanted = wanted
         self._ends = ends
         self._begins = begins
         self.names: MutableMapping[str, Value] = {}
-        self._parser = ValueParser(tokens, grammar, self.names)
+        self._allowance = allowance
+        self._parser = ValueParser(tokens, grammar, self.names, allowance)
         self._calls = grammar.calls
 
     def events(self) -> Iterator[Event]:
@@ -88,6 +92,7 @@ class Walk:
         last = len(self._tokens) - 1
         while place < last:
             token = self._tokens[place]
+            self._allowance.line = token.line
             title = self._begins(self._tokens, place)
             if title:
                 yield Begun(title, token.line)
@@ -110,9 +115,8 @@ class Walk:
         at = place + 1
         if self._is(at, "{"):
             # the type of what is made: RungeKuttaMethod{Float64}(…)
-            while not self._is(at, "}") and self._tokens[at].kind != "end":
-                at += 1
-            at += 1
+            inside = range(at, min(at + MAX_INDICES, len(self._tokens)))
+            at = next((x + 1 for x in inside if self._is(x, "}")), at)
         if not self._is(at, *self._calls):
             return
         try:
@@ -125,7 +129,9 @@ class Walk:
         """What is assigned here, if anything is, and where to go on."""
         name = self._tokens[place].text
         at = place + 1
-        while self._is(at, ".") and self._tokens[at + 1].kind == "name":
+        for _ in range(MAX_MEMBERS):
+            if not self._is(at, ".") or self._tokens[at + 1].kind != "name":
+                break
             name += f".{self._tokens[at + 1].text}"
             at += 2
         indices, behind = self._indices(at)
@@ -136,7 +142,7 @@ class Walk:
         while self._tokens[start].kind == "line":
             start += 1
         try:
-            value = self._parser.value_at(start)
+            value = self._allowance.kept(self._parser.value_at(start))
         except Unreadable:
             self.names.pop(name, None)
             return None, start
@@ -148,7 +154,7 @@ class Walk:
             return None, start
         if indices:
             _put(self.names.get(name), indices, value)
-        elif len(self.names) < MAX_NAMES:
+        else:
             self.names[name] = value
         return Assigned(name, indices, value, line), behind
 

@@ -7,6 +7,7 @@ from collections import ChainMap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.c_grammar import CONSTANTS, GRAMMAR
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.found import MAX_STAGES, Unreadable
@@ -21,6 +22,12 @@ _NUMBERED = re.compile(
 )
 """Names of arrays with the numbers of vector fields."""
 _BEFORE_VALUES = frozenset({"return", "else", "do", "case"})
+MAX_MEMBERS = 10
+"""Most members of a name, such as those of ``a->b->c``."""
+MAX_INDICES = 4
+"""Most indices of a name."""
+MAX_INDEX = 20
+"""Most words and signs between the brackets of an index."""
 MAX_SCOPES = 60
 """Deepest nesting of blocks."""
 _DEFINITION = re.compile(r"#[ \t]*define[ \t]+([A-Za-z_]\w*)[ \t]+(.+)")
@@ -84,9 +91,16 @@ class CSource:
         text: the source.
         wanted: which functions make tables.
         closed: told of each block when it ends, with what is known there.
+        allowance: of the source.
     """
 
-    def __init__(self, text: str, wanted: frozenset[str], closed: Callable[[Block], None]) -> None:
+    def __init__(
+        self,
+        text: str,
+        wanted: frozenset[str],
+        closed: Callable[[Block], None],
+        allowance: Allowance,
+    ) -> None:
         code, self._definitions = _without_directives(text)
         self._tokens = without(tokens_of(code, C), "comment", "line")
         self._wanted = wanted
@@ -97,7 +111,8 @@ class CSource:
         self._parens = 0
         self._enums = 0
         self._is_enum = False
-        self._parser = ValueParser(self._tokens, GRAMMAR, self._names)
+        self._allowance = allowance
+        self._parser = ValueParser(self._tokens, GRAMMAR, self._names, allowance)
 
     def calls(self) -> Iterator[Call]:
         """The calls that make tables, in order; blocks are told as they end."""
@@ -106,6 +121,7 @@ class CSource:
         last = len(self._tokens) - 1
         while place < last:
             token = self._tokens[place]
+            self._allowance.line = token.line
             if token.kind == "name":
                 self._is_enum = self._is_enum or token.text == "enum"
                 call = self._call(place)
@@ -122,14 +138,14 @@ class CSource:
     def _define(self) -> None:
         for name, text in self._definitions:
             tokens = without(tokens_of(text, C), "comment", "line")
-            parser = ValueParser(tokens, GRAMMAR, self._names)
+            parser = ValueParser(tokens, GRAMMAR, self._names, self._allowance)
             try:
                 value = parser.value_at(0)
             except Unreadable:
                 continue
             is_whole = tokens[parser.place].kind == "end"
             if is_whole and isinstance(value, Scalar):
-                self._names[name] = value
+                self._names[name] = self._allowance.kept(value)
 
     def _bracket(self, token: Token) -> None:
         if token.text == "(":
@@ -205,14 +221,16 @@ class CSource:
         """What is assigned to: its name with members, its indices, the place behind it."""
         name = self._tokens[place].text
         at = place + 1
-        while self._is(at, "->") or self._is(at, "."):
+        for _ in range(MAX_MEMBERS):
+            if not (self._is(at, "->") or self._is(at, ".")):
+                break
             member = self._tokens[at + 1]
             if member.kind != "name":
                 break
             name += f"->{member.text}"
             at += 2
         indices: list[int] = []
-        while self._is(at, "["):
+        while self._is(at, "[") and len(indices) < MAX_INDICES:
             index, at = self._index(at)
             indices.append(index)
         return name, tuple(indices), at
@@ -227,8 +245,9 @@ class CSource:
             value = None
             self._parser.place = at + 1
         end = self._parser.place
-        while not self._is(end, "]") and self._tokens[end].kind != "end":
-            if self._tokens[end].text in {";", "{", "}"}:
+        while not self._is(end, "]"):
+            token = self._tokens[end]
+            if token.kind == "end" or token.text in {";", "{", "}"} or end > at + MAX_INDEX:
                 return -1, end
             end += 1
         return (-1 if value is None else value), end + 1
@@ -247,6 +266,7 @@ class CSource:
             value = _filled(value, indices)
         if isinstance(value, list) and len(indices) == 1:
             value = _lengthened(value, indices[0])
+        self._allowance.kept(value)
         self._names[plain] = value
         block.scope.add(plain, value, line)
         block.put(plain, value, line)

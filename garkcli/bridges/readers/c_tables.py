@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.c_source import Block, Call, CSource
+from garkcli.bridges.readers.cells import filled
 from garkcli.bridges.readers.found import (
     MAX_STAGES,
     FoundTable,
@@ -15,7 +17,7 @@ from garkcli.bridges.readers.found import (
     Unreadable,
     troubled,
 )
-from garkcli.bridges.readers.naming import ROLES, Scope
+from garkcli.bridges.readers.naming import ROLES
 from garkcli.bridges.readers.petsc import REGISTERS
 from garkcli.bridges.readers.scalars import Scalar, Value, number, whole
 from garkcli.bridges.readers.shaping import square, symplectic, weights
@@ -28,9 +30,10 @@ _Entries = Mapping[tuple[int, ...], Value]
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a C source, but for those that are registered with PETSc."""
-    finder = _Finder(source)
+    allowance = Allowance()
+    finder = _Finder(source, allowance)
     wanted = frozenset({CREATE, SPRK, *REGISTERS})
-    for call in CSource(text, wanted, finder.closed).calls():
+    for call in CSource(text, wanted, finder.closed, allowance).calls():
         finder.called(call)
     return finder.found()
 
@@ -38,47 +41,46 @@ def find(text: str, source: str) -> list[FoundTable]:
 class _Finder:
     """Collects tables, and which arrays are those of a constructor."""
 
-    def __init__(self, source: str) -> None:
+    def __init__(self, source: str, allowance: Allowance) -> None:
         self._source = source
+        self._allowance = allowance
         self._tables: list[FoundTable] = []
         self._loose: list[FoundTable] = []
         self._used: list[tuple[int, int]] = []
-        self._lines: list[int] = []
+        self._last = 0
 
     def found(self) -> list[FoundTable]:
         """All tables; arrays that a constructor takes are found once."""
-        kept = [x for x in self._loose if not self._is_used(x)]
+        taken = {(x.A, x.b) for x in self._tables}
+        kept = [x for x in self._loose if (x.A, x.b) not in taken and not self._is_used(x)]
         return sorted([*self._tables, *kept], key=lambda x: x.line)
 
     def _is_used(self, table: FoundTable) -> bool:
-        taken = {(x.A, x.b) for x in self._tables}
-        if (table.A, table.b) in taken:
-            return True
         return any(first <= table.line <= last for first, last in self._used)
 
     def called(self, call: Call) -> None:
         """A constructor was called."""
-        self._lines.append(call.line)
+        self._last = call.line
         if call.name == CREATE:
-            self._tables.append(_created(call, self._source))
+            self._tables.append(self._allowance.table(_created(call, self._source)))
         if call.name == SPRK:
-            self._tables.append(_sprk(call, self._source))
+            self._tables.append(self._allowance.table(_sprk(call, self._source)))
 
     def closed(self, block: Block) -> None:
         """A block has ended: its members and its arrays."""
-        _fill_arrays(block)
-        for base in _bases(block):
-            table = _of_members(block, base, self._source)
+        _fill_arrays(block, self._allowance)
+        for base, roles in _structures(block).items():
+            line = block.member_lines[f"{base}->A"]
+            table = _of_members(roles, line, self._source, block.scope.title)
             if table is not None:
-                self._tables.append(table)
+                self._tables.append(self._allowance.table(table))
         for stem, cells in block.cells.items():
-            of_cells = cells.table(self._source, NAME, stem)
+            of_cells = cells.table(self._source, NAME, stem, self._allowance)
             if of_cells is not None:
                 self._loose.append(of_cells)
-        last = max(self._lines, default=0)
-        if last >= block.line > 1:
-            self._used.append((block.line, last))
-        self._loose += block.scope.tables(self._source, NAME)
+        if self._last >= block.line > 1:
+            self._used.append((block.line, self._last))
+        self._loose += self._allowance.tables(block.scope.tables(self._source, NAME))
 
 
 def _created(call: Call, source: str) -> FoundTable:
@@ -126,21 +128,21 @@ def _sprk(call: Call, source: str) -> FoundTable:
     return symplectic(empty, a, a_hat, is_force_first=True)
 
 
-def _bases(block: Block) -> list[str]:
-    """The structures whose member A is assigned entry by entry."""
-    names = [name for name in block.members if name.endswith("->A")]
-    return [name.removesuffix("->A") for name in names]
+def _structures(block: Block) -> Mapping[str, Mapping[str, _Entries]]:
+    """The members of each structure whose member A is assigned entry by entry."""
+    found: dict[str, dict[str, _Entries]] = {}
+    for name, entries in block.members.items():
+        base, _, member = name.rpartition("->")
+        found.setdefault(base, {})[member] = entries
+    return {base: roles for base, roles in found.items() if base and "A" in roles}
 
 
-def _of_members(block: Block, base: str, source: str) -> FoundTable | None:
+def _of_members(
+    roles: Mapping[str, _Entries], line: int, source: str, title: str
+) -> FoundTable | None:
     """The table of ``B->A[i][j] = …``; zeros are left out there."""
-    roles: dict[str, _Entries] = {}
-    for name, members in block.members.items():
-        if name.rpartition("->")[0] == base:
-            roles[name.rpartition("->")[2]] = members
-    line = block.member_lines[f"{base}->A"]
     entries = roles["A"]
-    empty = FoundTable(source, line, NAME, block.scope.title, (), ())
+    empty = FoundTable(source, line, NAME, title, (), ())
     if not entries or "b" not in roles:
         return None
     sizes = [1 + max(index, default=0) for name in ("A", "b", "c") for index in roles.get(name, ())]
@@ -153,7 +155,7 @@ def _of_members(block: Block, base: str, source: str) -> FoundTable | None:
             source,
             line,
             NAME,
-            block.scope.title,
+            title,
             ((A,),),
             (_row(roles["b"], stages),),
             (c,),
@@ -188,33 +190,14 @@ def _row(entries: _Entries, stages: int) -> Row:
     return tuple(_entry(entries, (i,)) for i in range(stages))
 
 
-def _fill_arrays(block: Block) -> None:
+def _fill_arrays(block: Block, allowance: Allowance) -> None:
     """Arrays that are filled entry by entry, ``A[1][0] = 0.5``, as if they were written whole."""
     for name, entries in block.members.items():
         if "->" in name or name not in ROLES or not entries:
             continue
-        value = _whole_array(entries)
-        if value is not None:
-            _add(block.scope, name, value, block.member_lines[name])
-
-
-def _whole_array(entries: _Entries) -> Value:
-    dimensions = {len(index) for index in entries}
-    if dimensions not in ({1}, {2}):
-        return None
-    size = 1 + max(max(index) for index in entries)
-    zero: Value = number("0")
-    if dimensions == {1}:
-        return [entries.get((i,), zero) for i in range(size)]
-    rows: list[Value] = []
-    for i in range(size):
-        row = [entries.get((i, j), zero) for j in range(size)]
-        rows.append(row)
-    return rows
-
-
-def _add(scope: Scope, name: str, value: Value, line: int) -> None:
-    scope.add(name, value, line)
+        if {len(index) for index in entries} in ({1}, {2}):
+            value = filled(entries, allowance, first=0)
+            block.scope.add(name, value, block.member_lines[name])
 
 
 READER = Reader(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.lexing import Token
 from garkcli.bridges.readers.scalars import (
@@ -15,7 +16,6 @@ from garkcli.bridges.readers.scalars import (
     real_root,
     rooted,
     whole,
-    zeros,
 )
 
 
@@ -35,11 +35,6 @@ def passed_on(name: str, values: Sequence[Value]) -> Value:
     if words:
         return of_text(words[0])
     raise Unreadable(f"{name} of what is no number")
-
-
-def _zeros(values: Sequence[Value]) -> Value:
-    sizes = [whole(value) for value in values]
-    return zeros([size for size in sizes if size is not None])
 
 
 def reshaped(values: Sequence[Value]) -> Value:
@@ -71,7 +66,7 @@ def root_value(kind: str, values: Sequence[Value]) -> Value:
     raise Unreadable("a function with other arguments than it has")
 
 
-def end_of_argument(tokens: Sequence[Token], place: int) -> int:
+def end_of_argument(tokens: Sequence[Token], place: int, allowance: Allowance) -> int:
     """The place of the comma or bracket behind what cannot be read.
 
     Raises:
@@ -79,6 +74,7 @@ def end_of_argument(tokens: Sequence[Token], place: int) -> int:
     """
     open_brackets = 0
     for end in range(place, len(tokens)):
+        allowance.read_again(1)
         token = tokens[end]
         is_sign = token.kind == "sign"
         if is_sign and token.text in _OPENERS:
@@ -94,5 +90,3 @@ def end_of_argument(tokens: Sequence[Token], place: int) -> int:
 
 _OPENERS = frozenset("([{")
 _CLOSERS = frozenset(")]}")
-SHAPES: Mapping[str, Callable[[Sequence[Value]], Value]] = {"zeros": _zeros, "reshape": reshaped}
-"""Functions that make lists."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.blocks import MAX_COLOURS, table_of_blocks
 from garkcli.bridges.readers.found import MAX_STAGES, FoundTable
 from garkcli.bridges.readers.naming import ROLES, Scope
@@ -33,39 +34,50 @@ class Cells:
         if all(0 < index <= MAX_STAGES for index in indices):
             self._entries.setdefault(role, {})[indices] = value
 
-    def table(self, source: str, format: str, name: str) -> FoundTable | None:
+    def table(self, source: str, format: str, name: str, allowance: Allowance) -> FoundTable | None:
         """The method that they make; None where they make none."""
+        allowance.line = self.line
+        table = self._table(source, format, name, allowance)
+        return None if table is None else allowance.table(table)
+
+    def _table(
+        self, source: str, format: str, name: str, allowance: Allowance
+    ) -> FoundTable | None:
         entries = self._entries
         blocks = entries.get("A")
         if not blocks:
             return table_of_blocks(self._whole, source, format, name, self.line)
         if all(isinstance(x, Scalar) for x in blocks.values()):
-            return self._of_numbers(source, format, name)
+            return self._of_numbers(source, format, name, allowance)
         values: dict[str, Value] = dict(self._whole)
-        values["A"] = _grid(blocks)
+        values["A"] = _grid(blocks, allowance)
         for role in ("b", "c", "embedded", "dense"):
             if role in entries:
                 values[role] = _listed(entries[role])
         return table_of_blocks(values, source, format, name, self.line)
 
-    def _of_numbers(self, source: str, format: str, name: str) -> FoundTable | None:
+    def _of_numbers(
+        self, source: str, format: str, name: str, allowance: Allowance
+    ) -> FoundTable | None:
         """One matrix whose entries are assigned."""
         scope = Scope(name)
         for role, value in self._whole.items():
             if role not in self._entries:
                 scope.add(role, value, self.line)
         for role, entries in self._entries.items():
-            scope.add(role, _filled(entries), self.line)
+            if role in ROLES:
+                scope.add(role, filled(entries, allowance), self.line)
         return next(scope.tables(source, format), None)
 
 
-def _grid(blocks: Mapping[tuple[int, ...], Value]) -> Value:
+def _grid(blocks: Mapping[tuple[int, ...], Value], allowance: Allowance) -> Value:
     """``A[l][m]``; None where nothing, or nothing but [], is assigned."""
     if any(len(index) != 2 for index in blocks):
         return None
     size = max(max(index) for index in blocks)
     if size > MAX_COLOURS:
         return None
+    allowance.spend(size * size)
     numbers = range(1, size + 1)
     rows: list[Value] = []
     for l in numbers:
@@ -97,12 +109,18 @@ def _listed(entries: Mapping[tuple[int, ...], Value]) -> Value:
     return rows
 
 
-def _filled(entries: Mapping[tuple[int, ...], Value]) -> Value:
-    """An array from its entries, with zeros where none is assigned."""
-    size = max(max(index) for index in entries)
-    numbers = range(1, size + 1)
+def filled(entries: Mapping[tuple[int, ...], Value], allowance: Allowance, first: int = 1) -> Value:
+    """An array from its entries, with zeros where none is assigned.
+
+    Args:
+        entries: by their indices.
+        allowance: of the source.
+        first: the index that the language begins with.
+    """
+    numbers = range(first, max(max(index) for index in entries) + 1)
     zero: Value = number("0")
     is_vector = all(len(index) == 1 for index in entries)
+    allowance.spend(len(numbers) * (1 if is_vector else len(numbers)))
     if is_vector:
         return [entries.get((i,), zero) for i in numbers]
     rows: list[Value] = []

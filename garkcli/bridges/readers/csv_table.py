@@ -7,9 +7,10 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePath
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.blocks import MAX_COLOURS
 from garkcli.bridges.readers.cells import Cells
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row
+from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row, TooLarge
 from garkcli.bridges.readers.scalars import Scalar, Value
 
 NAME = "csv"
@@ -18,26 +19,29 @@ _INDEX = re.compile(r"[1-9][0-9]{0,2}")
 _TITLE = re.compile(r"#[ \t]*Method:[ \t]*(\S.{0,200})")
 _PARTS = frozenset({"A", "b", "c", "embedded", "dense"})
 MAX_ROWS = 200_000
-"""Most rows that are read."""
+"""Most lines of a source."""
 csv.field_size_limit(131_072)
 
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The table of a CSV file, or of each part of it between blank lines."""
-    lines = text.splitlines()[:MAX_ROWS]
+    lines = text.splitlines()
+    if len(lines) > MAX_ROWS:
+        raise TooLarge(f"the source has more than {MAX_ROWS} lines", MAX_ROWS + 1)
     title = next((x[1] for x in map(_TITLE.match, lines) if x), "")
     name = title.strip() or PurePath(source).stem.removeprefix("<stdin>")
     rows = []
     for number, line in enumerate(lines, start=1):
         is_blank = not line.strip() or line.lstrip().startswith("#")
         rows.append((number, [] if is_blank else _cells(line)))
+    allowance = Allowance()
     found: list[FoundTable] = []
     part: list[tuple[int, list[str]]] = []
     for row in [*rows, (0, [])]:
         if row[1]:
             part.append(row)
             continue
-        table = _table(part, source, name) if part else None
+        table = _table(part, source, name, allowance) if part else None
         if table is not None:
             found.append(table)
         part = []
@@ -53,14 +57,19 @@ def _cells(line: str) -> list[str]:
     return []
 
 
-def _table(rows: Sequence[tuple[int, list[str]]], source: str, name: str) -> FoundTable | None:
+def _table(
+    rows: Sequence[tuple[int, list[str]]], source: str, name: str, allowance: Allowance
+) -> FoundTable | None:
     first, head = rows[0]
     if [x.lower() for x in head] == COLUMNS:
-        return _of_entries(rows, source, name)
-    return _printed([row for _, row in rows], source, name, first)
+        return _of_entries(rows, source, name, allowance)
+    table = _printed([row for _, row in rows], source, name, first)
+    return None if table is None else allowance.table(table)
 
 
-def _of_entries(rows: Sequence[tuple[int, list[str]]], source: str, name: str) -> FoundTable | None:
+def _of_entries(
+    rows: Sequence[tuple[int, list[str]]], source: str, name: str, allowance: Allowance
+) -> FoundTable | None:
     """``part,l,m,i,j,value``: an entry a row; colours and stages count from 1."""
     arrays: dict[tuple[str, str, str], dict[tuple[int, ...], Value]] = {}
     for _, row in rows[1:]:
@@ -81,7 +90,7 @@ def _of_entries(rows: Sequence[tuple[int, list[str]]], source: str, name: str) -
         if array is None or not numbers:
             return None
         cells.put(part, numbers, array)
-    return cells.table(source, NAME, name)
+    return cells.table(source, NAME, name, allowance)
 
 
 def _array(entries: dict[tuple[int, ...], Value]) -> Value:

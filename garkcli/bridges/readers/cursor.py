@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
@@ -20,17 +21,23 @@ class Cursor:
         tokens: with one of kind ``end`` behind them.
         grammar: of the language.
         names: what names stand for.
+        allowance: of the source.
 
     Attributes:
         place: of the next token.
     """
 
     def __init__(
-        self, tokens: Sequence[Token], grammar: Grammar, names: Mapping[str, Value]
+        self,
+        tokens: Sequence[Token],
+        grammar: Grammar,
+        names: Mapping[str, Value],
+        allowance: Allowance,
     ) -> None:
         self.tokens = tokens
         self.grammar = grammar
         self.names = names
+        self.allowance = allowance
         self.place = 0
         self._depth = 0
         self._in_matrix = False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Begun, Called, Walk
 from garkcli.bridges.readers.found import FoundTable
 from garkcli.bridges.readers.naming import Scope
@@ -12,14 +13,16 @@ class Finder:
 
     Args:
         source: what the source is called.
+        allowance: of it.
 
     Attributes:
         found: the tables so far.
     """
 
-    def __init__(self, source: str) -> None:
+    def __init__(self, source: str, allowance: Allowance) -> None:
         self.found: list[FoundTable] = []
         self._source = source
+        self._allowance = allowance
         self._scope = Scope()
 
     def begin(self, title: str) -> None:

@@ -27,6 +27,18 @@ class Unreadable(GarkError):
     """What stands at a place in a source is no value that a reader knows."""
 
 
+class TooLarge(GarkError):
+    """A source is too large, or becomes it where its names are written out.
+
+    Attributes:
+        line: where the limit was reached, from 1.
+    """
+
+    def __init__(self, message: str, line: int) -> None:
+        super().__init__(message)
+        self.line = line
+
+
 @dataclass(frozen=True)
 class FoundTable:
     """The coefficients of one method, as a source has them.
@@ -103,7 +115,7 @@ class Reader:
         name: what the format is called.
         summary: what it is, in a few words.
         suffixes: of the files that have it.
-        find: the tables in a text; it executes nothing and raises nothing for any text.
+        find: the tables in a text; it executes nothing, and raises nothing but ``TooLarge``.
     """
 
     name: str

@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.blocks import table_of_blocks
-from garkcli.bridges.readers.found import MAX_TABLES, FoundTable, Reader
+from garkcli.bridges.readers.found import FoundTable, Reader
 from garkcli.bridges.readers.naming import ROLES, Scope
 from garkcli.bridges.readers.scalars import Scalar, Value, number
 
@@ -31,15 +32,14 @@ def find(text: str, source: str) -> list[FoundTable]:
         document = json.loads(text, parse_float=_float, parse_int=_int)
     except (ValueError, RecursionError):
         return []
+    allowance = Allowance()
     lines = _lines(text)
     found: list[FoundTable] = []
     for title, mapping in _mappings(document, "", 0):
         line = next(lines, 1) if _has_matrix(mapping) else 1
         table = _table(mapping, source, title, line)
         if table is not None:
-            found.append(table)
-        if len(found) >= MAX_TABLES:
-            break
+            found.append(allowance.table(table))
     return found
 
 

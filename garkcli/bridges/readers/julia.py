@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Called, Walk
 from garkcli.bridges.readers.blocks import assembled, table_of_blocks
 from garkcli.bridges.readers.cells import Cells
@@ -40,9 +41,10 @@ _TRUTHS = ("true", "false")
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Julia source."""
     tokens = without(tokens_of(text, JULIA), "comment")
-    walk = Walk(tokens, GRAMMAR, MAKERS, _ENDS, _title)
+    allowance = Allowance()
+    walk = Walk(tokens, GRAMMAR, MAKERS, _ENDS, _title, allowance)
     walk.names.update({word: word for word in _TRUTHS})
-    return tables_of(walk, _Finder(source))
+    return tables_of(walk, _Finder(source, allowance))
 
 
 def _title(tokens: list[Token], place: int) -> str:
@@ -68,8 +70,8 @@ def _holds_names(tokens: list[Token], place: int) -> bool:
 class _Finder(Finder):
     """Collects what is assigned in one function."""
 
-    def __init__(self, source: str) -> None:
-        super().__init__(source)
+    def __init__(self, source: str, allowance: Allowance) -> None:
+        super().__init__(source, allowance)
         self._cells = Cells(1)
         self._made: list[FoundTable] = []
         self._values: dict[str, Value] = {}
@@ -77,16 +79,16 @@ class _Finder(Finder):
 
     def end(self) -> None:
         """The tables of the function; those that a constructor takes are found once."""
-        found = list(self._scope.tables(self._source, NAME))
+        found = self._allowance.tables(self._scope.tables(self._source, NAME))
         blocks = table_of_blocks(self._values, self._source, NAME, self._scope.title, self._line)
         self._values = {}
         if blocks is not None:
-            found = [blocks]
+            found = [self._allowance.table(blocks)]
         made = {(x.A, x.b) for x in self._made}
         self.found += self._made
         if not self._made:
             self.found += [x for x in found if (x.A, x.b) not in made]
-            of_cells = self._cells.table(self._source, NAME, self._scope.title)
+            of_cells = self._cells.table(self._source, NAME, self._scope.title, self._allowance)
             if of_cells is not None and not found:
                 self.found.append(of_cells)
         self._made = []
@@ -117,7 +119,7 @@ class _Finder(Finder):
         except Unreadable as error:
             table = troubled(empty, f"{event.name}: {error.message}")
         if table is not None:
-            self._made.append(table)
+            self._made.append(self._allowance.table(table))
 
 
 def _explicit(empty: FoundTable, values: list[Value], named: _Arguments) -> FoundTable | None:

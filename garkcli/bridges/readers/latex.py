@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import (
     MAX_STAGES,
-    MAX_TABLES,
     FoundTable,
     Grid,
     Reader,
@@ -38,21 +38,22 @@ def find(text: str, source: str) -> list[FoundTable]:
     is_general = any(_GENERAL in comment for comment in comments)
     plain = _COMMENT.sub("", text)
     arrays = list(_arrays(plain))
+    allowance = Allowance()
     found: list[FoundTable] = []
     place = 0
-    while place < len(arrays) and len(found) < MAX_TABLES:
+    while place < len(arrays):
         line, before, columns, body = arrays[place]
         pair = None
         if _letter(before) == "Q" and place + 1 < len(arrays):
             two = arrays[place], arrays[place + 1]
             pair = _pair(*two, source, is_general)
         if pair is not None:
-            found.append(pair)
+            found.append(allowance.table(pair))
             place += 2
             continue
         table = _table(line, columns, body, source)
         if table is not None:
-            found.append(table)
+            found.append(allowance.table(table))
         place += 1
     return found
 

@@ -6,8 +6,10 @@ import re
 from dataclasses import dataclass
 from functools import cache
 
+from garkcli.bridges.readers.found import TooLarge
+
 MAX_TOKENS = 1_000_000
-"""Most tokens of a source; what stands behind them is not read."""
+"""Most tokens of a source."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,9 @@ def _pattern(language: Language) -> re.Pattern[str]:
 def tokens_of(text: str, language: Language) -> list[Token]:
     """The tokens of a source, with one of kind ``end`` behind them.
 
+    Raises:
+        TooLarge: it has too many.
+
     >>> [x.text for x in tokens_of("b[2] = {1.0L, .5}; // half", C)][:8]
     ['b', '[', '2', ']', '=', '{', '1.0', ',']
     """
@@ -120,7 +125,7 @@ def tokens_of(text: str, language: Language) -> list[Token]:
             is_spaced = False
         line += whole.count("\n")
         if len(found) >= MAX_TOKENS:
-            break
+            raise TooLarge(f"the source has more than {MAX_TOKENS} words and signs", line)
     found.append(Token("end", "", line))
     return found
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.blocks import table_of_blocks
 from garkcli.bridges.readers.finder import Finder, tables_of
@@ -37,9 +38,10 @@ _ORDERS = {"DifferenceOrder": "order", "EmbeddedDifferenceOrder": "embedded_orde
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Mathematica source."""
     tokens = without(tokens_of(text, MATHEMATICA), "comment")
-    walk = Walk(_with_names(_on_their_lines(tokens)), GRAMMAR, {}, _ENDS, _title)
+    allowance = Allowance()
+    walk = Walk(_with_names(_on_their_lines(tokens)), GRAMMAR, {}, _ENDS, _title, allowance)
     walk.names["x"] = Scalar("x")
-    return tables_of(walk, _Finder(source))
+    return tables_of(walk, _Finder(source, allowance))
 
 
 def _on_their_lines(tokens: list[Token]) -> list[Token]:
@@ -86,8 +88,8 @@ def _title(tokens: list[Token], place: int) -> str:
 class _Finder(Finder):
     """Collects lists into tables."""
 
-    def __init__(self, source: str) -> None:
-        super().__init__(source)
+    def __init__(self, source: str, allowance: Allowance) -> None:
+        super().__init__(source, allowance)
         self._values: dict[str, Value] = {}
         self._line = 0
         self._listed: list[FoundTable] = []
@@ -95,10 +97,10 @@ class _Finder(Finder):
     def end(self) -> None:
         """The tables of what has ended."""
         title = self._scope.title
-        found = list(self._scope.tables(self._source, NAME))
+        found = self._allowance.tables(self._scope.tables(self._source, NAME))
         blocks = table_of_blocks(self._values, self._source, NAME, title, max(self._line, 1))
         if blocks is not None:
-            found = [blocks]
+            found = [self._allowance.table(blocks)]
         # the lists of {amat, bvec, cvec} are often named before
         listed = [_coefficients_of(table) for table in self._listed]
         self.found += self._listed
@@ -116,7 +118,7 @@ class _Finder(Finder):
         self._scope.add(name, event.value, event.line)
         listed = _coefficients(event, self._source)
         if listed is not None:
-            self._listed.append(listed)
+            self._listed.append(self._allowance.table(listed))
 
 
 def _coefficients_of(table: FoundTable) -> tuple[object, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.finder import Finder, tables_of
@@ -34,8 +35,9 @@ _TITLES = frozenset({"function", "case", "if", "elseif"})
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a MATLAB source."""
     tokens = without(tokens_of(text, MATLAB), "comment")
-    walk = Walk(tokens, GRAMMAR, {}, _ENDS, _title)
-    return tables_of(walk, _Finder(source))
+    allowance = Allowance()
+    walk = Walk(tokens, GRAMMAR, {}, _ENDS, _title, allowance)
+    return tables_of(walk, _Finder(source, allowance))
 
 
 def _title(tokens: list[Token], place: int) -> str:
@@ -59,20 +61,20 @@ def _title(tokens: list[Token], place: int) -> str:
 class _Finder(Finder):
     """Collects the matrices of one structure, or of one branch, into tables."""
 
-    def __init__(self, source: str) -> None:
-        super().__init__(source)
+    def __init__(self, source: str, allowance: Allowance) -> None:
+        super().__init__(source, allowance)
         self._cells: dict[str, Cells] = {}
         self._blocks: list[FoundTable] = []
 
     def end(self) -> None:
         """The tables of what has ended; those in a block are found once."""
-        loose = list(self._scope.tables(self._source, NAME))
+        loose = self._allowance.tables(self._scope.tables(self._source, NAME))
         in_blocks = {(x.A, x.b) for x in self._blocks}
         self.found += self._blocks
         self.found += [x for x in loose if (x.A, x.b) not in in_blocks]
         for stem, cells in self._cells.items():
             name = self._scope.title or stem
-            table = cells.table(self._source, NAME, name)
+            table = cells.table(self._source, NAME, name, self._allowance)
             if table is not None:
                 self.found.append(table)
         self._cells = {}
@@ -85,7 +87,7 @@ class _Finder(Finder):
         block = rklab(event.value)
         if block is not None and field.upper().startswith("B"):
             name = self._scope.title or event.name
-            self._blocks.append(block.table(self._source, event.line, name))
+            self._blocks.append(self._allowance.table(block.table(self._source, event.line, name)))
             return
         cells = self._cells.setdefault(stem, Cells(event.line))
         cells.put(field, event.indices, event.value)

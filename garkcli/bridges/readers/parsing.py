@@ -7,21 +7,11 @@ them before; no function is ever called.
 
 from __future__ import annotations
 
-from garkcli.bridges.readers.calls import SHAPES, end_of_argument, passed_on, root_value
+from garkcli.bridges.readers.calls import end_of_argument, passed_on, reshaped, root_value
 from garkcli.bridges.readers.cursor import Cursor
 from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.matrices import joined
-from garkcli.bridges.readers.scalars import (
-    UNKNOWN,
-    Value,
-    combined,
-    negated,
-    number,
-    of_text,
-    power,
-    transposed,
-    whole,
-)
+from garkcli.bridges.readers.scalars import UNKNOWN, Value, negated, number, of_text, power, whole
 
 _QUOTIENTS = frozenset({"/", "//", "./"})
 _PRODUCTS = frozenset({"*", ".*"})
@@ -38,7 +28,11 @@ class ValueParser(Cursor):
             Unreadable: none does.
         """
         self._begin(place)
-        return self._sum()
+        try:
+            return self._sum()
+        except Unreadable:
+            self.allowance.read_again(self.place - place)
+            raise
 
     def arguments_at(self, place: int) -> list[tuple[str, Value]]:
         """The arguments of a call whose bracket is at a place, those with a name with it; what
@@ -57,7 +51,7 @@ class ValueParser(Cursor):
                 break
             sign = self._next.text
             self.place += 1
-            value = combined(sign, value, self._product())
+            value = self.allowance.combined(sign, value, self._product())
         return value
 
     def _product(self) -> Value:
@@ -68,12 +62,12 @@ class ValueParser(Cursor):
                 return value
             if token.kind == "sign" and token.text in _PRODUCTS:
                 self.place += 1
-                value = combined("*", value, self._factor())
+                value = self.allowance.combined("*", value, self._factor())
             elif token.kind == "sign" and token.text in _QUOTIENTS:
                 self.place += 1
-                value = combined("/", value, self._factor())
+                value = self.allowance.combined("/", value, self._factor())
             elif self.grammar.is_implicit and self._begins_factor():
-                value = combined("*", value, self._factor())
+                value = self.allowance.combined("*", value, self._factor())
             else:
                 return value
 
@@ -94,7 +88,7 @@ class ValueParser(Cursor):
         base = self._atom()
         while self._is("'") and not self._next.is_spaced:
             self.place += 1
-            base = transposed(base)
+            base = self.allowance.transposed(base)
         token = self._next
         is_power = token.kind == "sign" and token.text in _POWERS
         if not is_power or self._ends_item():
@@ -149,7 +143,7 @@ class ValueParser(Cursor):
             self.place += 1
             return of_text(token.text)
         if name in self.names:
-            return self._entry(self.names[name])
+            return self.allowance.copied(self._entry(self.names[name]))
         if name in self.grammar.nothing:
             return None
         if name in self.grammar.passed:
@@ -168,7 +162,7 @@ class ValueParser(Cursor):
                 self._close("]")
         if name not in self.names:
             raise Unreadable(f"{name} has no value that is known")
-        return self.names[name]
+        return self.allowance.copied(self.names[name])
 
     def _entry(self, value: Value) -> Value:
         """The value, or the entry of it that indices from 0 name."""
@@ -194,12 +188,14 @@ class ValueParser(Cursor):
         if kind is not None:
             values = [value for _, value in self._arguments()]
             return root_value(kind, values)
-        is_shape = name in SHAPES
-        if name not in self.grammar.passed and not is_shape:
+        if name not in self.grammar.passed and name not in {"zeros", "reshape"}:
             raise Unreadable(f"the function {name} is not known")
         found = self._arguments(is_lenient=True)
         values = [value for _, value in found]
-        return SHAPES[name](values) if is_shape else passed_on(name, values)
+        if name == "zeros":
+            sizes = [whole(value) for value in values]
+            return self.allowance.zeros([size for size in sizes if size is not None])
+        return reshaped(values) if name == "reshape" else passed_on(name, values)
 
     def _arguments(self, is_lenient: bool = False) -> list[tuple[str, Value]]:
         closer = self.grammar.calls[self._next.text]
@@ -240,7 +236,7 @@ class ValueParser(Cursor):
                 raise
             self._depth = depth
             self._in_matrix = False
-            self.place = end_of_argument(self.tokens, start)
+            self.place = end_of_argument(self.tokens, start, self.allowance)
             return UNKNOWN
 
     def _list(self, closer: str) -> Value:

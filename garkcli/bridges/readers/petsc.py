@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from itertools import chain
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.c_source import Block, Call, CSource
 from garkcli.bridges.readers.found import (
     MAX_STAGES,
@@ -28,9 +29,9 @@ def find(text: str, source: str) -> list[FoundTable]:
     def ended(block: Block) -> None:
         del block
 
-    wanted = frozenset(REGISTERS)
-    calls = CSource(text, wanted, ended).calls()
-    return [_registered(call, source) for call in calls]
+    allowance = Allowance()
+    calls = CSource(text, frozenset(REGISTERS), ended, allowance).calls()
+    return allowance.tables(_registered(call, source) for call in calls)
 
 
 def _registered(call: Call, source: str) -> FoundTable:

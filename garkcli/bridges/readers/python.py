@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import ast
+import re
 import warnings
 from collections import ChainMap
 from collections.abc import Mapping, Sequence
+from itertools import islice
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.blocks import table_of_blocks
-from garkcli.bridges.readers.found import MAX_TABLES, FoundTable, Reader, Row, Unreadable, troubled
+from garkcli.bridges.readers.found import FoundTable, Reader, Row, TooLarge, Unreadable, troubled
 from garkcli.bridges.readers.naming import Scope
 from garkcli.bridges.readers.python_values import Literals, as_number, called, targets_of
 from garkcli.bridges.readers.scalars import Value, whole
@@ -18,12 +21,24 @@ NAME = "python"
 SCIPY = frozenset({"RungeKutta"})
 _TABLEAUS = frozenset({"ButcherTableau", "_ButcherTableau"})
 _WITH_VALUE = (ast.Assign, ast.AnnAssign, ast.Return, ast.Expr)
+_WORD = re.compile(r"\w+|[^\w\s]")
+MAX_WORDS = 500_000
+"""Most words and signs of a source: its syntax tree has hundreds of bytes for each."""
 MAX_NESTING = 30
 """Deepest nesting of classes and functions, and of dictionaries."""
 
 
 def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a Python source; it is parsed, never run."""
+    """The tables of a Python source; it is parsed, never run.
+
+    Raises:
+        TooLarge: it has too many words, or says too much.
+    """
+    words = _WORD.finditer(text)
+    beyond = next(islice(words, MAX_WORDS, None), None)
+    if beyond is not None:
+        line = text.count("\n", 0, beyond.start()) + 1
+        raise TooLarge(f"the source has more than {MAX_WORDS} words and signs", line)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -35,7 +50,7 @@ def find(text: str, source: str) -> list[FoundTable]:
         finder.body(tree.body, Scope(), None)
     except RecursionError:
         return []
-    return sorted(finder.found, key=lambda x: x.line)[:MAX_TABLES]
+    return sorted(finder.found, key=lambda x: x.line)
 
 
 class _Finder:
@@ -43,7 +58,8 @@ class _Finder:
         self.found: list[FoundTable] = []
         self._source = source
         self._names: ChainMap[str, Value] = ChainMap({})
-        self._literals = Literals(text, self._names)
+        self._allowance = Allowance()
+        self._literals = Literals(text, self._names, self._allowance)
         self._lines: dict[str, int] = {}
         self._depth = 0
 
@@ -56,19 +72,20 @@ class _Finder:
         self._names.maps.insert(0, {})
         self._statements(statements, scope)
         own = self._names.maps[0]
-        found = list(scope.tables(self._source, NAME))
+        found = self._allowance.tables(scope.tables(self._source, NAME))
         if node is not None and _is_scipy(node):
-            found = [_scipy(node, own, self._source)]
+            found = [self._allowance.table(_scipy(node, own, self._source))]
         line = self._lines.get("A", 1)
         blocks = table_of_blocks(own, self._source, NAME, scope.title, line)
         if blocks is not None:
-            found = [blocks]
+            found = [self._allowance.table(blocks)]
         self.found += found
         self._names.maps.pop(0)
         self._depth -= 1
 
     def _statements(self, statements: Sequence[ast.stmt], scope: Scope) -> None:
         for node in statements:
+            self._allowance.line = node.lineno
             match node:
                 case ast.ClassDef(name=name, body=body):
                     self.body(body, Scope(name), node)
@@ -102,13 +119,13 @@ class _Finder:
                         self._assign(one, its, scope, line)
                 return
             case ast.Subscript(value=ast.Name(id=array), slice=place), _:
-                self._put(array, place, self._literals.value(expression))
+                self._put(array, place, self._allowance.kept(self._literals.value(expression)))
                 scope.add(array, self._names[array], line)
                 return
         name = _plain_name(target)
         if not name:
             return
-        value = _copied(self._literals.value(expression))
+        value = self._allowance.kept(self._literals.value(expression))
         self._names[name] = value
         self._lines[name] = line
         scope.add(name, value, line)
@@ -153,8 +170,8 @@ class _Finder:
             except Unreadable:
                 self._dictionaries(key.value, expression, depth + 1)
                 continue
-            scope.add(key.value, value, node.lineno)
-        self.found += scope.tables(self._source, NAME)
+            scope.add(key.value, self._allowance.kept(value), node.lineno)
+        self.found += self._allowance.tables(scope.tables(self._source, NAME))
 
     def _tableaus(self, node: ast.stmt, scope: Scope) -> None:
         """``ButcherTableau(c=…, b_sol=…, a_lower=…)`` of other libraries; dictionaries."""
@@ -174,8 +191,8 @@ class _Finder:
                 found = _listed(self._literals.value(keyword.value))
             except Unreadable:
                 continue
-            inner.add(keyword.arg or "", found, call.lineno)
-        self.found += inner.tables(self._source, NAME)
+            inner.add(keyword.arg or "", self._allowance.kept(found), call.lineno)
+        self.found += self._allowance.tables(inner.tables(self._source, NAME))
 
 
 def _listed(value: Value) -> Value:
@@ -202,13 +219,6 @@ def _set(array: list[Value], place: ast.expr, value: Value, literals: Literals) 
         if last != first + len(value):
             raise Unreadable("a slice of another length")
     array[first : first + len(value)] = value
-
-
-def _copied(value: Value) -> Value:
-    """The same list with rows of its own: entries may be assigned later."""
-    if isinstance(value, list):
-        return [_copied(x) for x in value]
-    return value
 
 
 def _plain_name(target: ast.expr) -> str:

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
+from itertools import chain
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import MAX_STAGES, Unreadable
 from garkcli.bridges.readers.scalars import (
     Scalar,
     Value,
-    combined,
     negated,
     number,
     of_text,
     power,
     rooted,
-    transposed,
     whole,
-    zeros,
 )
 
 MAX_DEPTH = 60
@@ -41,12 +40,14 @@ class Literals:
     Args:
         text: the source, for digits that a float would lose.
         names: what names stand for.
+        allowance: of the source.
     """
 
-    def __init__(self, text: str, names: Mapping[str, Value]) -> None:
-        self._lines = text.split("\n")
+    def __init__(self, text: str, names: Mapping[str, Value], allowance: Allowance) -> None:
+        self._lines = text.encode().split(b"\n")
         self._aliases: dict[str, str] = {}
         self.names = names
+        self._allowance = allowance
         self._depth = 0
 
     def imported(self, node: ast.Import | ast.ImportFrom) -> None:
@@ -75,12 +76,10 @@ class Literals:
                 return self._constant(node)
             case ast.List(elts=items) | ast.Tuple(elts=items):
                 return [self.value(item) for item in items]
-            case ast.Name(id=name):
-                return self._known(name)
+            case ast.Name() | ast.Attribute(value=ast.Name(id="self")):
+                return self._allowance.copied(self._known(node))
             case ast.Attribute(attr="T", value=inner):
-                return transposed(self.value(inner))
-            case ast.Attribute(value=ast.Name(id="self"), attr=name):
-                return self._known(name)
+                return self._allowance.transposed(self.value(inner))
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return negated(self.value(operand))
             case ast.UnaryOp(op=ast.UAdd(), operand=operand):
@@ -90,13 +89,21 @@ class Literals:
             case ast.Call():
                 return self._call(node)
             case ast.Subscript(value=inner, slice=index):
-                return self._entry(self.value(inner), index)
+                indices = [index]
+                while isinstance(inner, ast.Subscript):
+                    indices.insert(0, inner.slice)
+                    inner = inner.value
+                return self._allowance.copied(self._entry(self._known(inner), indices))
         raise Unreadable("this is no literal")
 
-    def _known(self, name: str) -> Value:
-        if name not in self.names:
-            raise Unreadable(f"{name} has no value that is known")
-        return self.names[name]
+    def _known(self, node: ast.expr) -> Value:
+        """What a name stands for, the list itself; the value of any other expression."""
+        match node:
+            case ast.Name(id=name) | ast.Attribute(value=ast.Name(id="self"), attr=name):
+                if name not in self.names:
+                    raise Unreadable(f"{name} has no value that is known")
+                return self.names[name]
+        return self.value(node)
 
     def _constant(self, node: ast.Constant) -> Value:
         value = node.value
@@ -111,9 +118,9 @@ class Literals:
 
     def _source(self, node: ast.Constant) -> str:
         """The digits as they are written; offsets of the tree count bytes."""
-        line = self._lines[node.lineno - 1].encode()
         if node.end_lineno != node.lineno:
             raise Unreadable("a number in two lines")
+        line = self._lines[node.lineno - 1]
         return line[node.col_offset : node.end_col_offset].decode()
 
     def _operation(self, node: ast.BinOp) -> Value:
@@ -125,8 +132,16 @@ class Literals:
         if sign is None:
             raise Unreadable("this is no operation of coefficients")
         if sign == "*" and isinstance(left, list):
-            return _repeated(left, right)
-        return combined(sign, left, right)
+            return self._repeated(left, right)
+        return self._allowance.combined(sign, left, right)
+
+    def _repeated(self, items: list[Value], times: Value) -> Value:
+        """``[0] * 3``, a list three times; that of an array is another matter, and refused."""
+        count = whole(times)
+        is_plain = len(items) == 1 and isinstance(items[0], Scalar)
+        if not is_plain or count is None or not 0 <= count <= MAX_STAGES:
+            return self._allowance.combined("*", items, times)
+        return self._allowance.kept(items * count)
 
     def _call(self, node: ast.Call) -> Value:
         name = called(node)
@@ -137,25 +152,26 @@ class Literals:
             raise Unreadable(f"the function {name} is not known")
         first = self.value(node.args[0])
         if name in _FRACTIONS and len(node.args) == 2:
-            return combined("/", first, self.value(node.args[1]))
+            return self._allowance.combined("/", first, self.value(node.args[1]))
         if name in _ROOTS:
             return rooted(as_number(first), _ROOTS[name])
         if name == "zeros":
-            return _zeros(first)
+            return self._allowance.zeros(_sizes(first))
         if name in _SAME or name in _FRACTIONS:
             return as_number(first)
         raise Unreadable(f"the function {name} is not known")
 
     def _of_method(self, function: ast.Attribute) -> Value:
         if function.attr == "transpose":
-            return transposed(self.value(function.value))
+            return self._allowance.transposed(self.value(function.value))
         if function.attr in _SAME:
             return self.value(function.value)
         raise Unreadable(f"the method {function.attr} is not known")
 
-    def _entry(self, value: Value, index: ast.expr) -> Value:
-        indices = index.elts if isinstance(index, ast.Tuple) else [index]
-        for item in indices:
+    def _entry(self, value: Value, indices: Sequence[ast.expr]) -> Value:
+        for item in chain.from_iterable(
+            x.elts if isinstance(x, ast.Tuple) else [x] for x in indices
+        ):
             place = whole(self.value(item))
             if not isinstance(value, list) or place is None:
                 raise Unreadable("an entry of what is no list")
@@ -182,24 +198,15 @@ def as_number(value: Value) -> Value:
     return value
 
 
-def _zeros(shape: Value) -> Value:
-    """``zeros(3)``, ``zeros((3, 3))``."""
+def _sizes(shape: Value) -> list[int]:
+    """``3``, ``(3, 3)``."""
     sizes = [whole(shape)]
     if isinstance(shape, list):
         sizes = [whole(x) for x in shape]
     found = [size for size in sizes if size is not None]
     if len(found) < len(sizes):
         raise Unreadable("a shape that is not written out")
-    return zeros(found)
-
-
-def _repeated(items: list[Value], times: Value) -> Value:
-    """``[0] * 3``, a list three times; that of an array is another matter, and refused."""
-    count = whole(times)
-    is_plain = len(items) == 1 and isinstance(items[0], Scalar)
-    if not is_plain or count is None or not 0 <= count <= MAX_STAGES:
-        return combined("*", items, times)
-    return items * count
+    return found
 
 
 def targets_of(node: ast.stmt) -> Sequence[ast.expr]:

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import PurePath
 
 from garkcli.bridges import readers
-from garkcli.bridges.readers.found import MAX_CHARACTERS, MAX_TABLES, FoundTable, Reader
+from garkcli.bridges.readers.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, troubled
 from garkcli.errors import UsageProblem, did_you_mean
 
 
@@ -60,7 +60,7 @@ def find_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundT
     if len(text) > MAX_CHARACTERS:
         return []
     found = _found(text, source, chosen)
-    return [x for x in found if not _is_unlike(x)][:MAX_TABLES]
+    return [x for x in found if not _is_unlike(x)]
 
 
 def unlike_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
@@ -70,7 +70,7 @@ def unlike_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[Foun
     if len(text) > MAX_CHARACTERS:
         return []
     found = _found(text, source, chosen)
-    return [x for x in found if _is_unlike(x)][:MAX_TABLES]
+    return [x for x in found if _is_unlike(x)]
 
 
 def _is_unlike(table: FoundTable) -> bool:
@@ -83,20 +83,29 @@ def _found(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]
         return _by_the_best(text, source, chosen)
     found: list[FoundTable] = []
     for reader in chosen:
-        found += reader.find(text, source)
+        found += _read(reader, text, source)
     return sorted(found, key=lambda x: x.line)
+
+
+def _read(reader: Reader, text: str, source: str) -> list[FoundTable]:
+    """What a reader finds; in a source that becomes too large the place where it does."""
+    try:
+        return reader.find(text, source)
+    except TooLarge as error:
+        place = FoundTable(source, error.line, reader.name, "", (), ())
+        return [troubled(place, error.message)]
 
 
 def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
     """The tables of the reader that finds most in a text of an unknown format."""
     best: list[FoundTable] = []
-    unlike: list[FoundTable] = []
+    no_tables: list[FoundTable] = []
     for reader in chosen:
-        found = reader.find(text, source)
-        unlike += filter(_is_unlike, found)
+        found = _read(reader, text, source)
+        no_tables += [x for x in found if x.trouble]
         if _worth(found) > _worth(best):
             best = found
-    return best or unlike
+    return best or no_tables
 
 
 def _worth(tables: Sequence[FoundTable]) -> tuple[int, int]:

@@ -268,7 +268,8 @@ def zeros(sizes: Sequence[int]) -> Value:
     is_small = all(0 < size <= MAX_STAGES for size in sizes)
     if not is_small or len(sizes) not in (1, 2):
         raise Unreadable("a shape that is not written out")
+    zero: Value = number("0")
     if len(sizes) == 1:
-        return [number("0") for _ in range(sizes[0])]
+        return [zero] * sizes[0]
     rows, columns = sizes
-    return [[number("0") for _ in range(columns)] for _ in range(rows)]
+    return [[zero] * columns for _ in range(rows)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import PurePath
 
+from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader
 
 NAME = "tsv"
@@ -15,6 +16,7 @@ _FRACTION = re.compile(r"([-+]?[0-9]+)//([0-9]+)")
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The table of a file; the third word of its head is a type, which is never evaluated."""
+    allowance = Allowance()
     found = []
     lines = text.splitlines()
     for number, line in enumerate(lines):
@@ -27,18 +29,17 @@ def find(text: str, source: str) -> list[FoundTable]:
         rows = _rows(lines[number + 1 : number + 2 + stages], stages)
         if rows is None:
             continue
-        found.append(
-            FoundTable(
-                source,
-                number + 1,
-                NAME,
-                _name(source),
-                ((tuple(row[1:] for row in rows[:-1]),),),
-                (rows[-1][1:],),
-                (tuple(row[0] for row in rows[:-1]),),
-                order=order or None,
-            )
+        table = FoundTable(
+            source,
+            number + 1,
+            NAME,
+            _name(source),
+            ((tuple(row[1:] for row in rows[:-1]),),),
+            (rows[-1][1:],),
+            (tuple(row[0] for row in rows[:-1]),),
+            order=order or None,
         )
+        found.append(allowance.table(table))
     return found
 
 

@@ -19,7 +19,7 @@ _CONTROLLED = "make_controlled does not take it: build controlled_runge_kutta<st
 def write(payload: Payload) -> str:
     """A header for C++11; with embedded weights a stepper that estimates errors."""
     found = explicit_table(payload, "boost")
-    name = payload.identifier
+    name = payload.identifier("cpp")
     orders = payload.orders
     error = error_weights(found)
     notes = [] if error is None else [_CONTROLLED]
@@ -65,7 +65,7 @@ def _array(payload: Payload, name: str, row: Row) -> list[str]:
 
 def test_driver(payload: Payload, file: str) -> list[Written]:
     """A program of C++11 with fixed steps."""
-    name = payload.identifier
+    name = payload.identifier("cpp")
     before = [
         "typedef boost::array<double, 2> state;",
         "",

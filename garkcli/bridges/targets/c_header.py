@@ -28,7 +28,7 @@ typedef double gark_real;
 
 def write(payload: Payload) -> str:
     """The header; several vector fields have arrays ``A1_2``, ``b2`` with their numbers."""
-    name = f"gark_{payload.identifier}"
+    name = f"gark_{payload.stem}"
     guard = f"{name.upper()}_H"
     notes = (
         "Numbers are double; long double with -DGARK_LONG_DOUBLE, __float128 with -DGARK_FLOAT128.",

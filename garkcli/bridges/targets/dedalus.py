@@ -41,7 +41,7 @@ def write(payload: Payload) -> str:
         pair = with_last_stage(pair[0]), with_last_stage(pair[1])
     explicit, implicit = pair
     lines = HASH.lines(head(payload, *([] if ends else [_PUT_IN])))
-    lines += [*_IMPORTS, f"class {payload.class_name}(RungeKuttaIMEX):"]
+    lines += [*_IMPORTS, f"class {payload.class_name()}(RungeKuttaIMEX):"]
     # the first stage is not counted
     lines += [f"    stages = {explicit.stages - 1}"]
     lines += _row(payload, "    c = np.array([", explicit.c, "], dtype=float)")

@@ -5,6 +5,8 @@ With ``varstep = FALSE`` deSolve reads only the entries right below the diagonal
 
 from __future__ import annotations
 
+import json
+
 from garkcli.bridges.comments import HASH, head
 from garkcli.bridges.lines import filled
 from garkcli.bridges.numbers import Style
@@ -28,10 +30,10 @@ def write(payload: Payload) -> str:
     orders = payload.orders
     embedded = found.b if found.embedded is None else found.embedded
     order = orders.effective if orders.embedded is None else orders.embedded
-    notes = [f"Use: rk(y0, times, f, parms, method = {payload.identifier})."]
+    notes = [f"Use: rk(y0, times, f, parms, method = {payload.identifier('r')})."]
     if found.embedded is None:
         notes += [" ".join(_WITHOUT)]
-    name = payload.identifier
+    name = payload.identifier("r")
     lines = HASH.lines(head(payload, *notes))
     lines += [
         "",
@@ -78,7 +80,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
     lines = [
         *HASH.lines(notes),
         "library(deSolve)",
-        f'source("{file}")',
+        f"source({json.dumps(file, ensure_ascii=False)})",
         f"f <- function(t, y, parms) list(c({first}, {second}))",
         f"final <- c({', '.join(trial.final)})",
         "before <- NA",
@@ -87,7 +89,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
         f"  h <- {trial.t_end}/n",
         f"  times <- seq(0, {trial.t_end}, length.out = n + 1)",
         f"  run <- rk(c({', '.join(trial.initial)}), times, f, NULL,",
-        f"            method = {payload.identifier},",
+        f"            method = {payload.identifier('r')},",
         "            rtol = 1e3, atol = 1e6, hini = h, hmax = h)",
         "  error <- sqrt(sum((run[n + 1, 2:3] - final)^2))",
         '  slope <- if (is.na(before)) "" else sprintf("  %5.2f", log2(before/error))',

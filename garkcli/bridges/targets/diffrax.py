@@ -88,7 +88,7 @@ def _with_stages(found: Table) -> Table:
 def _of_one(payload: Payload, found: Table) -> str:
     kind = kind_of(found)
     lines = _start(payload, _USE_OF_ONE, kind != "explicit", has_cubic(found))
-    name = payload.class_name
+    name = payload.class_name()
     lines += [f"class {name}({_SINGLE[kind]}):"]
     lines.append("    tableau: ClassVar = diffrax.ButcherTableau(")
     lines += _tableau(payload, found, 2)
@@ -109,7 +109,7 @@ def _of_two(payload: Payload, explicit: Table, implicit: Table) -> str:
     bases = "diffrax.AbstractRungeKutta"
     if is_implicit:
         bases += ", diffrax.AbstractImplicitSolver"
-    lines += [f"class {payload.class_name}({bases}):"]
+    lines += [f"class {payload.class_name()}({bases}):"]
     lines.append("    tableau: ClassVar = diffrax.MultiButcherTableau(")
     for found in (explicit, implicit):
         lines.append("        diffrax.ButcherTableau(")
@@ -143,7 +143,7 @@ def has_cubic(found: Table) -> bool:
 def _start(payload: Payload, use: str, is_implicit: bool, cubic: bool) -> list[str]:
     """The head and the imports."""
     between = "the cubic through both ends and their slopes" if cubic else "linear"
-    notes = [use.format(name=payload.class_name), f"Between steps: {between}."]
+    notes = [use.format(name=payload.class_name()), f"Between steps: {between}."]
     lines = HASH.lines(head(payload, *notes))
     lines += ["", "from typing import ClassVar", "", "import diffrax"]
     lines.append("import numpy as np")
@@ -233,17 +233,16 @@ def _methods(payload: Payload) -> list[str]:
 
 def test_driver(payload: Payload, file: str) -> list[Written]:
     """A program with constant steps; implicit stages are solved until rounding ends it."""
-    name = payload.class_name
+    name = payload.class_name()
     single = payload.kind == "rk"
     explicit, implicit = (0, 0) if single else _roles(payload)
     is_implicit = "root_finder" in write(payload)
     imports = ["import diffrax", "import equinox", "import jax"]
     imports.append("import jax.numpy as jnp")
     body = ['jax.config.update("jax_enable_x64", True)', "", ""]
-    trial = trial_of(payload)
     sides = [explicit] if single else [explicit, implicit]
     for l, side in enumerate(sides):
-        first, second = trial.formulas(side, _WORDS)
+        first, second = _side(payload, side)
         body += [f"def f{l}(t, y, args):"]
         body += [f"    return jnp.stack([{first}, {second}])", "", ""]
     options = ""
@@ -268,6 +267,15 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
         "",
     ]
     return driver(payload, file, imports, body, ["y = solved(jnp.array(h))"])
+
+
+def _side(payload: Payload, side: int) -> tuple[str, str]:
+    """A right-hand side of the problem; of a pair (q, p) each has one of the two."""
+    trial = trial_of(payload)
+    if payload.kind != "prk":
+        return trial.formulas(side, _WORDS)
+    first, second = trial.formulas(0, _WORDS)
+    return (first, "0.0*y[1]") if side == 0 else ("0.0*y[0]", second)
 
 
 _WORDS = {**WORDS, "sin": "jnp.sin", "cos": "jnp.cos"}

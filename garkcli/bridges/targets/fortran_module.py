@@ -19,7 +19,7 @@ WIDTH = 98
 
 def write(payload: Payload) -> str:
     """The module; several vector fields have arrays ``A_1_2``, ``b_2`` with their numbers."""
-    name = f"gark_{payload.identifier}"
+    name = f"gark_{payload.stem}"
     note = "Change wp for another precision; the digits are enough for real128."
     lines = BANG.lines(head(payload, note))
     lines += [

@@ -35,7 +35,7 @@ def write(payload: Payload) -> str:
         lines += _row(payload, "bhat = np.array([", row, "], dtype=float)")
     lines += _row(payload, "c = np.array([", found.c, "], dtype=float)")
     arguments = f"A, b, {embedded}, c, {orders.effective}, {orders.embedded}, {gamma}"
-    lines.append(f"{payload.identifier} = ButcherTableau({arguments})")
+    lines.append(f"{payload.identifier('python')} = ButcherTableau({arguments})")
     return "\n".join(lines) + "\n"
 
 

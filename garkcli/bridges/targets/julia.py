@@ -63,7 +63,7 @@ def row(payload: Payload, cells: Row) -> list[str]:
 def write(payload: Payload) -> str:
     """A named tuple: matrices of one vector field, vectors of these of several."""
     lines = HASH.lines(head(payload, *_notes(payload)))
-    lines += ["", f"{payload.identifier} = ("]
+    lines += ["", f"{payload.identifier('julia')} = ("]
     is_single = payload.kind == "rk"
     if is_single:
         lines += matrix(payload, "    A = ", payload.A[0][0] or (), ",")
@@ -141,7 +141,7 @@ def write_ordinarydiffeq(payload: Payload) -> str:
     """A function that makes the ``ExplicitRKTableau`` of any type of numbers."""
     found = explicit_table(payload, "ordinarydiffeq")
     orders = payload.orders
-    name = payload.identifier
+    name = payload.identifier("julia")
     usage = f"solve(problem, ExplicitRK(tableau = {name}())), with OrdinaryDiffEq"
     notes = [f"Use: {usage}."]
     if found.embedded is None:
@@ -169,7 +169,7 @@ def write_rootedtrees(payload: Payload) -> str:
     """The method of RootedTrees: one table, or several of the same stages, padded with zeros."""
     lines = HASH.lines(head(payload))
     lines += ["", "using RootedTrees", ""]
-    name = payload.identifier
+    name = payload.identifier("julia")
     if payload.kind == "rk":
         found = table(payload)
         lines += matrix(payload, "A = ", found.A, "")
@@ -226,7 +226,7 @@ def write_splitting(payload: Payload) -> str:
     lines += ["", "using GeometricIntegrators", ""]
     lines += vector(payload, "a = ", drifts[:pairs], "")
     lines += vector(payload, "b = ", kicks[:pairs], "")
-    name = payload.identifier
+    name = payload.identifier("julia")
     order = payload.orders.effective
     made = f"SplittingCoefficientsGeneral(:{name}, {order}, a, b)"
     return "\n".join([*lines, f"{name} = {made}"]) + "\n"

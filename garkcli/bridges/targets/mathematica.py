@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from garkcli.bridges.comments import Comment, head
+from garkcli.bridges.comments import STARRED, head
 from garkcli.bridges.lines import filled
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
@@ -16,7 +16,6 @@ from garkcli.bridges.structure import table
 from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.tableau.pointwise import Block, Row
 
-STARRED = Comment("   ", begin="(*", end="*)")
 _DIGITS = 60  # of numbers that have no radicals
 
 
@@ -55,7 +54,8 @@ MATHEMATICA = Style(
 
 def write(payload: Payload) -> str:
     """An association of lists; of explicit methods also the function that ``NDSolve`` wants."""
-    name = payload.class_name[0].lower() + payload.class_name[1:]
+    name = payload.class_name("mathematica")
+    name = name[0].lower() + name[1:]
     usage = _usage(payload, name)
     lines = STARRED.lines(head(payload, *_notes(payload), *usage))
     lines += [f"{name} = <|"]

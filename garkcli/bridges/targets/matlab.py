@@ -22,7 +22,7 @@ _GOES_ON = " ..."
 
 def write(payload: Payload) -> str:
     """A function without arguments; one vector field has matrices, several have cells."""
-    name = payload.identifier
+    name = payload.identifier("matlab")
     lines = [f"function m = {name}()"]
     lines += PERCENT.lines(head(payload, *_notes(payload)))
     lines.append(f"m.order = {payload.orders.effective};")

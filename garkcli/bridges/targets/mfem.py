@@ -25,7 +25,7 @@ def write(payload: Payload) -> str:
             f"the first node of mfem's methods is 0; that of {payload.name} is not",
             "boost, json and numpy have such methods",
         )
-    name = payload.identifier
+    name = payload.identifier("cpp")
     stages = found.stages
     lower = tuple(x for row in below_diagonal(found) for x in row)
     lines = C.lines(head(payload, "The caller deletes the solver."))
@@ -58,7 +58,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
     first, second = trial_of(payload).initial
     steps = [
         "Problem problem;",
-        f"mfem::ODESolver *solver = {payload.identifier}();",
+        f"mfem::ODESolver *solver = {payload.identifier('cpp')}();",
         "solver->Init(problem);",
         "mfem::Vector y(2);",
         f"y[0] = {first};",

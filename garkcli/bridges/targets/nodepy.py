@@ -57,7 +57,7 @@ def write(payload: Payload) -> str:
     if found.is_explicit and found.embedded is not None:
         kind = "ExplicitRungeKuttaPair"
         arguments.append("bhat=bhat")
-    arguments.append(f'name="{payload.identifier}"')
+    arguments.append(f'name="{payload.identifier("python")}"')
     note = "nodepy takes the row sums for the nodes. It needs six, which it does not ask for."
     lines = HASH.lines(head(payload, note))
     lines += [
@@ -76,7 +76,7 @@ def write(payload: Payload) -> str:
     if len(arguments) > 3:
         embedded = found.embedded or ()
         lines += _row(payload, "bhat = np.array([", embedded, "], dtype=object)")
-    made = f"{payload.identifier} = {kind}({', '.join(arguments)})"
+    made = f"{payload.identifier('python')} = {kind}({', '.join(arguments)})"
     return "\n".join([*lines, made]) + "\n"
 
 

@@ -33,7 +33,7 @@ def write(payload: Payload) -> str:
 
 def method_name(payload: Payload) -> str:
     """What PETSc calls the method."""
-    return f"gark-{payload.identifier.replace('_', '-')}"
+    return f"gark-{payload.stem.replace('_', '-')}"
 
 
 def _nothing(found: Table) -> Table:
@@ -132,7 +132,7 @@ def _file(
 
 def _function(payload: Payload, use: str, body: Sequence[str], call: str) -> str:
     """The function that registers the method."""
-    function = f"gark_{payload.identifier}_register"
+    function = f"gark_{payload.stem}_register"
     note = f"Use: call {function} after PetscInitialize, then {use}"
     lines = heading(payload, note)
     lines += [

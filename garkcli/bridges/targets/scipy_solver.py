@@ -29,7 +29,7 @@ def write(payload: Payload) -> str:
     """The class, with its use."""
     found = table(payload)
     _refuse(payload, found)
-    name = payload.class_name
+    name = payload.class_name()
     lines = HASH.lines(head(payload, *_notes(payload, found)))
     lines += [
         "",
@@ -63,7 +63,7 @@ def _refuse(payload: Payload, found: Table) -> None:
 
 
 def _notes(payload: Payload, found: Table) -> list[str]:
-    name = payload.class_name
+    name = payload.class_name()
     notes = [f"Use: scipy.integrate.solve_ivp(f, (t0, t1), y0, method={name})"]
     if found.embedded is None:
         notes.append(
@@ -145,7 +145,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
     module = PurePath(file).stem
     problem = f"{module}_problem.yaml"
     first, second = trial.formulas(0, {**WORDS, "sin": "sin", "cos": "cos"})
-    name = payload.class_name
+    name = payload.class_name()
     initial = ", ".join(trial.initial)
     final = ", ".join(trial.final)
     same = ("The same errors:", f"  {command_of(payload, problem)}")

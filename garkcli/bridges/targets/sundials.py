@@ -42,7 +42,7 @@ def write(payload: Payload) -> str:
 
 
 def _function(payload: Payload) -> str:
-    return f"gark_{payload.identifier}"
+    return f"gark_{payload.stem}"
 
 
 def _one(payload: Payload) -> str:

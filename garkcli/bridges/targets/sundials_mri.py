@@ -54,7 +54,7 @@ def write(payload: Payload) -> str:
     """A function that makes the coupling."""
     slow = slow_part(payload)
     s = len(slow.nodes)
-    name = f"gark_{payload.identifier}_mri"
+    name = f"gark_{payload.stem}_mri"
     lines = heading(payload, *_notes(payload, slow, name))
     lines += [
         "#include <arkode/arkode_mristep.h>",

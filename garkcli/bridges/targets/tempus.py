@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
-from garkcli.bridges.comments import Comment, head
+from garkcli.bridges.comments import XML, head
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
@@ -16,7 +16,6 @@ from garkcli.bridges.structure import Table
 from garkcli.bridges.tables import imex_tables, lower_table
 
 DECIMALS = Style()
-XML = Comment("  ", begin="<!--", end="-->")
 
 
 def write(payload: Payload) -> str:
@@ -24,7 +23,7 @@ def write(payload: Payload) -> str:
     lines = XML.lines(head(payload))
     if payload.kind == "rk":
         found = lower_table(payload, "tempus")
-        lines += _stepper(payload, payload.identifier, found)
+        lines += _stepper(payload, payload.stem, found)
         return "\n".join(lines) + "\n"
     explicit, implicit = imex_tables(payload, "tempus")
     body = [_parameter("Stepper Type", "string", "General IMEX RK")]
@@ -32,7 +31,7 @@ def write(payload: Payload) -> str:
     body += _stepper(payload, "IMEX-RK Implicit Stepper", implicit)
     order = str(payload.orders.effective)
     body.append(_parameter("overall order", "int", order))
-    lines += _list(payload.identifier, body)
+    lines += _list(payload.stem, body)
     return "\n".join(lines) + "\n"
 
 

@@ -54,10 +54,10 @@ _WITHOUT = "There are no embedded weights: every estimate is 0, steps are as lar
 def write(payload: Payload) -> str:
     """A class of solvers, known to ``odeint`` by the method's name."""
     found = prepared(payload, "torchdiffeq")
-    name = payload.class_name
+    name = payload.class_name()
     notes = [
         "The names imported below are private to torchdiffeq.",
-        f'Use: odeint(f, y0, t, method="{payload.identifier}").',
+        f'Use: odeint(f, y0, t, method="{payload.stem}").',
         _HERMITE if payload.dense is None else _DENSE,
     ]
     if found.embedded is None:
@@ -81,7 +81,7 @@ def write(payload: Payload) -> str:
         "",
         "",
         '_solvers = importlib.import_module("torchdiffeq._impl.odeint").SOLVERS',
-        f'_solvers["{payload.identifier}"] = {name}',
+        f'_solvers["{payload.stem}"] = {name}',
     ]
     return "\n".join(lines) + "\n"
 
@@ -135,7 +135,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
         "run = odeint(",
         "    f, torch.tensor(y0, dtype=torch.float64),",
         "    torch.tensor([0.0, t_end], dtype=torch.float64),",
-        f'    method="{payload.identifier}", rtol=1e3, atol=1e6,',
+        f'    method="{payload.stem}", rtol=1e3, atol=1e6,',
         '    options={"first_step": h, "max_step": h},',
         ")",
         "y = run[-1]",

@@ -41,7 +41,7 @@ _WITHOUT = "There are no embedded weights: every estimate is 0, steps are as lar
 def write(payload: Payload) -> str:
     """A class of single-step methods."""
     found = prepared(payload, "torchode")
-    name = payload.class_name
+    name = payload.class_name()
     notes = [] if found.embedded is not None else [_WITHOUT]
     lines = HASH.lines(head(payload, *notes))
     lines += [*_IMPORTS, f"class {name}(ExplicitRungeKutta):"]

@@ -1,0 +1,125 @@
+"""Files as this process meets them: read within limits, told apart from streams, and where they
+really are.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
+
+STDIN = "-"
+"""What stands for standard input."""
+_OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d{1,9}|stdin|stdout|stderr)|/proc/self/fd/(\d{1,9})")
+_NAMED = {"stdin": 0, "stdout": 1, "stderr": 2}
+_inputs: ContextVar[set[tuple[int, int]] | None] = ContextVar("inputs", default=None)
+
+
+class NotAFile(OSError):
+    """A folder, or what nobody may ever write to: a named pipe, a device, a socket."""
+
+    def __init__(self) -> None:
+        super().__init__(0, "not a regular file")
+
+
+def own_stream(path: str) -> int | None:
+    """The descriptor of this process that a path means, as the shell hands them over; or None.
+
+    >>> own_stream("/dev/fd/63"), own_stream("/dev/stdin"), own_stream("m.yaml")
+    (63, 0, None)
+    """
+    found = _OWN_STREAM.fullmatch(os.path.normpath(path).replace(os.sep, "/"))
+    if found is None:
+        return None
+    word = found[1] or found[2]
+    return _NAMED[word] if word in _NAMED else int(word)
+
+
+def is_stream(path: str) -> bool:
+    """Whether a path is standard input, or another stream of this process."""
+    return path == STDIN or own_stream(path) is not None
+
+
+def read_bytes(path: str, most: int) -> bytes:
+    """What a file holds, or a stream of this process; of more than ``most`` bytes one more.
+
+    What is no regular file else is not opened: it may never end, or never begin.
+
+    Raises:
+        NotAFile: it is none.
+        OSError: it cannot be read, or standard input is closed.
+        ValueError: no file has such a name.
+    """
+    note_input(path)
+    if path == STDIN:
+        if sys.stdin is None:
+            raise OSError(0, "standard input is closed")
+        return sys.stdin.buffer.read(most + 1)
+    status = os.stat(path)
+    is_file = stat.S_ISREG(status.st_mode)
+    if not is_file and own_stream(path) is None:
+        raise NotAFile
+    with open(path, "rb") as stream:
+        # no more than there is: to clear a megabyte takes longer than to read most files
+        size = min(status.st_size, most) if is_file else most
+        data = stream.read(size + 1)
+        # it may have grown, or be one whose size no system knows
+        if len(data) > size:
+            data += stream.read(most - size)
+    return data
+
+
+@contextmanager
+def noting_inputs() -> Iterator[None]:
+    """Remember meanwhile which files are inputs, so that none is written over."""
+    before = _inputs.set(set())
+    try:
+        yield
+    finally:
+        _inputs.reset(before)
+
+
+def note_input(path: str) -> None:
+    """Remember a file that is read, or that will be."""
+    known = _inputs.get()
+    if known is None:
+        return
+    with suppress(OSError, ValueError, AttributeError):  # it may be missing, or no stream at all
+        status = os.fstat(sys.stdin.fileno()) if path == STDIN else os.stat(path)
+        if stat.S_ISREG(status.st_mode):
+            known.add((status.st_dev, status.st_ino))
+
+
+def is_input(status: os.stat_result) -> bool:
+    """Whether a file is one of those remembered, by whatever name."""
+    known = _inputs.get()
+    return known is not None and (status.st_dev, status.st_ino) in known
+
+
+def is_inside(path: str, folder: str) -> bool:
+    """Whether a path is in a folder once links are followed, or is that folder."""
+    place, root = os.path.realpath(path), os.path.realpath(folder)
+    try:
+        return os.path.commonpath([place, root]) == root
+    except ValueError:  # on other drives
+        return False
+
+
+def leads_away(path: str, folder: str) -> bool:
+    """Whether a file below a folder is a link out of it, and out of the folder we are in."""
+    return not is_inside(path, folder) and not is_inside(path, os.curdir)
+
+
+def is_elsewhere(path: str) -> bool:
+    """Whether a file is not where its path says, as a link leads out of there.
+
+    A path below the folder we are in says that the file is there, any other that it is in the
+    folder that is named.
+    """
+    here = os.path.join(os.path.abspath(os.curdir), "")
+    is_here = os.path.abspath(path).startswith(here)
+    return leads_away(path, os.curdir if is_here else os.path.dirname(path))
