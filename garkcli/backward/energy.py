@@ -20,7 +20,6 @@ from garkcli.backward.energy_meter import (
     MAX_STEPS,
     ROWS,
     Meter,
-    Watch,
     are_above_noise,
     slopes_have_settled,
 )
@@ -114,7 +113,6 @@ def modified_run(
     max_order: int,
     t_end: fmpq | None = None,
     longest: fmpq | None = None,
-    watch: Watch = lambda path, _: path,
 ) -> ModifiedRun:
     """Measure the energy error of ``tableau`` on ``problem`` in its modified Hamiltonian.
 
@@ -124,7 +122,6 @@ def modified_run(
         max_order: of the trees: powers of h up to one less.
         t_end: the problem's own by default.
         longest: the largest step size is at most so long.
-        watch: is given the states of each row and their number.
 
     Raises:
         UsageProblem: the method is not symplectic or not consistent, there are too many trees or
@@ -151,7 +148,7 @@ def modified_run(
     bound = bind(tableau, problem)
     t_end = problem.t_end if t_end is None else t_end
     first = _first_count(problem, t_end, longest)
-    meter = Meter(bound, formulas, powers, t_end, watch)
+    meter = Meter(bound, formulas, powers, t_end)
     meter.choose_digits(first, following[-1][0])
     table = meter.table(first)
     energies = []

@@ -14,6 +14,7 @@ from garkcli.backward.hamiltonian import (
     symplectic_order,
 )
 from garkcli.backward.modified import ModifiedEquation, modified_equation
+from garkcli.doing import doing
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
@@ -74,6 +75,7 @@ class BackwardAnalysis:
         return html
 
 
+@doing("modified equation")
 def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None
 ) -> BackwardAnalysis:

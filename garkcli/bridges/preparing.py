@@ -11,6 +11,7 @@ from flint import arb, fmpq
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
+from garkcli.doing import doing
 from garkcli.methodfile.infinitesimal import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
@@ -27,6 +28,7 @@ USUAL = 40
 """More digits than any target writes where none are asked for."""
 
 
+@doing("numbers and orders")
 def prepared(method: MethodFile, digits: int | None = None) -> Payload:
     """What writers get of a method file.
 

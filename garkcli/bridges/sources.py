@@ -9,6 +9,7 @@ from pathlib import PurePath
 
 from garkcli.bridges.readers.found import MAX_CHARACTERS
 from garkcli.bridges.readers.registry import suffixes
+from garkcli.doing import hush
 from garkcli.errors import UsageProblem, printable
 
 STDIN = "-"
@@ -98,4 +99,6 @@ def _bytes(path: str) -> bytes:
             return stream.read(MAX_CHARACTERS + 1)
     if sys.stdin is None:
         raise UsageProblem("standard input is closed", "name a file")
+    if sys.stdin.isatty():
+        hush()  # somebody types
     return sys.stdin.buffer.read(MAX_CHARACTERS + 1)

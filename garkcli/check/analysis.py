@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias, Union
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import Order
@@ -115,6 +116,7 @@ class Analysis:
         return f"<Analysis {', '.join(orders)}>"
 
 
+@doing("conjugate and pair")
 def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""

@@ -15,6 +15,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
+from garkcli.doing import doing
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.order.tolerance import TINY, within
@@ -68,14 +69,18 @@ def _analyse_exactly(
     conjugated, both, obstacle = conjugate_and_pair(tableau)
     order = find_order(tableau, limit, spans)
     conditions = simplifying(tableau, limit)
-    conjugate_order = None if conjugated is None else find_order(conjugated, limit)
+    conjugate_order = None
+    if conjugated is not None:
+        with doing("conjugate"):
+            conjugate_order = find_order(conjugated, limit)
     pair_order, pair_conditions = None, None
     pair_bound, pair_sharp_bound = None, None
     if both is not None and is_pair_of_itself(tableau, both):
         pair_order, pair_conditions = order, conditions
     elif both is not None:
-        pair_order = find_order(both, limit)
-        pair_conditions = simplifying(both, limit)
+        with doing("pair"):
+            pair_order = find_order(both, limit)
+            pair_conditions = simplifying(both, limit)
     if pair_conditions is not None:
         pair_bound = pair_conditions.bound
         pair_sharp_bound = pair_conditions.sharp_bound

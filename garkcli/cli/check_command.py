@@ -20,6 +20,7 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.project import Project, find_project
+from garkcli.doing import counting
 from garkcli.report.check_formats import FORMATS
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def command(
 
         earlier = read_baseline(baseline)
     wanted = Wanted(needed=project.needed, **options)
-    outcomes = _outcomes(files, settings, wanted, output)
+    outcomes = _outcomes(files, settings, wanted)
     if earlier is not None:
         return _compare(outcomes, earlier, output)
     chosen = _format(output)
@@ -153,20 +154,16 @@ def _take_defaults(project: Project, options: dict[str, Any], output: Output) ->
     options["require_claims"] |= project.require_claims
 
 
-def _outcomes(
-    files: tuple[str, ...], settings: Mapping[str, str], wanted: Wanted, output: Output
-) -> list[Outcome]:
+def _outcomes(files: tuple[str, ...], settings: Mapping[str, str], wanted: Wanted) -> list[Outcome]:
     """The outcome of each file that is meant, in order."""
     from garkcli.cli.parallel import check_files
     from garkcli.methodfile.finding import find_files
-    from garkcli.page.progress import tracked
 
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
     jobs = wanted.jobs or os.cpu_count() or 1
     running = check_files(paths, wanted.max_order, wanted.error_constants, jobs, settings)
-    shows_bar = output.verbosity >= 0
-    outcomes = tracked(running, len(paths), "checking", shows_bar)
+    outcomes = counting("files", running, len(paths))
     return [_as_wanted(outcome, wanted) for outcome in outcomes]
 
 

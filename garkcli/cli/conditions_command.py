@@ -19,6 +19,7 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
@@ -74,7 +75,6 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     With --symplectic one condition of each class of those that are equivalent for symplectic
     methods; with FILE for its symplectic pair, unless it is symplectic itself.
     """
-    from garkcli.page.progress import tracked
     from garkcli.report import conditions as report
 
     wanted = Wanted(**options)
@@ -97,7 +97,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     else:
         rows = _table(wanted, output.format)
     rows = _arranged(rows, wanted.sort, wanted.digits)
-    rows = tracked(rows, None, "conditions", output.may_show_progress)
+    rows = counting("conditions", rows)
     pieces = report.render(
         rows, output.format, output.paint, output.width, wanted.document, subject, valued
     )

@@ -181,7 +181,6 @@ def _one(
 ) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
-    from garkcli.page.progress import watching
     from garkcli.report import convergence as report
     from garkcli.stepping.step import StepFailed
 
@@ -192,8 +191,7 @@ def _one(
     if problems.read is not None:
         note_changing(problems.read, output)
     try:
-        with watching(output.verbosity >= 0) as watch:
-            result = tested(method, tableau, wanted, problems, watch)
+        result = tested(method, tableau, wanted, problems)
     except StepFailed as error:
         say_problem(error)
         return 1

@@ -10,13 +10,13 @@ from garkcli.cli.options import Output
 from garkcli.cli.problems import find_problem, is_hamiltonian, is_path, note_changing
 from garkcli.cli.stepping import oscillator, rational, stepped_tableau
 from garkcli.cli.streams import say_faults
+from garkcli.doing import doing
 from garkcli.errors import Fault, GarkError, MethodFileError
 
 if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.convergence.result import Convergence
-    from garkcli.convergence.solver import Watch
     from garkcli.methodfile.build import MethodFile
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
@@ -145,9 +145,7 @@ class Problems:
         return first
 
 
-def tested(
-    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
-) -> Convergence:
+def tested(method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems) -> Convergence:
     """The convergence test of one method.
 
     Raises:
@@ -156,13 +154,7 @@ def tested(
     from garkcli.convergence.convergence import converge
 
     return converge(
-        tableau,
-        problems.of(tableau),
-        wanted.t_end,
-        wanted.steps,
-        method.tolerance,
-        wanted.work,
-        watch,
+        tableau, problems.of(tableau), wanted.t_end, wanted.steps, method.tolerance, wanted.work
     )
 
 
@@ -196,7 +188,6 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
         UsageProblem: the steps that are wanted do not fit the time.
     """
     from garkcli.methodfile.naming import called
-    from garkcli.page.progress import watching
 
     problems = Problems(wanted)
     methods = [_loaded(path, problems, output) for path in paths]
@@ -205,13 +196,13 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
     if problems.read is not None:
         note_changing(problems.read, output)
     entries = []
-    with watching(output.verbosity >= 0) as watch:
-        for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):
+    with doing("methods", len(paths)) as work:
+        for path, found in zip(paths, methods, strict=True):
             if isinstance(found, tuple):
-                prefixed = _prefixed(watch, f"{k}/{len(paths)}")
-                entries.append(_entry(path, found, wanted, problems, prefixed))
+                entries.append(_entry(path, found, wanted, problems))
             else:
                 entries.append(found)
+            work.reach(work.done + 1)
     for path, found, entry in zip(paths, methods, entries, strict=True):
         if isinstance(found, tuple) and entry.result is not None:
             hint_rounding(*found, entry.result, output, path)
@@ -230,16 +221,13 @@ def _loaded(path: str, problems: Problems, output: Output) -> Loaded | Entry:
         return _failed(path, path, error)
 
 
-def _prefixed(watch: Watch, prefix: str) -> Watch:
-    return lambda what, done, total: watch(f"{prefix} {what}", done, total)
-
-
-def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch) -> Entry:
+def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems) -> Entry:
     from garkcli.report.convergence_data import Entry
 
     method, tableau = loaded
     try:
-        result = tested(method, tableau, wanted, problems, watch)
+        with doing(path):
+            result = tested(method, tableau, wanted, problems)
     except GarkError as error:
         return _failed(path, method.name, error)
     return Entry(path, method.name, result, (), int(result.verdict == "disagree"))

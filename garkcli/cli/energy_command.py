@@ -99,7 +99,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     method = load(wanted.file, settings)
     tableau, problem = put_to_work(method, wanted, output)
     try:
-        run = followed(method, tableau, problem, time, step, wanted, output)
+        run = followed(method, tableau, problem, time, step, wanted)
         steps = symplecticity_of(tableau, method, run, wanted.symplecticity)
     except StepFailed as error:
         say_problem(error)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, help_option
+from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted, printable
 
 if TYPE_CHECKING:
@@ -81,7 +82,8 @@ def command(
     readers = _readers(source_format)
     paths = list(source_files(sources, output.note))
     left_out: list[FoundTable] = []
-    results = list(collected(paths, readers, is_recognising, left_out.append))
+    sources_read = counting("sources", paths, len(paths))
+    results = list(collected(sources_read, readers, is_recognising, left_out.append))
     if not any(result.method is not None for result in results):
         raise _nothing(sources, paths, results, left_out)
     for table in left_out:

@@ -124,29 +124,19 @@ def followed(
     time: fmpq | None,
     step: fmpq | None,
     wanted: Wanted,
-    output: Output,
 ) -> LongRun:
-    """The long run, with a bar on a terminal.
+    """The long run.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
     """
     from garkcli.longtime.history import whole_run
     from garkcli.longtime.longtime import long_run, usual
-    from garkcli.page.progress import tracked
     from garkcli.problems.hamiltonian import FLOAT_DIGITS
 
     h, t_end = whole_run(step, time, *usual(problem))
-    shows_bar = output.verbosity >= 0
     return long_run(
-        tableau,
-        problem,
-        t_end,
-        h,
-        wanted.digits or FLOAT_DIGITS,
-        wanted.points,
-        method.tolerance,
-        lambda path, total: tracked(path, total, "steps", shows_bar),
+        tableau, problem, t_end, h, wanted.digits or FLOAT_DIGITS, wanted.points, method.tolerance
     )
 
 

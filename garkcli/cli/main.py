@@ -28,6 +28,7 @@ from garkcli.cli.streams import (
 )
 from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import GarkError, MethodFileError, UsageProblem, counted
+from garkcli.page.progress import watching
 from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
@@ -147,6 +148,7 @@ def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read wh
     if context.invoked_subcommand is None:
         say(context.get_help())
         return 2
+    context.with_resource(watching(f"gark {context.invoked_subcommand}"))
     return 0
 
 

@@ -36,7 +36,6 @@ def measure_modified(
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
     from garkcli.backward.energy import modified_run
-    from garkcli.page.progress import tracked
     from garkcli.report.modified_energy import ModifiedEnergyReport, render
     from garkcli.stepping.step import StepFailed
 
@@ -52,16 +51,8 @@ def measure_modified(
         )
     tableau = stepped_tableau(method, output)
     solved = find_hamiltonian(problem, tableau, seed)
-    shows_bar = output.verbosity >= 0
     try:
-        run = modified_run(
-            tableau,
-            solved,
-            order,
-            t_end,
-            longest,
-            lambda path, total: tracked(path, total, "steps", shows_bar),
-        )
+        run = modified_run(tableau, solved, order, t_end, longest)
     except StepFailed as error:
         say_problem(error)
         return 1

@@ -9,7 +9,8 @@ from typing import Any, TypeVar
 import click
 
 from garkcli.cli.method_argument import notes
-from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
+from garkcli.cli.streams import put, safe_pieces, say, wants_colour
+from garkcli.doing import hush
 from garkcli.errors import UsageProblem
 from garkcli.page.paint import Paint
 
@@ -174,6 +175,8 @@ class Output:
         self.path = path
         self.verbosity = verbosity
         self._color = color
+        if verbosity < 0:
+            hush()
         if path is not None:
             from garkcli.page.writing import refuse_unwritable
 
@@ -210,13 +213,6 @@ class Output:
         from garkcli.page.writing import write_whole
 
         write_whole(self.path, safe_pieces(pieces, format, coloured))
-
-    @property
-    def may_show_progress(self) -> bool:
-        """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the
-        terminal.
-        """
-        return self.verbosity >= 0 and (self.path is not None or not is_terminal(sys.stdout))
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""

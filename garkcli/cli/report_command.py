@@ -8,6 +8,7 @@ import click
 
 from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import CONTEXT, Output, common, refuse_settings_of_several, settings_option
+from garkcli.doing import counting
 
 
 @click.command("report", context_settings=CONTEXT)
@@ -42,15 +43,13 @@ def command(
     """
     from garkcli.cli.streams import say_faults
     from garkcli.methodfile.finding import find_files
-    from garkcli.page.progress import tracked
     from garkcli.webpage.page import render
     from garkcli.webpage.reported import reported
 
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
     found = (reported(path, options["order"], options["pictures"], settings) for path in paths)
-    shows_bar = output.may_show_progress
-    methods = list(tracked(found, len(paths), "reporting", shows_bar))
+    methods = list(counting("methods", found, len(paths)))
     output.write(render(methods))
     for method in methods:
         if not method.outcome.is_read:

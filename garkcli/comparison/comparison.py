@@ -14,6 +14,7 @@ from garkcli.comparison.grid import Grid
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.met import Met, Side, conditions_met
 from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
+from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.properties.keys import KEYS
@@ -138,6 +139,7 @@ class Comparison:
         return html
 
 
+@doing("differences")
 def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
     """Hold two methods against each other.
 

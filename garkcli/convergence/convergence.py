@@ -23,7 +23,7 @@ from garkcli.convergence.result import (
     observed_order,
     stiff_order,
 )
-from garkcli.convergence.solver import Solver, Watch
+from garkcli.convergence.solver import Solver
 from garkcli.errors import UsageProblem
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
@@ -42,7 +42,6 @@ def converge(
     steps: Sequence[fmpq] | None = None,
     tolerance: fmpq | None = None,
     is_timed: bool = False,
-    watch: Watch | None = None,
 ) -> Convergence:
     """Test the convergence of ``tableau`` on ``problem``.
 
@@ -56,7 +55,6 @@ def converge(
             ``garkcli.convergence.ladder``.
         tolerance: of rounded coefficients; slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well.
-        watch: is told how far each run is.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, a step does not divide
@@ -71,7 +69,7 @@ def converge(
     """
     problem, t_end = _problem_and_time(tableau, problem, t_end, steps)
     predicted = order_of(_with_time(tableau, problem), tolerance)
-    solver = _solver(tableau, problem, t_end, tolerance, predicted, watch)
+    solver = _solver(tableau, problem, t_end, tolerance, predicted)
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     stiff = _stiffness(solver, tableau, rows, tolerance)
@@ -210,7 +208,6 @@ def _solver(
     t_end: fmpq,
     tolerance: fmpq | None,
     predicted: int,
-    watch: Watch | None,
 ) -> Solver:
     if isinstance(problem, Oscillator):
         from garkcli.convergence.linear_solver import linear_solver
@@ -224,7 +221,7 @@ def _solver(
     seen = visible_tableau(bound.tableau, bound.fields)
     order = max(order_of(seen, tolerance), predicted)
     visible = Visible(order, problem.is_generic, visible_trees(bound.fields))
-    return SteppedSolver(bound, t_end, visible, tolerance, watch)
+    return SteppedSolver(bound, t_end, visible, tolerance)
 
 
 def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.convergence.solver import Watch
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -32,7 +32,7 @@ MAX_TRIED = 10_000
 """Steps from which on a step that fails is the fault of the problem."""
 MAX_STEPS = 1_000_000
 """Most steps of a reference solution."""
-_CALLS = 200  # of a watch in one run
+_PIECES = 200  # of a run, after each of which it is said how far it is
 _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6  # part of a change that its later run is wrong by at least
@@ -42,20 +42,18 @@ _LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8
 _REFINED = 64  # times the first number of steps with which they should have
 
 
-def run(
-    made: Integrator, h: fmpq, count: int, watch: Watch | None = None, what: str = ""
-) -> Stepper:
-    """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
+def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
+    """The state after ``count`` steps of size ``h``; ``what`` it is done for.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
     """
     state = Stepper(made, h)
-    each = count if watch is None else max(1, count // _CALLS)
-    while state.done < count:
-        state.advance(min(each, count - state.done))
-        if watch is not None:
-            watch(what, state.done, count)
+    each = max(1, count // _PIECES)
+    with doing(what, count) as work:
+        while state.done < count:
+            state.advance(min(each, count - state.done))
+            work.reach(state.done)
     return state
 
 
@@ -78,7 +76,7 @@ class Reference:
     y: tuple[arb, ...] = ()
     steps: int = 0
 
-    def to(self, digits: int, watch: Watch | None = None) -> tuple[arb, ...]:
+    def to(self, digits: int) -> tuple[arb, ...]:
         """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the
         solution.
 
@@ -94,7 +92,7 @@ class Reference:
             first = 2 * self.steps // 3
             if not first:
                 first = ceil(4 * to_float(self.t_end))
-            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first), watch)
+            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first))
             self.digits = digits
         return self.y
 
@@ -125,16 +123,14 @@ def _kept(problem: Problem, t_end: fmpq) -> Reference:
     return Reference(problem, t_end)
 
 
-def _solved(
-    problem: Problem, t_end: fmpq, digits: int, steps: int, watch: Watch | None
-) -> tuple[tuple[arb, ...], int]:
+def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tuple[arb, ...], int]:
     """The solution by more and more steps of one method, from ``steps`` on, until the last change
     says that the error is small; and how many steps these were.
 
     Raises:
         UsageProblem: none is found; see ``Reference.to``.
     """
-    runs = _Runs(problem, t_end, digits, watch)
+    runs = _Runs(problem, t_end, digits)
     fewer, before = 0, None
     enough = max(MAX_TRIED // 2, _REFINED * steps)
     while True:
@@ -181,14 +177,13 @@ class _Runs:
     are, which damp what is off the smooth solution.
     """
 
-    def __init__(self, problem: Problem, t_end: fmpq, digits: int, watch: Watch | None) -> None:
+    def __init__(self, problem: Problem, t_end: fmpq, digits: int) -> None:
         from garkcli.families.registry import diagonal_method
         from garkcli.tableau.forms import gark
 
         self.problem = problem
         self.t_end = t_end
         self.digits = digits
-        self.watch = watch
         self.stages = min(_STAGES, max(6, 2 * digits // 5))
         spare = _SPARE
         family = "gauss"
@@ -215,7 +210,7 @@ class _Runs:
         h = self.t_end / steps
         what = f"reference solution, {self.digits} digits"
         try:
-            return run(self.integrator, h, steps, self.watch, what).y
+            return run(self.integrator, h, steps, what).y
         except StepFailed as failure:
             if steps > MAX_TRIED:
                 raise _no_solution(self.t_end, failure) from None

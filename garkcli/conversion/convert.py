@@ -10,6 +10,7 @@ from garkcli.conversion.padding import padded
 from garkcli.conversion.registry import TARGETS, target
 from garkcli.conversion.sheet import CannotConvert, Sheet
 from garkcli.conversion.target import Target
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
@@ -43,6 +44,7 @@ class Converted:
         return f"<Converted {self.method!r}>"
 
 
+@doing("other form")
 def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = None) -> Converted:
     """The same method in another form.
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Generic, cast
 
 from garkcli.crew.work import Item, Outcome
+from garkcli.doing import telling
 
 if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
     from multiprocessing.connection import Connection
@@ -200,7 +201,8 @@ def _serve(
     register()
     for other in not_its_own:
         other.close()
-    with suppress(EOFError, OSError):
+    # the terminal is that of the process that hired this one
+    with telling(None), suppress(EOFError, OSError):
         while True:
             connection.send(work(connection.recv()))
 

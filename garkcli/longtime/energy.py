@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
 from garkcli.longtime.fit import ROUNDING, Line, drift_of
@@ -59,6 +60,7 @@ class _Errors:
     blew_up: bool
 
 
+@doing("energy of the oscillator")
 def oscillator_run(
     tableau: Tableau,
     problem: Oscillator,

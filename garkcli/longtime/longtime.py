@@ -8,12 +8,12 @@ digits.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from garkcli.doing import counting, doing
 from garkcli.exact.display import to_float
 from garkcli.longtime.energy import oscillator_run
 from garkcli.longtime.history import (
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 
-Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
-"""Passes on a number of things, one a step, and may count them."""
 _SPARE = 15  # more digits with which the first steps are done too
 _TURNS = 8  # times that some coordinate has to turn back: four oscillations
 _LARGE = 0.1  # part of the energy that is no oscillation however short the run
@@ -65,7 +63,6 @@ def long_run(
     digits: int = FLOAT_DIGITS,
     points: int = SERIES,
     tolerance: fmpq | None = None,
-    watch: Watch = lambda path, _: path,
 ) -> LongRun:
     """Step ``problem`` with ``tableau`` to the time ``t_end``; what becomes of the energy and of
     the other invariants?
@@ -78,7 +75,6 @@ def long_run(
         digits: of the steps; floats up to ``FLOAT_DIGITS``. Those of the oscillator are exact.
         points: about how many times are kept.
         tolerance: of rounded coefficients; a drift that they can cause is none of the method's.
-        watch: is given the states and their number; not for the oscillator.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, the step does not divide the
@@ -102,7 +98,7 @@ def long_run(
     measure = Measure(problem, method.digits)
     record = Record(measure, count, points)
     path = trajectory(method, step, count)
-    record.take(watch(path, count + 1))
+    record.take(counting("steps", path, count + 1))
     h = to_float(step)
     if isinstance(problem, Hamiltonian):
         powers = record.exchange.powers(h)
@@ -145,6 +141,7 @@ def _judged(record: Record, bound: Binding, rate: float, step: fmpq, t_end: fmpq
     )
 
 
+@doing("round-off")
 def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     """What the errors are good to at the end, as powers of ten: each step rounds each summand of an
     invariant once, to leading order; and no less than what is found on the first steps.

@@ -7,6 +7,7 @@ import stat
 import sys
 from itertools import islice
 
+from garkcli.doing import hush
 from garkcli.errors import Fault, MethodFileError, nearest, printable
 from garkcli.methodfile.file_kind import FileKind
 from garkcli.methodfile.folders import STDIN
@@ -27,6 +28,8 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     if path == STDIN:
         if sys.stdin is None:
             raise MethodFileError("<stdin>", [Fault("standard input is closed", "name a file")])
+        if sys.stdin.isatty():
+            hush()  # somebody types
         return decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
     try:
         status = os.stat(path)

@@ -15,6 +15,7 @@ from typing import Literal, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.display import decimal, to_ball
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
@@ -105,6 +106,7 @@ class RoundedOrder:
         return bound
 
 
+@doing("order within the tolerance")
 def find_order_within(
     tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT, effect: Effect | None = None
 ) -> RoundedOrder:

@@ -12,6 +12,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.defects import Defects
@@ -95,6 +96,7 @@ def _existing(table: Table) -> list[int]:
     return [number for row in table for number in row if number is not None]
 
 
+@doing("B, C and D")
 def simplifying(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = ZERO
 ) -> Simplifying:

@@ -7,9 +7,11 @@ from flint import arb, ctx, fmpq
 
 from garkcli.convergence import reference as module
 from garkcli.convergence.reference import Reference, magnitude, reference
+from garkcli.doing import telling
 from garkcli.errors import UsageProblem
 from garkcli.problems.builtin import hamiltonian
 from garkcli.stepping.step import StepFailed
+from tests.listener import Listener
 
 
 def test_period_of_kepler() -> None:
@@ -68,13 +70,15 @@ def test_all_splits_share_one_solution() -> None:
     assert two.digits == 30
 
 
-def test_watch_is_told() -> None:
-    """What is computed, and how far it is: the last word on a run is that it is done."""
-    said: list[tuple[str, int, int]] = []
-    Reference(hamiltonian("pendulum", 1), fmpq(1)).to(18, lambda *x: said.append(x))
-    assert {what for what, _, _ in said} == {"reference solution, 18 digits"}
-    assert said[-1][1] == said[-1][2]
-    assert all(0 < done <= total for _, done, total in said)
+def test_how_far_it_is_can_be_seen() -> None:
+    """What is computed is told, with the number of steps; in the end all of them are done."""
+    who = Listener()
+    with telling(who):
+        Reference(hamiltonian("pendulum", 1), fmpq(1)).to(18)
+    steps = [work for work in who.told if work.total is not None]
+    assert {work.what for work in steps} == {"reference solution, 18 digits"}
+    assert steps
+    assert all(work.done == work.total for work in steps)
 
 
 @pytest.mark.parametrize("digits", [16, 21])

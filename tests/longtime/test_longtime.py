@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tracemalloc
-from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -15,6 +14,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from garkcli.doing import telling
 from garkcli.errors import UsageProblem
 from garkcli.longtime.history import MAX_STEPS, InvariantHistory, LongRun, whole_run
 from garkcli.longtime.longtime import long_run, usual
@@ -31,6 +31,7 @@ from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, trajectory
 from garkcli.tableau.tableau import Tableau
+from tests.listener import Listener
 from tests.longtime.planets import (
     GAUSS_2,
     RALSTON,
@@ -398,17 +399,12 @@ def test_limits() -> None:
         run(LEAPFROG, "pendulum", 1, fmpq(3, 10))
 
 
-def test_progress_is_told_every_step() -> None:
-    """The watch sees the start and each step, and how many there will be."""
-    seen = []
-
-    def watch(path: Iterator[Any], total: int) -> Iterator[Any]:
-        for y in path:
-            seen.append(total)
-            yield y
-
-    run(LEAPFROG, "pendulum", 2, fmpq(1, 10), watch=watch)
-    assert seen == [21] * 21
+def test_every_step_is_counted() -> None:
+    """The start and each step, and how many there will be."""
+    who = Listener()
+    with telling(who):
+        run(LEAPFROG, "pendulum", 2, fmpq(1, 10))
+    assert [(x.done, x.total) for x in who.told if x.what == "steps"] == [(21, 21)]
 
 
 def test_no_value_at_the_start() -> None:
