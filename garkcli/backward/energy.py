@@ -12,7 +12,7 @@ IX.8.1.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import fmpq
 
@@ -32,6 +32,9 @@ from garkcli.stepping.integrator import bind
 from garkcli.stepping.linear import whole_steps
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
+
+if TYPE_CHECKING:
+    from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
 _BEYOND = 3  # further orders in which the next power of h is looked for
@@ -85,6 +88,7 @@ class ModifiedRun:
         max_order: of the trees in the modified Hamiltonian.
         digits: of the steps.
         energies: by ascending powers of h, that of H first.
+        method: what stepped, where it is known by more than its tableau.
     """
 
     problem: Hamiltonian
@@ -92,6 +96,7 @@ class ModifiedRun:
     max_order: int
     digits: int
     energies: tuple[ModifiedEnergy, ...]
+    method: GarkMethod | None = None
 
     @property
     def is_refuted(self) -> bool:

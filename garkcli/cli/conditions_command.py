@@ -196,7 +196,8 @@ def _chosen(file: str, settings: Mapping[str, str], wanted: Wanted) -> Valued:
     except HasFreeParameters as error:
         return _for_every_value(error, settings, wanted)
     tableau = companion(method.tableau, wanted.which)
-    return Valued(tableau, method.tolerance, wanted.failing)
+    which = wanted.which or ""
+    return Valued(tableau, method.tolerance, wanted.failing, derivation=which)
 
 
 def _for_every_value(
@@ -211,7 +212,7 @@ def _for_every_value(
     refuse_numbers(family, {"--digits": wanted.digits, "--sort worst": sort})
     tableau = companion(family.tableau, wanted.which)
     parameters = family.family.parameters
-    return Valued(tableau, None, wanted.failing, parameters)
+    return Valued(tableau, None, wanted.failing, parameters, wanted.which or "")
 
 
 def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:

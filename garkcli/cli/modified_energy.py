@@ -6,14 +6,14 @@ from collections.abc import Mapping
 
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_hamiltonian
-from garkcli.cli.stepping import given_positive, stepped_tableau
+from garkcli.cli.stepping import given_positive
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
-from garkcli.methodfile.build import MethodFile
+from garkcli.tableau.garkmethod import GarkMethod
 
 
 def measure_modified(
-    method: MethodFile,
+    method: GarkMethod,
     problem: str,
     seed: int | None,
     times: tuple[str | None, str | None],
@@ -35,7 +35,7 @@ def measure_modified(
     Raises:
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
-    from garkcli.backward.energy import modified_run
+    from garkcli.api.modified import modified_run
     from garkcli.report.modified_energy import ModifiedEnergyReport, render
     from garkcli.stepping.step import StepFailed
 
@@ -49,10 +49,9 @@ def measure_modified(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
             "give exact coefficients, without tolerance",
         )
-    tableau = stepped_tableau(method, output)
-    solved = find_hamiltonian(problem, tableau, seed)
+    solved = find_hamiltonian(problem, method.tableau, seed)
     try:
-        run = modified_run(tableau, solved, order, t_end, longest)
+        run = modified_run(method, solved, order, t_end, longest)
     except StepFailed as error:
         say_problem(error)
         return 1

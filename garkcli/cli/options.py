@@ -130,15 +130,21 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
                 chosen.note(note)
             return function(output=chosen, **rest)
 
-        run.__doc__ = function.__doc__
-        run.__name__ = function.__name__
-        decorated: Any = run
-        decorated.__click_params__ = getattr(function, "__click_params__", [])
+        decorated = wrapping(function, run)
         for option in reversed(_common_options(formats)):
             decorated = option(decorated)
-        return decorated  # type: ignore[no-any-return]
+        return decorated
 
     return decorate
+
+
+def wrapping(function: F, run: Callable[..., Any]) -> F:
+    """``run`` in the place of ``function``, with its name, its help and its options."""
+    made: Any = run
+    made.__doc__ = function.__doc__
+    made.__name__ = function.__name__
+    made.__click_params__ = getattr(function, "__click_params__", [])
+    return made  # type: ignore[no-any-return]
 
 
 def _common_options(formats: Sequence[str]) -> list[Callable[[Any], Any]]:

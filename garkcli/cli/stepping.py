@@ -1,4 +1,4 @@
-"""What the commands share that put a method to work: which tableau steps, and the numbers of their
+"""What the commands share that put a method to work: the problem and the numbers of their
 options.
 """
 
@@ -7,40 +7,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from garkcli.cli.options import Output
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.methodfile.build import MethodFile
     from garkcli.problems.oscillator import Oscillator
     from garkcli.tableau.tableau import Tableau
 
 DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
-
-
-def stepped_tableau(
-    method: MethodFile, output: Output, path: str = "", has_momenta: bool = True
-) -> Tableau:
-    """The tableau that steps: the symplectic pair of ``methods`` where the problem has positions
-    and momenta, else what the file gives.
-
-    A note on the latter names ``path``, where several files are at work.
-    """
-    from garkcli.errors import ZeroWeight
-    from garkcli.tableau.forms import pair
-
-    is_diagonal = method.form == "methods" and not method.tableau.is_partitioned
-    if not (is_diagonal and has_momenta):
-        return method.tableau
-    try:
-        return pair(method.tableau)
-    except ZeroWeight as error:
-        where = f"{path}: " if path else ""
-        output.note(f"{where}no symplectic pair ({error.message}): tested as a GARK method")
-        return method.tableau
 
 
 def refuse_misplaced(

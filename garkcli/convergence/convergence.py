@@ -42,6 +42,7 @@ def converge(
     steps: Sequence[fmpq] | None = None,
     tolerance: fmpq | None = None,
     is_timed: bool = False,
+    order: int | None = None,
 ) -> Convergence:
     """Test the convergence of ``tableau`` on ``problem``.
 
@@ -55,6 +56,8 @@ def converge(
             ``garkcli.convergence.ladder``.
         tolerance: of rounded coefficients; slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well.
+        order: of the tableau, where it is known by more than its coefficients, as that of the pair
+            of rounded ones.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, a step does not divide
@@ -68,8 +71,10 @@ def converge(
     (4.0, 'agree')
     """
     problem, t_end = _problem_and_time(tableau, problem, t_end, steps)
-    predicted = order_of(_with_time(tableau, problem), tolerance)
-    solver = _solver(tableau, problem, t_end, tolerance, predicted)
+    timed = _with_time(tableau, problem)
+    if order is None or timed is not tableau:
+        order = order_of(timed, tolerance)
+    solver = _solver(tableau, problem, t_end, tolerance, order)
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     stiff = _stiffness(solver, tableau, rows, tolerance)
@@ -85,7 +90,7 @@ def converge(
         _with_times(solver, rows) if is_timed else tuple(rows),
         plateau,
         observed,
-        predicted,
+        order,
         solver.visible,
         short_time,
         short_order,

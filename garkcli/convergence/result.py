@@ -13,6 +13,7 @@ from garkcli.upward import found
 if TYPE_CHECKING:
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
+    from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
 """Of observed and visible order; undecided where there is no order to be seen, reduced where steps
@@ -132,6 +133,7 @@ class Convergence:
         are_given: whether the step sizes were asked for: then it is these that have to show the
             order.
         stiff: where no step size resolves the problem.
+        method: what stepped, where it is known by more than its tableau.
     """
 
     problem: Oscillator | Problem
@@ -146,6 +148,7 @@ class Convergence:
     has_settled: bool = True
     are_given: bool = False
     stiff: Stiffness | None = None
+    method: GarkMethod | None = None
 
     @property
     def visible_order(self) -> int:

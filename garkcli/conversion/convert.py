@@ -19,7 +19,7 @@ from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import can_spell_out, write_method
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
 KEPT = ("description", "reference")
 """What a file says of its method whatever form it has."""
@@ -87,7 +87,7 @@ def _written(method: GarkMethod, goal: Target, sheet: Sheet) -> str:
     source = method.source if isinstance(method, MethodFile) else ""
     name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
-        name = f"{goal.name} of {name}"
+        name = derived_name(goal.name, name)
     further = Further(sheet.embedded, sheet.dense)
     return write_method(sheet.tableau, name, method.tolerance, further)
 

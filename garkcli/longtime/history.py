@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import fmpq
 
@@ -16,6 +16,9 @@ from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.stepping.linear import whole_steps
 from garkcli.upward import found
+
+if TYPE_CHECKING:
+    from garkcli.tableau.garkmethod import GarkMethod
 
 MAX_STEPS = 10_000_000
 """Most steps of a run."""
@@ -90,6 +93,7 @@ class LongRun:
         escaped: the time after which the orbit leaves for ever, with a large error of the energy;
             None where it does not.
         stability: of the step map of the oscillator, else None.
+        method: what stepped, where it is known by more than its tableau.
     """
 
     problem: Oscillator | Problem
@@ -103,6 +107,7 @@ class LongRun:
     turns: int = 0
     escaped: fmpq | None = None
     stability: Stability | None = None
+    method: GarkMethod | None = None
 
     @property
     def energy(self) -> InvariantHistory | None:

@@ -60,12 +60,14 @@ class Valued:
         tolerance: the rounding of its coefficients, or None.
         only_failing: whether conditions that hold are counted but not shown.
         parameters: the free ones, of which values are rational functions.
+        derivation: whether the method is the conjugate or the pair of what a file gives.
     """
 
     tableau: Tableau
     tolerance: fmpq | None = None
     only_failing: bool = False
     parameters: tuple[str, ...] = ()
+    derivation: str = ""
 
     @property
     def names(self) -> list[str]:

@@ -13,7 +13,8 @@ from garkcli.page.figures import rounded, scientific
 from garkcli.page.paint import Paint, aligned, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.convergence_data import csv_of, invariant_names
-from garkcli.report.problem_text import describe
+from garkcli.report.problem_text import describe, driving
+from garkcli.tableau.garkmethod import word_for
 
 WIDTH = 80
 """Columns of a terminal."""
@@ -61,6 +62,7 @@ def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
     about = f"{describe(result.problem)}; to t = {result.t_end}"
     lines = [paint("strong", line) for line in wrap(name, WIDTH)]
     lines += indented(wrapped(about))
+    lines += indented(driving(result.problem, result.method))
     for block in _tables(result):
         lines.append("")
         lines += indented(block)
@@ -155,7 +157,7 @@ def _orders(result: Convergence, paint: Paint) -> list[str]:
     last = verdict(result, paint)
     if result.hides_failure:
         return [f"{head}: {last}", f"          {hidden(result)}"]
-    tail = f"of the method {predicted(result)}: "
+    tail = f"of the {word_for(result.method)} {predicted(result)}: "
     unpainted = verdict(result, Paint())
     whole = f"{head}, {tail}{unpainted}"
     if len(whole) > WIDTH:
@@ -187,7 +189,7 @@ def hidden(result: Convergence) -> str:
     """Whose order the visible one is not."""
     order = result.predicted_order
     failing = f"its failing trees of order {order + 1}"
-    return f"the method has order {order}: {failing} are not seen here"
+    return f"the {word_for(result.method)} has order {order}: {failing} are not seen here"
 
 
 def verdict(result: Convergence, paint: Paint) -> str:
@@ -210,7 +212,7 @@ def remarks(result: Convergence) -> list[str]:
     if result.stiff is not None:
         said.append(_of_stiffness(result, result.stiff))
     if result.is_exact:
-        said.append("the method makes no error on this problem")
+        said.append(f"the {word_for(result.method)} makes no error on this problem")
     elif result.short_time is not None:
         said.append(_of_short_time(result))
     elif not result.has_settled:

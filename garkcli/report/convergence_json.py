@@ -13,6 +13,7 @@ from garkcli.page.figures import for_programs
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
     COUNT,
+    DERIVATION,
     EXACT,
     FLAG,
     NUMBER,
@@ -28,6 +29,7 @@ from garkcli.page.schema import (
 from garkcli.report.convergence_data import DIGITS, SLOPE_DIGITS, Entry, invariant_names
 from garkcli.report.fault_json import FAULT
 from garkcli.report.problem_json import NAME, TERMS, Stepped
+from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/converge/1"
 SCHEMA_OF_SEVERAL = "gark/converge-comparison/1"
@@ -217,6 +219,7 @@ _REPORTS: dict[type[Stepped], Record[_Test]] = {
         schema_named(SCHEMA),
         *inside(lambda x: x.result, inside(_problem, [NAME])),
         Field("name", TEXT, lambda x: x.name),
+        Field("derivation", DERIVATION, lambda x: derivation_of(x.result.method)),
         *inside(lambda x: x.result, (*inside(_problem, terms), *_RESULT)),
         Field("steps", _STEPS, _steps),
         Field("note", TEXT, lambda x: x.result.visible.trees),

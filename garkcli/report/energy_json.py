@@ -14,6 +14,7 @@ from garkcli.longtime.trend import Shape
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
     COUNT,
+    DERIVATION,
     EXACT,
     FLAG,
     NUMBER,
@@ -27,6 +28,7 @@ from garkcli.page.schema import (
 )
 from garkcli.report.energy_text import Claim, Report
 from garkcli.report.problem_json import NAME, TERMS, Stepped
+from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/energy/1"
 
@@ -155,6 +157,7 @@ _REPORTS: dict[type[Stepped], Record[Report]] = {
         schema_named(SCHEMA),
         *inside(lambda x: x.run, inside(_problem, [NAME, *terms])),
         Field("name", TEXT, lambda x: x.name),
+        Field("derivation", DERIVATION, lambda x: derivation_of(x.run.method)),
         *inside(lambda x: x.run, _RUN),
         _SYMPLECTIC.or_null("symplectic", _measured),
         _CLAIM.every("claims", lambda x: x.claims),

@@ -14,7 +14,8 @@ from garkcli.page.bandplot import terminal_band
 from garkcli.page.figures import measured
 from garkcli.page.paint import Paint, counted, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.problem_text import describe
+from garkcli.report.problem_text import describe, driving
+from garkcli.tableau.garkmethod import GarkMethod, word_for
 
 FATES = {
     "elliptic": "the energy error is bounded for all time",
@@ -69,6 +70,7 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     lines = [paint("strong", report.name)]
     lines += indented(_wrapped(describe(run.problem)))
     steps = f"step {run.step} to t = {run.t_end}: {_steps(run)}"
+    lines += indented(driving(run.problem, run.method))
     lines += indented(_wrapped(steps))
     lines.append("")
     for history in run.invariants:
@@ -77,7 +79,7 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     if report.symplecticity is None:
         lines.pop()
     else:
-        lines += _symplectic(report.symplecticity, run.stability, paint)
+        lines += _symplectic(report.symplecticity, run.stability, run.method, paint)
     if report.claims:
         lines.append("")
     for claim in report.claims:
@@ -267,17 +269,21 @@ def _determinant(stability: Stability) -> str:
     return to_decimal(difference, 4)
 
 
-def _symplectic(found: Symplecticity, stability: Stability | None, paint: Paint) -> list[str]:
+def _symplectic(
+    found: Symplecticity, stability: Stability | None, method: GarkMethod | None, paint: Paint
+) -> list[str]:
+    whose = word_for(method)
+    coefficients = "its coefficients" if whose == "method" else f"the coefficients of the {whose}"
     is_refuted = any(x.is_seen for x in found.defects)
     if stability is not None and not stability.is_symplectic:
         is_refuted = True
     if found.is_proved:
         yes = paint("good", "yes")
-        word = f"{yes}, by its coefficients"
+        word = f"{yes}, by {coefficients}"
     elif is_refuted:
         word = paint("strong", "no")
     else:
-        word = "not proved by its coefficients"
+        word = f"not proved by {coefficients}"
         if stability is None and not found.defects:
             word += "; --symplecticity measures"
     texts = []

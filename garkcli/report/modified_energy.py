@@ -14,8 +14,19 @@ from garkcli.exact.display import to_float
 from garkcli.page.figures import scientific
 from garkcli.page.paint import Paint, folded, indented
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import COUNT, EXACT, FLAG, POSITION, TEXT, Schema, nullable, published
-from garkcli.report.problem_text import describe
+from garkcli.page.schema import (
+    COUNT,
+    DERIVATION,
+    EXACT,
+    FLAG,
+    POSITION,
+    TEXT,
+    Schema,
+    nullable,
+    published,
+)
+from garkcli.report.problem_text import describe, driving
+from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/modified-energy/1"
 _WIDTH = 80
@@ -47,6 +58,7 @@ def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     problem = describe(run.problem)
     lines = [paint("strong", report.name)]
     lines += indented(folded(problem, _WIDTH - 2, "  "))
+    lines += indented(driving(run.problem, run.method))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
     lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
     rows = run.energies[0].rows
@@ -163,6 +175,7 @@ _ENERGY: Record[ModifiedEnergy] = Record(
 _REPORT: Record[ModifiedEnergyReport] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
+    Field("derivation", DERIVATION, lambda x: derivation_of(x.run.method)),
     Field("problem", TEXT, lambda x: x.run.problem.name),
     Field("t_end", EXACT, lambda x: str(x.run.t_end)),
     Field("max_order", POSITION, lambda x: x.run.max_order),
