@@ -164,6 +164,16 @@ def test_other_reports_say_which_method_it_is(tmp_path: Path) -> None:
     assert exported == garkcli.export(garkcli.load("rk4").pair, "csv")
 
 
+def test_a_test_of_an_export_names_the_command_with_its_option(tmp_path: Path) -> None:
+    """What prints the same errors is a run of the conjugate."""
+    path = tmp_path / "explicit.py"
+    to = ("--to", "torchdiffeq", "--test", "-o", str(path))
+    run = gark("export", "lobatto-iiic-2", "--conjugate", *to)
+    assert run.code == 0, run.err
+    driver = (tmp_path / "explicit_test.py").read_text(encoding="utf-8")
+    assert "gark converge FILE --conjugate --problem" in driver
+
+
 @pytest.mark.parametrize("which", ["", "conjugate", "pair"])
 def test_python_and_the_command_line_agree(which: str) -> None:
     """A run of a method, its conjugate and its pair has the same numbers in both."""
