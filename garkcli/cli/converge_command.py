@@ -14,9 +14,8 @@ from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import CONTEXT, Output, common, refuse_settings_of_several, settings_option
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
 from garkcli.cli.problems import ProblemType, note_changing, problem_options
-from garkcli.cli.stepping import given_positive, positive, refuse_misplaced
-from garkcli.cli.streams import say_problem
-from garkcli.errors import UsageProblem
+from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, tell_failure
+from garkcli.errors import GarkError, UsageProblem
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -83,7 +82,8 @@ def command(
     and one plot. With --work they are compared by what their errors cost.
 
     Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
-    step fails, 2 a file cannot be read, or its method is not for this problem.
+    step fails, 2 a file cannot be read, or its method is not for this problem, 3 one is undecided:
+    no order is seen.
     """
     from garkcli.methodfile.finding import find_files
 
@@ -187,18 +187,18 @@ def _one(
     """The test of one method."""
     from garkcli.methodfile.load import load
     from garkcli.report import convergence as report
-    from garkcli.stepping.step import StepFailed
 
-    problems = Problems(wanted)
-    method = companion(load(path, settings), wanted.which)
-    problems.prepare([method.tableau])
-    if problems.read is not None:
-        note_changing(problems.read, output)
+    name = path
     try:
+        problems = Problems(wanted)
+        method = companion(load(path, settings), wanted.which)
+        name = method.name
+        problems.prepare([method.tableau])
+        if problems.read is not None:
+            note_changing(problems.read, output)
         result = tested(method, wanted, problems)
-    except StepFailed as error:
-        say_problem(error)
-        return 1
+    except GarkError as error:
+        return tell_failure(error, name, report.render_failure, output)
     says_all = output.verbosity >= 0
     text = report.render(result, method.name, output.format, output.paint, shown.work, says_all)
     output.write(text)
@@ -206,7 +206,7 @@ def _one(
     if shown.plot is not None:
         figure = _figure(result, method.name, shown)
         save_plot(figure, shown.plot, output)
-    return int(result.verdict == "disagree")
+    return result.exit_code
 
 
 def _figure(result: Convergence, name: str, shown: Shown) -> Figure:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from garkcli.cli.companion import companion
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_problem, is_path, note_changing
-from garkcli.cli.stepping import oscillator, rational
+from garkcli.cli.stepping import failure_code, faults_of, oscillator, rational
 from garkcli.cli.streams import say_faults
 from garkcli.doing import doing
-from garkcli.errors import Fault, GarkError, MethodFileError
+from garkcli.errors import GarkError, MethodFileError
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -217,18 +217,15 @@ def _entry(path: str, method: GarkMethod, wanted: Wanted, problems: Problems) ->
             result = tested(method, wanted, problems)
     except GarkError as error:
         return _failed(path, method.name, error)
-    return Entry(path, method.name, result, (), int(result.verdict == "disagree"))
+    return Entry(path, method.name, result, (), result.exit_code)
 
 
 def _failed(path: str, name: str, error: GarkError) -> Entry:
-    """Tell an error; a step that fails has exit code 1, everything else 2."""
+    """Tell an error with the name of the file."""
     from garkcli.check.outcome import Outcome
     from garkcli.report.convergence_data import Entry
-    from garkcli.stepping.step import StepFailed
 
-    if isinstance(error, MethodFileError):
-        faults, text = error.faults, error.text
-    else:
-        faults, text = (Fault(error.message, error.help),), ""
+    faults = faults_of(error)
+    text = error.text if isinstance(error, MethodFileError) else ""
     say_faults(Outcome(path, name, faults=faults, text=text))
-    return Entry(path, name, None, faults, 1 if isinstance(error, StepFailed) else 2)
+    return Entry(path, name, None, faults, failure_code(error))

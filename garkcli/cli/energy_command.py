@@ -13,8 +13,8 @@ from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import CONTEXT, Output, common, settings_option
 from garkcli.cli.plotting import plot_option, save_plot
 from garkcli.cli.problems import ProblemType, problem_options
-from garkcli.cli.stepping import given_positive
-from garkcli.cli.streams import say_problem
+from garkcli.cli.stepping import given_positive, tell_failure
+from garkcli.errors import GarkError
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -89,7 +89,6 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     from garkcli.methodfile.load import load
     from garkcli.report import energy as report
     from garkcli.report.energy_text import Report
-    from garkcli.stepping.step import StepFailed
 
     wanted = Wanted(**options)
     check_wanted(wanted)
@@ -98,14 +97,15 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     limit = given_positive("--max-error", wanted.max_error)
     time = given_positive("--t-end", wanted.t_end)
     step = given_positive("--step", wanted.step)
-    method = companion(load(wanted.file, settings), wanted.which)
-    problem = problem_of(method.tableau, wanted, output)
+    name = wanted.file
     try:
+        method = companion(load(wanted.file, settings), wanted.which)
+        name = method.name
+        problem = problem_of(method.tableau, wanted, output)
         run = followed(method, problem, time, step, wanted)
         steps = symplecticity_of(method, run, wanted.symplecticity)
-    except StepFailed as error:
-        say_problem(error)
-        return 1
+    except GarkError as error:
+        return tell_failure(error, name, report.render_failure, output)
     claims = _claims(run, wanted.bounded, limit)
     made = Report(method.name, run, steps, claims)
     says_all = output.verbosity >= 0

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_hamiltonian
-from garkcli.cli.stepping import given_positive
-from garkcli.cli.streams import say_problem
-from garkcli.errors import UsageProblem
+from garkcli.cli.stepping import given_positive, tell_failure
+from garkcli.errors import GarkError, UsageProblem
 from garkcli.tableau.garkmethod import GarkMethod
 
 
@@ -36,8 +35,7 @@ def measure_modified(
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
     from garkcli.api.modified import modified_run
-    from garkcli.report.modified_energy import ModifiedEnergyReport, render
-    from garkcli.stepping.step import StepFailed
+    from garkcli.report.modified_energy import ModifiedEnergyReport, render, render_failure
 
     for option, value in others.items():
         if value:
@@ -49,12 +47,11 @@ def measure_modified(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
             "give exact coefficients, without tolerance",
         )
-    solved = find_hamiltonian(problem, method.tableau, seed)
     try:
+        solved = find_hamiltonian(problem, method.tableau, seed)
         run = modified_run(method, solved, order, t_end, longest)
-    except StepFailed as error:
-        say_problem(error)
-        return 1
+    except GarkError as error:
+        return tell_failure(error, method.name, render_failure, output)
     made = ModifiedEnergyReport(method.name, run)
     output.write(render(made, output.format, output.paint))
     return 1 if run.is_refuted else 0

@@ -1,22 +1,60 @@
-"""What the commands share that put a method to work: the problem and the numbers of their
-options.
+"""What the commands share that put a method to work: the problem and the numbers of their options,
+and what they do with a run that fails.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.cli.options import Output
+from garkcli.cli.streams import complain
+from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.report.fault_json import Failure
     from garkcli.tableau.tableau import Tableau
 
 DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
+
+
+def tell_failure(
+    error: GarkError, name: str, render: Callable[[Failure, str], str], output: Output
+) -> int:
+    """Tell people why a run has no result, and programs in the report; and return the exit code: a
+    step that fails has 1, everything else 2.
+
+    Args:
+        error: what has failed.
+        name: of the method.
+        render: from a failure and a format to the report.
+        output: where the report goes.
+    """
+    from garkcli.report.fault_json import Failure
+
+    complain(error)
+    report = render(Failure(name, faults_of(error)), output.format)
+    if report:
+        output.write(report)
+    return failure_code(error)
+
+
+def faults_of(error: GarkError) -> tuple[Fault, ...]:
+    """What is wrong: the faults of a file, or one fault."""
+    if isinstance(error, MethodFileError):
+        return error.faults
+    return (Fault(error.message, error.help),)
+
+
+def failure_code(error: GarkError) -> int:
+    """The exit code of a run that has failed."""
+    from garkcli.stepping.step import StepFailed
+
+    return 1 if isinstance(error, StepFailed) else 2
 
 
 def refuse_misplaced(

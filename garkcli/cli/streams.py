@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from garkcli.doing import hush
-from garkcli.errors import GarkError
+from garkcli.errors import GarkError, MethodFileError
 from garkcli.page.plain import printable
 from garkcli.page.plaintext import HANDLER, plain_text
 from garkcli.page.progress import aside
@@ -111,6 +111,16 @@ def say_problem(error: GarkError) -> None:
     say(f"gark: {printable(error.message)}")
     if error.help:
         say(f"help: {printable(error.help)}")
+
+
+def complain(error: GarkError) -> None:
+    """Say what is wrong with a file, an option or a run, and the cure."""
+    if isinstance(error, MethodFileError):
+        from garkcli.check.outcome import Outcome
+
+        say_faults(Outcome(error.source, error.source, faults=error.faults, text=error.text))
+        return
+    say_problem(error)
 
 
 def say_faults(outcome: Outcome) -> None:

@@ -97,6 +97,7 @@ def converge(
         is_exact or _has_settled(fitted),
         steps is not None,
         stiff,
+        all(row.error.is_zero() for row in rows) and solver.rests(),
     )
 
 

@@ -77,6 +77,10 @@ class Solver(Protocol):
         """How large the solution is: the sum of its numbers at the start and at the end."""
         ...
 
+    def rests(self) -> bool:
+        """Whether the solution ends where it starts, as far as floats can tell."""
+        ...
+
     def rounding(self) -> arb:
         """About the error that the rounding of coefficients makes; 0 for exact ones."""
         ...

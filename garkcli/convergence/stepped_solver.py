@@ -111,6 +111,13 @@ class SteppedSolver:
         end = self.reference.to(FLOAT_DIGITS + _SPARE)
         return magnitude(end, self.problem)
 
+    def rests(self) -> bool:
+        """Whether no number at the end differs from that at the start."""
+        end = self.reference.to(FLOAT_DIGITS + _SPARE)
+        least = self.size() * FLOAT_PRECISION
+        pairs = zip(end, self.problem.initial, strict=True)
+        return not any(abs(now - arb(then)) > least for now, then in pairs)
+
     def row(self, h: fmpq, before: Row | None) -> Row:
         """The errors of steps of size ``h``, with digits enough for them; see ``Solver.row``.
 

@@ -13,6 +13,7 @@ from garkcli.page.figures import rounded, scientific
 from garkcli.page.paint import Paint, aligned, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.convergence_data import csv_of, invariant_names
+from garkcli.report.fault_json import Failure
 from garkcli.report.problem_text import describe, driving
 from garkcli.tableau.garkmethod import word_for
 
@@ -56,6 +57,17 @@ def render(
     if says_all:
         lines += _work_plot(result) if with_work else _plot(result)
     return "\n".join(lines) + "\n"
+
+
+def render_failure(failure: Failure, format: str) -> str:
+    """A test that has no result, for programs: its errors, or a table without rows. People are told
+    elsewhere.
+    """
+    if format == "json":
+        from garkcli.report.convergence_json import json_of_failure
+
+        return json_of_failure(failure)
+    return "h,h_exact,error,slope\n" if format == "csv" else ""
 
 
 def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
@@ -211,13 +223,18 @@ def remarks(result: Convergence) -> list[str]:
         )
     if result.stiff is not None:
         said.append(_of_stiffness(result, result.stiff))
-    if result.is_exact:
-        said.append(f"the {word_for(result.method)} makes no error on this problem")
+    if result.is_at_rest:
+        said.append("the solution does not move, so that no method makes an error: start elsewhere")
+    elif result.is_exact:
+        word = word_for(result.method)
+        said.append(
+            f"the {word} makes no error on this problem, which shows no order: take another"
+        )
     elif result.short_time is not None:
         said.append(_of_short_time(result))
     elif not result.has_settled:
         said.append("the rounding of the coefficients comes before the slopes have settled")
-    if len(result.rows) == 1 and result.verdict == "undecided":
+    if len(result.rows) == 1 and not result.is_exact:
         said.append("one step size shows no order")
     return said
 

@@ -27,7 +27,7 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report.convergence_data import DIGITS, SLOPE_DIGITS, Entry, invariant_names
-from garkcli.report.fault_json import FAULT
+from garkcli.report.fault_json import FAULT, Failure, failure_form
 from garkcli.report.problem_json import NAME, TERMS, Stepped
 from garkcli.tableau.garkmethod import derivation_of
 
@@ -41,6 +41,11 @@ def json_of(result: Convergence, name: str, with_work: bool) -> str:
     return form.text(_Test(result, name, with_work))
 
 
+def json_of_failure(failure: Failure) -> str:
+    """A test that has no result, as JSON."""
+    return _FAILURE.text(failure)
+
+
 def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as JSON."""
     tried = [_Tried(entry, with_work) for entry in entries]
@@ -50,7 +55,7 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
 def converge_report_schema() -> Schema:
     """The JSON Schema of these reports, of one method or of several."""
     alone = (form.schema for form in _REPORTS.values())
-    schema = one_of(*alone, _COMPARISON.schema)
+    schema = one_of(*alone, _FAILURE.schema, _COMPARISON.schema)
     return published("report of gark converge", schema)
 
 
@@ -227,6 +232,7 @@ _REPORTS: dict[type[Stepped], Record[_Test]] = {
     for kind, terms in TERMS.items()
 }
 """By the kind of the problem."""
+_FAILURE = failure_form(SCHEMA)
 _HEAD: tuple[Field[_Tried], ...] = (
     Field("file", TEXT, lambda x: x.entry.file),
     Field("ok", FLAG, lambda x: x.entry.exit_code == 0),

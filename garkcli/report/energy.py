@@ -9,6 +9,7 @@ from garkcli.longtime.history import LongRun
 from garkcli.page.paint import Paint
 from garkcli.page.plain import csv_cell
 from garkcli.report.energy_text import Report, text_of
+from garkcli.report.fault_json import Failure
 
 
 def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:
@@ -20,6 +21,17 @@ def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> s
     if format == "csv":
         return _csv(report.run)
     return "\n".join(text_of(report, paint, is_long)) + "\n"
+
+
+def render_failure(failure: Failure, format: str) -> str:
+    """A run that has no result, for programs: its errors, or a table without rows. People are told
+    elsewhere.
+    """
+    if format == "json":
+        from garkcli.report.energy_json import json_of_failure
+
+        return json_of_failure(failure)
+    return "t\n" if format == "csv" else ""
 
 
 def _csv(run: LongRun) -> str:

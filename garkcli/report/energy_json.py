@@ -27,6 +27,7 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report.energy_text import Claim, Report
+from garkcli.report.fault_json import Failure, failure_form
 from garkcli.report.problem_json import NAME, TERMS, Stepped
 from garkcli.tableau.garkmethod import derivation_of
 
@@ -39,10 +40,15 @@ def json_of(report: Report) -> str:
     return form.text(report)
 
 
+def json_of_failure(failure: Failure) -> str:
+    """A run that has no result, as JSON."""
+    return _FAILURE.text(failure)
+
+
 def energy_report_schema() -> Schema:
     """The JSON Schema of these reports."""
     forms = (form.schema for form in _REPORTS.values())
-    return published("report of gark energy", one_of(*forms))
+    return published("report of gark energy", one_of(*forms, _FAILURE.schema))
 
 
 class _Quantity(NamedTuple):
@@ -165,3 +171,4 @@ _REPORTS: dict[type[Stepped], Record[Report]] = {
     for kind, terms in TERMS.items()
 }
 """By the kind of the problem."""
+_FAILURE = failure_form(SCHEMA)

@@ -23,8 +23,10 @@ from garkcli.page.schema import (
     TEXT,
     Schema,
     nullable,
+    one_of,
     published,
 )
+from garkcli.report.fault_json import Failure, failure_form
 from garkcli.report.problem_text import describe, driving
 from garkcli.tableau.garkmethod import derivation_of
 
@@ -50,6 +52,15 @@ def render(report: ModifiedEnergyReport, format: str, paint: Paint) -> str:
     if format == "csv":
         return _csv(report.run)
     return "\n".join(text_of(report, paint)) + "\n"
+
+
+def render_failure(failure: Failure, format: str) -> str:
+    """A measurement that has no result, for programs: its errors, or a table without rows. People
+    are told elsewhere.
+    """
+    if format == "json":
+        return _FAILURE.text(failure)
+    return "h\n" if format == "csv" else ""
 
 
 def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
@@ -153,7 +164,8 @@ def to_float_error(row: Row) -> float:
 
 def modified_energy_schema() -> Schema:
     """The JSON Schema of these reports, as plain data."""
-    return published("report of gark energy --modified", _REPORT.schema)
+    schema = one_of(_REPORT.schema, _FAILURE.schema)
+    return published("report of gark energy --modified", schema)
 
 
 _NUMBER_OR_NULL: Schema = nullable(_NUMBER)
@@ -172,6 +184,7 @@ _ENERGY: Record[ModifiedEnergy] = Record(
     Field("verdict", _VERDICT, lambda x: x.verdict),
     _ROW.every("rows", lambda x: x.rows),
 )
+_FAILURE = failure_form(SCHEMA)
 _REPORT: Record[ModifiedEnergyReport] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),

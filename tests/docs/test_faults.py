@@ -42,7 +42,8 @@ JOINED = {
 """Messages that are joined of the keys that stand together."""
 NO_MESSAGES = {
     *("MethodFileError", "HasFreeParameters"),  # have faults, with messages
-    *("StepFailed", "Unreadable"),  # are caught where they are made
+    "StepFailed",  # makes its message of what it is given
+    "Unreadable",  # is caught where it is made
 }
 
 
