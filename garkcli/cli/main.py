@@ -155,7 +155,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the command line and exit.
 
     Exit codes: 0 all is well, 1 a claim fails, 2 usage or input, or there is no place for the
-    report, 3 undecided, or our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads the report.
+    report, 3 undecided, or our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads
+    the report.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     prepare()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from math import isnan
 
 from garkcli.longtime.history import LongRun
 from garkcli.page.paint import Paint
@@ -41,5 +42,6 @@ def _csv(run: LongRun) -> str:
     writer.writerow(["t", *(f"{name}_error" for name in names)])
     columns = [history.errors for history in run.invariants]
     for t, *errors in zip(run.times, *columns, strict=True):
-        writer.writerow([repr(t), *map(repr, errors)])
+        # an invariant without a value has an empty cell
+        writer.writerow([repr(t), *("" if isnan(x) else repr(x) for x in errors)])
     return stream.getvalue()

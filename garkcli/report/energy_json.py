@@ -7,7 +7,7 @@ from typing import NamedTuple, get_args
 from flint import fmpq
 
 from garkcli.exact.display import to_decimal, to_float
-from garkcli.longtime.history import InvariantHistory, LongRun, Verdict
+from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Verdict
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import Shape
@@ -129,6 +129,8 @@ _QUANTITY: Record[_Quantity] = Record(
     Field("verdict", _VERDICT, lambda x: x.history.verdict),
     Field("trend", _TREND, lambda x: x.history.shape),
     Field("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
+    Field("doubt", {"enum": [*get_args(Doubt), None]}, lambda x: x.history.doubt),
+    Field("no_value_at", SIZE, lambda x: _float(x.history.no_value_at)),
 )
 _RUN: tuple[Field[LongRun], ...] = (
     Field("step", SIZE, lambda x: to_float(x.step)),

@@ -175,12 +175,13 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
 
 
 def test_problem_at_rest(tmp_path: Path) -> None:
-    """Where nothing moves there is no error at all, and more digits are not offered."""
+    """Where nothing moves nothing is seen: undecided, and no claim holds."""
     path = tmp_path / "rest.yaml"
     path.write_text(
         'variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n'
     )
     run = gark("energy", RECTANGULAR, "--problem", str(path), "--t-end", "100", "--step", "1/10")
     assert run.code == 0
-    assert "no error at all" in run.out
-    assert "--digits" not in run.out
+    assert "undecided: the solution does not move; start elsewhere" in run.out
+    claimed = ("--problem", str(path), "--t-end", "100", "--step", "1/10", "--bounded")
+    assert gark("energy", RECTANGULAR, *claimed).code == 1

@@ -127,7 +127,7 @@ _WORDS = {
     "bounded": "no drift can be told",
     "drifts": "it drifts",
     "unstable": "it blows up, or the orbit escapes",
-    "undecided": "the run is too short to tell whether it drifts",
+    "undecided": "the run does not tell whether it drifts",
 }
 
 
