@@ -14,6 +14,7 @@ from garkcli.exact.given import rational_of
 from garkcli.methodfile.load import load
 from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
@@ -112,6 +113,14 @@ def with_tolerance(given: AnyMethod, tolerance: object = None) -> tuple[GarkMeth
     """A method with the tolerance that it is judged within: the one given, or its own."""
     method = method_of(given, tolerance)
     return method, tolerance_of(method, tolerance)
+
+
+def meant_of(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, AnyTableau]:
+    """A method, and its tableau with the rounding that it is judged within: the one given, or its
+    own.
+    """
+    method, near = with_tolerance(given, tolerance)
+    return method, method.meant if tolerance is None else meant(method.tableau, near)
 
 
 def _rounded(tolerance: object) -> dict[str, Any]:

@@ -13,15 +13,13 @@ from typing import Any, TypeAlias
 from garkcli.api.anymethod import method_of
 from garkcli.api.methods import conjugate, find_order, pair
 from garkcli.check.agreement import agrees
-from garkcli.check.analysis import AnyOrder
 from garkcli.check.explained import repair_text, witness_text
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
-from garkcli.order.repairs import Derive, Missed
-from garkcli.tableau import conjugate as conjugation
-from garkcli.tableau import forms
+from garkcli.order.deciding import AnyOrder
+from garkcli.order.repairs import Missed
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
@@ -121,12 +119,12 @@ class _Part:
     Attributes:
         words: what it is called after the name of the method.
         of: the method whose order it is.
-        derive: from a tableau whose entries are to blame to the one that has the order.
+        which: ``conjugate`` or ``pair`` of the tableau whose entries are to blame; else empty.
     """
 
     words: str
     of: Callable[[GarkMethod], GarkMethod]
-    derive: Derive
+    which: str = ""
 
 
 def _embedded(method: GarkMethod) -> GarkMethod:
@@ -144,15 +142,11 @@ def _embedded(method: GarkMethod) -> GarkMethod:
     return GarkMethod(tableau=tableau, name=method.name, tolerance=method.tolerance)
 
 
-def _same(tableau: Tableau) -> Tableau:
-    return tableau
-
-
 _PARTS = {
-    "order": _Part("", lambda method: method, _same),
-    "embedded": _Part(" with its embedded weights", _embedded, _same),
-    "conjugate": _Part(", conjugated,", conjugate, conjugation.conjugate),
-    "pair": _Part(" as a symplectic pair", pair, forms.pair),
+    "order": _Part("", lambda method: method),
+    "embedded": _Part(" with its embedded weights", _embedded),
+    "conjugate": _Part(", conjugated,", conjugate, "conjugate"),
+    "pair": _Part(" as a symplectic pair", pair, "pair"),
 }
 
 
@@ -184,7 +178,7 @@ def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Ite
     tableau = derived.tableau
     yield f"  {witness_text(found.witness, tableau.size > 1)}"
     # embedded weights are the weights of the derived tableau
-    own = tableau if part.derive is _same else method.tableau
+    own = method.tableau if part.which else tableau
     for line in _blamed(own, part, found, least):
         yield f"  {line}"
 
@@ -207,7 +201,7 @@ def _read(value: Any) -> int | AtLeast:
 
 def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:
     """The entries whose change would restore the order."""
-    missed = Missed(found.order + 1, claimed, derive=part.derive)
+    missed = Missed(found.order + 1, claimed, which=part.which)
     if not isinstance(found, Order):
         near = NEAR * found.tolerance
         missed = replace(missed, tolerance=found.tolerance, near=near)

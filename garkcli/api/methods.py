@@ -10,19 +10,26 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Protocol, cast, overload
 
-from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, tableau_of, with_tolerance
+from garkcli.api.anymethod import (
+    AnyMethod,
+    meant_of,
+    method_of,
+    refuse_rounded,
+    tableau_of,
+    with_tolerance,
+)
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.errors import MethodError
-from garkcli.exact.field import ZERO
-from garkcli.order import certificate
 from garkcli.order import simplifying as conditions
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import Derivation, GarkMethod, derived_name
+from garkcli.tableau.meant import meant
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
@@ -53,16 +60,12 @@ def find_order(
     limit = whole(limit, "limit", 1)
     is_own = tolerance is None
     method, near = with_tolerance(method, tolerance)
-    if near is None:
-        return certificate.find_order(method.tableau, limit)
-    if is_own and method.base is not None:
+    if is_own and near is not None and method.base is not None:
         found = deciding.analyse(method.base.tableau, limit, near)
         order = found.pair_order if method.derivation == "pair" else found.conjugate_order
         if order is not None:
             return order
-    from garkcli.order.rounded import find_order_within
-
-    return find_order_within(method.tableau, near, limit)
+    return order_of(method.meant if is_own else meant(method.tableau, near), limit)
 
 
 def analyse(
@@ -108,8 +111,8 @@ def simplifying(
     Simplifying(B=(4,), C=((2,),), D=((2,),))
     """
     limit = whole(limit, "limit", 1)
-    method, near = with_tolerance(method, tolerance)
-    return conditions.simplifying(method.tableau, limit, near or ZERO)
+    _, known_as = meant_of(method, tolerance)
+    return conditions.simplifying(known_as, limit)
 
 
 def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:

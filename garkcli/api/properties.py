@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
+from garkcli.api.anymethod import AnyMethod, meant_of, method_of
 from garkcli.api.methods import find_order
 from garkcli.api.numbers import Number
 from garkcli.errors import UsageProblem, did_you_mean
@@ -14,6 +14,7 @@ from garkcli.properties.property import Verdict
 from garkcli.properties.smallest import smallest
 from garkcli.properties.subject import Subject
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.meant import tolerance_of
 
 
 def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) -> Verdict:
@@ -34,9 +35,10 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
     if key not in KEYS:
         raise UsageProblem(f"no property {key!r}", did_you_mean(key, KEYS))
     is_own = tolerance is None
-    method, near = with_tolerance(method, tolerance)
+    method, known_as = meant_of(method, tolerance)
+    near = tolerance_of(known_as)
     order = find_order(method, tolerance=None if is_own else near or 0).order
-    conditions = simplifying(method.tableau, DEFAULT_LIMIT, near or ZERO)
+    conditions = simplifying(known_as)
     subject = Subject(method.tableau, order, conditions, DEFAULT_LIMIT, near or ZERO)
     return subject.verdict(key)
 

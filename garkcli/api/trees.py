@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TypeAlias
 
-from garkcli.api.anymethod import AnyMethod, with_tolerance
+from garkcli.api.anymethod import AnyMethod, meant_of
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.errors import MethodError, counted
-from garkcli.exact.field import ZERO
 from garkcli.exact.field import Number as Exact
 from garkcli.order import conditions as by_tree
 from garkcli.order import listing
@@ -118,11 +117,11 @@ def conditions(
     >>> [(str(x.tree), x.value, x.residual) for x in conditions("heun", ["[[],[]]", "[[[]]]"])]
     [('[[]_1,[]_1]_1', 1/2, 1/6), ('[[[]_1]_1]_1', 0, -1/6)]
     """
-    method, near = with_tolerance(method, tolerance)
+    method, known_as = meant_of(method, tolerance)
     if isinstance(trees, (str, Tree)):
         trees = [trees]
     known = (_fitting(tree, method.tableau) for tree in trees)
-    return by_tree.conditions(method.tableau, known, near or ZERO)
+    return by_tree.conditions(known_as, known)
 
 
 def all_conditions(
@@ -139,8 +138,8 @@ def all_conditions(
     [True, True, True, True]
     """
     order = whole(order, "order", 1)
-    method, near = with_tolerance(method, tolerance)
-    return listing.all_conditions(method.tableau, order, near or ZERO)
+    _, known_as = meant_of(method, tolerance)
+    return listing.all_conditions(known_as, order)
 
 
 def elementary_weight(method: AnyMethod, tree: AnyTree) -> Exact:

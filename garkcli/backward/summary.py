@@ -15,7 +15,8 @@ from garkcli.backward.hamiltonian import (
 )
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
-from garkcli.tableau.conjugate import is_symplectic
+from garkcli.order.deciding import order_of
+from garkcli.order.defects import is_symplectic
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
 
@@ -126,11 +127,10 @@ def _of_rounded(
     equation: ModifiedEquation, structure: Structure | None, tolerance: fmpq
 ) -> BackwardAnalysis:
     """What is said of rounded coefficients."""
-    from garkcli.order.defects import is_symplectic_within
-    from garkcli.order.rounded import find_order_within
+    from garkcli.tableau.rounded import RoundedTableau
 
-    tableau = equation.tableau
-    within = find_order_within(tableau, tolerance, equation.max_order)
-    order = Reached(within.order, within.is_lower_bound)
-    symplectic = is_symplectic_within(tableau, tolerance)
+    rounded = RoundedTableau.within(equation.tableau, tolerance)
+    found = order_of(rounded, equation.max_order)
+    order = Reached(found.order, found.is_lower_bound)
+    symplectic = is_symplectic(rounded)
     return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.importing import orders_of, read
-from garkcli.bridges.judging import Judged, allowed, judged
+from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.found import FoundTable
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
@@ -218,7 +218,7 @@ def _repair(subject: Subject, tableau: Tableau, found: Judged, declared: int) ->
     from garkcli.order.blame import blame_of
     from garkcli.order.repairs import Missed
 
-    near = 1000 * allowed(subject.method)
+    near = 100 * subject.rounded.tolerance
     missed = Missed(found.witness.tree.order, declared, tolerance=near, near=near)
     blame = blame_of(tableau, missed)
     if blame is None or len(blame.repairs) != 1:
@@ -299,7 +299,7 @@ def _is_turned(subject: Subject) -> bool:
     block = tableau.block(0, 0)
     if tableau.size > 1 or block is None:
         return False
-    tolerance = (len(block) + 1) * allowed(subject.method)
+    tolerance = (len(block) + 1) * subject.rounded.tolerance
     columns = zip(*block, strict=True)
     pairs = zip(columns, tableau.colours[0].c, strict=True)
     return all(within(sum(x, ZERO) - c, tolerance) for x, c in pairs)
@@ -311,7 +311,7 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
     block = tableau.block(0, 0)
     if not subject.table.flags.get("fsal") or block is None:
         return
-    tolerance = allowed(subject.method)
+    tolerance = subject.rounded.tolerance
     pairs = zip(block[-1], tableau.colours[0].b, strict=True)
     if not all(within(x - y, 2 * tolerance) for x, y in pairs):
         message = "declared first same as last, and the last row is not b"

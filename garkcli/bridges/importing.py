@@ -100,7 +100,7 @@ def place_of(table: FoundTable) -> str:
 
 def _tolerance(table: FoundTable, orders: Sequence[Judged | None]) -> fmpq | None:
     """The rounding that the file has to admit; None where everything holds exactly."""
-    wanted = [x.file_tolerance for x in orders if x is not None]
+    wanted = [x.tolerance for x in orders if x is not None]
     found = [x for x in wanted if x is not None]
     if table.tolerance:
         found.append(fmpq_of(table.tolerance))

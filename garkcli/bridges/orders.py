@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from garkcli.exact.display import decimal
-from garkcli.order.certificate import DEFAULT_LIMIT, find_order
-from garkcli.order.nonautonomous import with_time
-from garkcli.order.rounded import find_order_within
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import consistent_blocks
+from garkcli.tableau.meant import meant
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 
 
@@ -73,9 +74,8 @@ def find_orders(
     if embedded is not None:
         of_embedded, _ = _order(embedded, tolerance, limit)
     timed_order = None
-    allowed = fmpq(0) if tolerance is None else tolerance
     timed = with_time(tableau)
-    consistent = consistent_blocks(tableau, allowed).values()
+    consistent = consistent_blocks(meant(tableau, tolerance)).values()
     if timed is not None and not all(consistent):
         timed_order, _ = _order(timed, tolerance, limit)
     if timed_order == order:
@@ -85,8 +85,5 @@ def find_orders(
 
 def _order(tableau: Tableau, tolerance: fmpq | None, limit: int) -> tuple[int, bool]:
     """The order, and whether it is a lower bound only."""
-    if tolerance is None:
-        found = find_order(tableau, limit)
-        return found.order, found.is_lower_bound
-    within = find_order_within(tableau, tolerance, limit)
-    return within.order, within.is_lower_bound
+    found = order_of(meant(tableau, tolerance), limit)
+    return found.order, found.is_lower_bound

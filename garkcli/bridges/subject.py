@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from garkcli.bridges.judging import Judged, allowed, judged
+from garkcli.bridges.judging import Judged, digits_of, judged
 from garkcli.bridges.readers.found import FoundTable
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
-from garkcli.order.nonautonomous import with_time
-from garkcli.order.tolerance import within
+from garkcli.order.rounded_defects import RoundedDefects
+from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 
 
@@ -37,18 +38,22 @@ class Subject:
         return self.method.tableau
 
     @cached_property
+    def rounded(self) -> RoundedTableau:
+        """The method with what its digits leave open."""
+        return digits_of(self.method, self.tableau)
+
+    @cached_property
     def wrong_rows(self) -> tuple[str, ...]:
         """The nodes that are no row sums, beyond what rounding explains, in words."""
-        tolerance = allowed(self.method)
+        defects = RoundedDefects(self.rounded)
         found: dict[str, None] = {}
         for l, m in self.tableau.edges():
             block = self.tableau.block(l, m) or ()
             nodes = self.tableau.colours[l].c
-            pairs = zip(block, nodes, strict=True)
-            for i, (row, node) in enumerate(pairs, start=1):
-                total = sum(row, ZERO)
-                if not within(total - node, (len(row) + 1) * tolerance):
-                    found[_row_text(i, total, node)] = None
+            rows = zip(block, nodes, defects.C(l, m, 1), strict=True)
+            for i, (row, node, defect) in enumerate(rows, start=1):
+                if not defects.vanish([defect]):
+                    found[_row_text(i, sum(row, ZERO), node)] = None
         return tuple(found)
 
     @cached_property

@@ -18,9 +18,10 @@ from garkcli.tableau.pointwise import in_points
 from garkcli.trees.count import count_trees
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Outcome
     from garkcli.methodfile.build import MethodFile
+    from garkcli.order.deciding import AnyOrder
     from garkcli.properties.property import Verdict
     from garkcli.tableau.tableau import Tableau
 

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias, Union
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
 from garkcli.doing import doing
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
-from garkcli.order.certificate import Order
-from garkcli.order.nonautonomous import with_time
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
-from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.forms import pair
+from garkcli.tableau.meant import derived, printed
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
 
@@ -24,16 +23,12 @@ if TYPE_CHECKING:
 
     from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.exact.field import Number
-    from garkcli.order.rounded import RoundedOrder
     from garkcli.order.suggestion import Misprint, Suggestion
     from garkcli.properties.subject import Subject
+    from garkcli.tableau.meant import AnyTableau
 
 Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
 """By how much each printed value may be off in its last place."""
-AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
-"""An order found exactly, or within a tolerance: both have ``order``, ``witness`` and
-``is_lower_bound``.
-"""
 
 
 @dataclass(frozen=True, repr=False)
@@ -117,43 +112,39 @@ class Analysis:
 
 
 @doing("conjugate and pair")
-def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:
+def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, str]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""
     try:
-        conjugated = conjugate(tableau)
+        conjugated = derived(method, "conjugate")
     except ZeroWeight as error:
         obstacle = error.message
     try:
-        both = pair(tableau)
+        both = derived(method, "pair")
     except ZeroWeight as error:
         obstacle = error.message
     return conjugated, both, obstacle
 
 
-def is_pair_of_itself(tableau: Tableau, both: Tableau) -> bool:
+def is_pair_of_itself(method: AnyTableau, both: AnyTableau) -> bool:
     """Whether a partitioned tableau is the pair that is made of it."""
-    return tableau.is_partitioned and both.blocks == tableau.blocks
+    tableau = printed(method)
+    return tableau.is_partitioned and printed(both).blocks == tableau.blocks
 
 
-def inconsistent_blocks(
-    tableau: Tableau | None, tolerance: fmpq = ZERO
-) -> tuple[tuple[int, int], ...]:
-    """The blocks with A^{l,m} 𝟙 ≠ c^{l} within a tolerance; none of what does not exist."""
-    if tableau is None:
+def inconsistent_blocks(method: AnyTableau | None) -> tuple[tuple[int, int], ...]:
+    """The blocks with A^{l,m} 𝟙 ≠ c^{l}; none of what does not exist."""
+    if method is None:
         return ()
-    consistent = consistent_blocks(tableau, tolerance)
+    consistent = consistent_blocks(method)
     return tuple(edge for edge, holds in consistent.items() if not holds)
 
 
 def nonautonomous(
-    tableau: Tableau,
-    order: AnyOrder,
-    inconsistent: Sequence[tuple[int, int]],
-    find: Callable[[Tableau], AnyOrder],
+    method: AnyTableau, order: AnyOrder, inconsistent: Sequence[tuple[int, int]], limit: int
 ) -> AnyOrder | None:
     """The order on problems ẏ = f(t, y); where A^{l,m} 𝟙 = c^{l} it is the order."""
-    timed = with_time(tableau)
+    timed = with_time(method) if isinstance(method, Tableau) else method.with_time()
     if timed is None:
         return None
-    return find(timed) if inconsistent else order
+    return order_of(timed, limit) if inconsistent else order

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Claim, Outcome
@@ -14,8 +14,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
-from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.forms import pair
+from garkcli.order.deciding import AnyOrder
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
 
     from garkcli.exact.field import Number
     from garkcli.order.blame import Blame
-    from garkcli.order.repairs import Derive
 
 WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
 """The claims that do not depend on nodes: without ``c`` in the file these follow the entries."""
@@ -105,18 +103,18 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
     Nobody is where the next order is not known to fail, or where rounding explains that it does.
     """
     parts = (
-        ("order", analysis.order, _itself),
-        ("conjugate-order", analysis.conjugate_order, conjugate),
-        ("pair-order", analysis.pair_order, pair),
+        ("order", analysis.order, ""),
+        ("conjugate-order", analysis.conjugate_order, "conjugate"),
+        ("pair-order", analysis.pair_order, "pair"),
     )
-    for key, found, derive in parts:
+    for key, found, which in parts:
         claimed = _claimed(method, key)
         if found is None or found.order >= claimed:
             continue
         is_explained = method.tolerance is not None and analysis.suggestion is not None
         if found.is_lower_bound or is_explained:
             return None
-        return _blame_for(method.tableau, found, claimed, key, derive)
+        return _blame_for(method.tableau, found, claimed, key, which)
     return _blame_of_embedded(method, analysis)
 
 
@@ -127,13 +125,13 @@ def _claimed(method: MethodFile, key: str) -> int:
 
 
 def _blame_for(
-    tableau: Tableau, found: AnyOrder, claimed: int, key: str, derive: Derive
+    tableau: Tableau, found: AnyOrder, claimed: int, key: str, which: str = ""
 ) -> Blame | None:
     """What is to blame for an order that is smaller than claimed."""
     from garkcli.order.blame import blame_of  # paid for by failures alone
     from garkcli.order.repairs import Missed
 
-    missed = Missed(found.order + 1, claimed, key, derive)
+    missed = Missed(found.order + 1, claimed, key, which)
     if not isinstance(found, Order):
         near = NEAR * found.tolerance
         missed = replace(missed, tolerance=found.tolerance, near=near)
@@ -151,7 +149,7 @@ def _blame_of_embedded(method: MethodFile, analysis: Analysis) -> Blame | None:
         return None
     if facts.order.is_lower_bound:
         return None
-    found = _blame_for(facts.tableau, facts.order, claimed, key, _itself)
+    found = _blame_for(facts.tableau, facts.order, claimed, key)
     if found is None:
         return None
     of_weights = [x for x in found.repairs if x.m is None]
@@ -176,7 +174,3 @@ def _with_consequences(
     texts = tuple(claim for claim in method.claims if claim.key in others)
     restored = [claim.claim for claim in verify(texts, analysis) if claim.holds]
     return replace(blame, restores=tuple(restored))
-
-
-def _itself(tableau: Tableau) -> Tableau:
-    return tableau

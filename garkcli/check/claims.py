@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from garkcli.check.agreement import agrees, claim_of, claimed_text
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
+from garkcli.order.deciding import AnyOrder
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.keys import KEYS
 
@@ -57,10 +58,10 @@ def found_value(key: str, analysis: Analysis) -> object:
         "order": _order(analysis.order),
         "conjugate-order": _order(analysis.conjugate_order),
         "pair-order": _order(analysis.pair_order),
-        "bound": analysis.bound,
-        "pair-bound": analysis.pair_bound,
-        "sharp-bound": analysis.sharp_bound,
-        "pair-sharp-bound": analysis.pair_sharp_bound,
+        "bound": _capped(analysis.bound, limit),
+        "pair-bound": _capped(analysis.pair_bound, limit),
+        "sharp-bound": _capped(analysis.sharp_bound, limit),
+        "pair-sharp-bound": _capped(analysis.pair_sharp_bound, limit),
         "B": _capped_row(table.B, limit),
         "C": [_capped_row(row, limit) for row in table.C],
         "D": [_capped_row(row, limit) for row in table.D],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,11 +17,13 @@ from garkcli.check.analysis import (
     nonautonomous,
 )
 from garkcli.doing import doing
-from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, find_order
-from garkcli.order.simplifying import simplifying
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.defects import is_symplectic
+from garkcli.order.simplifying import Simplifying, simplifying
 from garkcli.order.tolerance import TINY, within
-from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.meant import meant, printed
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -45,90 +48,95 @@ def analyse(
             where residuals look like rounding.
         further: its embedded weights and its dense output.
     """
-    spans = StageSpans(tableau) if further else None
-    if tolerance is None:
-        found = _analyse_exactly(tableau, limit, units, spans)
-    else:
-        # balls, which exact methods do without
-        from garkcli.check.within import analyse_within
-
-        found = analyse_within(tableau, tolerance, limit)
-    if not further:
-        return found
-    from garkcli.check.further import further_facts  # few files have them
-
-    facts = further_facts(
-        tableau, further, found.order, found.inconsistent, limit, tolerance, spans
-    )
-    return replace(found, embedded=facts.embedded, dense=facts.dense)
-
-
-def _analyse_exactly(
-    tableau: Tableau, limit: int, units: Units | None, spans: StageSpans | None
-) -> Analysis:
-    conjugated, both, obstacle = conjugate_and_pair(tableau)
-    order = find_order(tableau, limit, spans)
-    conditions = simplifying(tableau, limit)
+    method = meant(tableau, tolerance)
+    spans = StageSpans(tableau) if further and method is tableau else None
+    order = order_of(method, limit, spans)
+    inconsistent = inconsistent_blocks(method)
+    conditions = simplifying(method, limit)
+    conjugated, both, obstacle = conjugate_and_pair(method)
     conjugate_order = None
     if conjugated is not None:
         with doing("conjugate"):
-            conjugate_order = find_order(conjugated, limit)
+            conjugate_order = order_of(conjugated, limit)
+    conjugate_inconsistent = inconsistent_blocks(conjugated)
     pair_order, pair_conditions = None, None
-    pair_bound, pair_sharp_bound = None, None
-    if both is not None and is_pair_of_itself(tableau, both):
-        pair_order, pair_conditions = order, conditions
-    elif both is not None:
+    if both is not None and not is_pair_of_itself(method, both):
         with doing("pair"):
-            pair_order = find_order(both, limit)
-            pair_conditions = simplifying(both, limit)
-    if pair_conditions is not None:
-        pair_bound = pair_conditions.bound
-        pair_sharp_bound = pair_conditions.sharp_bound
-    inconsistent = inconsistent_blocks(tableau)
-    suggestion = _suggestion(tableau, order, limit)
-    misprint = _misprint(tableau, order, suggestion, units)
-    timed_order = nonautonomous(
-        tableau, order, inconsistent, lambda timed: find_order(timed, limit)
-    )
-    return Analysis(
+            pair_order, pair_conditions = order_of(both, limit), simplifying(both, limit)
+    symplectic = is_symplectic(method)
+    if isinstance(method, Tableau):
+        suggestion = _suggestion(method, order, limit)
+        misprint = _misprint(tableau, order, suggestion, units)
+    else:
+        # balls, which exact methods do without
+        from garkcli.check.within import agreeing, implied
+        from garkcli.order.suggestion import suggest_wider
+
+        conditions = implied(tableau, conditions, order, inconsistent)
+        if pair_conditions is not None:
+            pair_conditions = replace(pair_conditions, B=conditions.B * 2)
+        conjugate_order, pair_order = agreeing(
+            method, order, symplectic, conjugated, conjugate_order, pair_order
+        )
+        if symplectic:
+            conjugate_inconsistent = inconsistent
+        misprint = None
+        suggestion = suggest_wider(method, order, units(), limit) if units else None
+    if both is not None and pair_conditions is None:
+        pair_order, pair_conditions = order, conditions
+    found = Analysis(
         tableau=tableau,
         order=order,
         simplifying=conditions,
         inconsistent=inconsistent,
-        symplectic=is_symplectic(tableau),
-        conjugate=conjugated,
+        symplectic=symplectic,
+        conjugate=None if conjugated is None else printed(conjugated),
         conjugate_order=conjugate_order,
-        conjugate_inconsistent=inconsistent_blocks(conjugated),
-        pair=both,
+        conjugate_inconsistent=conjugate_inconsistent,
+        pair=None if both is None else printed(both),
         pair_order=pair_order,
         pair_simplifying=pair_conditions,
-        bound=conditions.bound,
-        pair_bound=pair_bound,
-        sharp_bound=conditions.sharp_bound,
-        pair_sharp_bound=pair_sharp_bound,
+        bound=min(conditions.bound, order.order),
+        pair_bound=_capped(pair_conditions, pair_order, lambda x: x.bound),
+        sharp_bound=min(conditions.sharp_bound, order.order),
+        pair_sharp_bound=_capped(pair_conditions, pair_order, lambda x: x.sharp_bound),
         obstacle=obstacle,
         limit=limit,
-        nonautonomous_order=timed_order,
+        tolerance=tolerance,
+        nonautonomous_order=nonautonomous(method, order, inconsistent, limit),
         suggestion=None if misprint else suggestion,
         misprint=misprint,
     )
+    if not further:
+        return found
+    from garkcli.check.further import further_facts  # few files have them
+
+    facts = further_facts(method, further, order, inconsistent, limit, spans)
+    return replace(found, embedded=facts.embedded, dense=facts.dense)
+
+
+def _capped(
+    conditions: Simplifying | None, order: AnyOrder | None, bound: Callable[[Simplifying], int]
+) -> int | None:
+    """A bound, as far as the order bears it out: within a tolerance it may not."""
+    return None if conditions is None or order is None else min(bound(conditions), order.order)
 
 
 def _misprint(
-    tableau: Tableau, order: Order, suggestion: Suggestion | None, units: Units | None
+    tableau: Tableau, order: AnyOrder, suggestion: Suggestion | None, units: Units | None
 ) -> Misprint | None:
     """The one printed value that does not fit the others, where there is one."""
-    if suggestion is None or units is None:
+    if suggestion is None or units is None or not isinstance(order, Order):
         return None
     from garkcli.order.suggestion import find_misprint
 
     return find_misprint(tableau, order, suggestion, units())
 
 
-def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
+def _suggestion(tableau: Tableau, order: AnyOrder, limit: int) -> Suggestion | None:
     """What to write into a file that looks rounded; only tiny residuals are looked at further."""
     spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if not spelled_out or order.witness is None:
+    if not spelled_out or order.witness is None or not isinstance(order, Order):
         return None
     if not within(order.witness.residual, TINY):
         return None

@@ -17,11 +17,11 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
 from garkcli.methodfile.family import FamilyFile, loads_family
-from garkcli.order.nonautonomous import with_time
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import are_opposite, is_symplectic, symplectic_defect
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import pair
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 
 TOLD = ("stiffly-accurate", "fsal", "symmetric")

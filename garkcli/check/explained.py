@@ -12,11 +12,12 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
-from garkcli.order.nonautonomous import with_time
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
+    from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
     from garkcli.order.repairs import Repair
     from garkcli.order.simplifying import Simplifying
@@ -55,9 +56,11 @@ def _told(witness: Witness, condition: str) -> str:
 
 def bound_numbers(found: Simplifying) -> str:
     """What the bounds of the order are made of."""
-    r, eta, zeta = found.r, found.eta, found.zeta
-    xi, chi = found.xi, found.chi
-    return f"r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}, χ = {chi}"
+    numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
+    return ", ".join(
+        f"{name} {'≥' if found.is_open(number) else '='} {number}"
+        for name, number in numbers.items()
+    )
 
 
 def claim_witness(outcome: Outcome, claim: str) -> str:

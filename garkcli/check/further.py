@@ -4,20 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from flint import fmpq
-
-from garkcli.exact.field import ZERO
-from garkcli.order.certificate import StageSpans, find_order
+from garkcli.check.analysis import nonautonomous
+from garkcli.order.certificate import StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.estimator import Estimator, Orders, estimator
-from garkcli.order.nonautonomous import with_time
 from garkcli.tableau.embedded import DenseOutput, Further, Weights, with_weights
+from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
-
-if TYPE_CHECKING:
-    from garkcli.check.analysis import AnyOrder
 
 
 @dataclass(frozen=True)
@@ -72,65 +67,53 @@ class FurtherFacts:
 
 @dataclass(frozen=True)
 class _Method:
-    """A method whose own orders are known, with how its coefficients are meant."""
+    """A method whose own orders are known."""
 
-    tableau: Tableau
+    method: AnyTableau
     order: AnyOrder
     inconsistent: Sequence[tuple[int, int]]
     limit: int
-    tolerance: fmpq | None
     spans: StageSpans | None
-
-    def find(self, tableau: Tableau, spans: StageSpans | None = None) -> AnyOrder:
-        """The order of another tableau with the same coefficients."""
-        if self.tolerance is None:
-            return find_order(tableau, self.limit, spans)
-        from garkcli.order.rounded import find_order_within
-
-        return find_order_within(tableau, self.tolerance, self.limit)
 
 
 def further_facts(
-    tableau: Tableau,
+    method: AnyTableau,
     further: Further,
     order: AnyOrder,
     inconsistent: Sequence[tuple[int, int]],
     limit: int,
-    tolerance: fmpq | None = None,
     spans: StageSpans | None = None,
 ) -> FurtherFacts:
     """Decide all that ``gark check`` reports of embedded weights and dense output.
 
     Args:
-        tableau: the method.
+        method: the tableau, with its rounding where it is rounded.
         further: its further weights.
         order: its own order.
         inconsistent: the blocks whose row sums are not the nodes.
         limit: where the search for orders stops.
-        tolerance: the rounding of the coefficients; None for coefficients that are meant exactly.
         spans: of the stage vectors, where some are known.
     """
-    method = _Method(tableau, order, inconsistent, limit, tolerance, spans)
+    known = _Method(method, order, inconsistent, limit, spans)
     embedded, dense = None, None
     if further.embedded is not None:
-        embedded = _embedded(method, further.embedded)
+        embedded = _embedded(known, further.embedded)
     if further.dense is not None:
-        dense = _dense(method, further.dense)
+        dense = _dense(known, further.dense)
     return FurtherFacts(embedded, dense)
 
 
-def _embedded(method: _Method, weights: Weights) -> EmbeddedFacts:
-    tableau = with_weights(method.tableau, weights)
-    order = method.find(tableau, method.spans)
-    timed_order: AnyOrder | None = order
-    timed = with_time(tableau)
-    if timed is None:
-        timed_order = None
-    elif method.inconsistent:
-        timed_order = method.find(timed)
-    orders = _orders(order, method.order, method.limit)
-    found = estimator(method.tableau, weights, orders, method.tolerance, method.spans)
-    return EmbeddedFacts(tableau, order, timed_order, found)
+def _embedded(known: _Method, weights: Weights) -> EmbeddedFacts:
+    method = known.method
+    if isinstance(method, Tableau):
+        changed: AnyTableau = with_weights(method, weights)
+    else:
+        changed = method.with_weights(weights)
+    order = order_of(changed, known.limit, known.spans)
+    timed_order = nonautonomous(changed, order, known.inconsistent, known.limit)
+    orders = _orders(order, known.order, known.limit)
+    found = estimator(method, weights, orders, known.spans)
+    return EmbeddedFacts(printed(changed), order, timed_order, found)
 
 
 def _orders(one: AnyOrder, other: AnyOrder, limit: int) -> Orders:
@@ -140,11 +123,11 @@ def _orders(one: AnyOrder, other: AnyOrder, limit: int) -> Orders:
     return Orders(smaller.order, differ, limit)
 
 
-def _dense(method: _Method, dense: DenseOutput) -> DenseFacts:
-    tableau, tolerance = method.tableau, method.tolerance
+def _dense(known: _Method, dense: DenseOutput) -> DenseFacts:
+    method = known.method
     return DenseFacts(
-        order=dense_order(tableau, dense, method.limit, tolerance, method.spans),
+        order=dense_order(method, dense, known.limit, known.spans),
         degree=dense.degree,
-        ends_at_step=ends_at_step(tableau, dense, tolerance or ZERO),
-        slopes=slopes(tableau, dense, tolerance),
+        ends_at_step=ends_at_step(method, dense),
+        slopes=slopes(method, dense),
     )

@@ -10,6 +10,7 @@ from garkcli.errors import MethodError
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.proof import Proof, prove
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.meant import printed
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
     return MethodProof(
         name=method.name,
         method=prove(method.tableau, limit),
-        conjugate=None if conjugated is None else prove(conjugated, limit),
-        pair=None if both is None else prove(both, limit),
+        conjugate=None if conjugated is None else prove(printed(conjugated), limit),
+        pair=None if both is None else prove(printed(both), limit),
         obstacle=obstacle,
     )

@@ -88,8 +88,8 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     subject = None
     if asked is not None:
         subject = _subject(asked, wanted, valued)
-    if valued is not None and subject is not None and subject.tableau is not None:
-        valued = replace(valued, tableau=subject.tableau)
+    if valued is not None and subject is not None and subject.method is not None:
+        valued = replace(valued, method=subject.method)
     if subject is not None:
         rows = _independent(subject, wanted.members, valued)
     elif valued is not None:
@@ -190,14 +190,14 @@ def _arranged(
 def _chosen(file: str, settings: Mapping[str, str], wanted: Wanted) -> Valued:
     from garkcli.methodfile.load import load
     from garkcli.report.conditions_data import Valued
+    from garkcli.tableau.meant import derived
 
     try:
         method = load(file, settings)
     except HasFreeParameters as error:
         return _for_every_value(error, settings, wanted)
-    tableau = companion(method.tableau, wanted.which)
     which = wanted.which or ""
-    return Valued(tableau, method.tolerance, wanted.failing, derivation=which)
+    return Valued(derived(method.meant, which), wanted.failing, derivation=which)
 
 
 def _for_every_value(
@@ -212,7 +212,7 @@ def _for_every_value(
     refuse_numbers(family, {"--digits": wanted.digits, "--sort worst": sort})
     tableau = companion(family.tableau, wanted.which)
     parameters = family.family.parameters
-    return Valued(tableau, None, wanted.failing, parameters, wanted.which or "")
+    return Valued(tableau, wanted.failing, parameters, wanted.which or "")
 
 
 def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
@@ -224,7 +224,7 @@ def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
     if wanted.kind is not None:
         cure = "leave out --kind; --pair asks for the pair"
         raise UsageProblem("the kind is that of FILE", cure)
-    return subject_of_method(valued.tableau, wanted.orders)
+    return subject_of_method(valued.method, wanted.orders)
 
 
 def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
@@ -245,15 +245,13 @@ def _values_at(
     trees: Iterator[Tree], valued: Valued | None
 ) -> Iterator[tuple[Tree, Condition | None]]:
     """Each tree with its condition for the method; with None where there is no method."""
-    from garkcli.exact.field import ZERO
     from garkcli.order.conditions import conditions
 
     if valued is None:
         for tree in trees:
             yield tree, None
         return
-    tolerance = valued.tolerance or ZERO
-    for condition in conditions(valued.tableau, trees, tolerance):
+    for condition in conditions(valued.method, trees):
         yield condition.tree, condition
 
 
@@ -275,13 +273,11 @@ def _table(wanted: Wanted, format: str) -> Iterator[ConditionRow]:
 
 
 def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
-    from garkcli.exact.field import ZERO
     from garkcli.order.listing import all_conditions
     from garkcli.report.conditions_data import ConditionRow
 
-    tolerance = valued.tolerance or ZERO
     for n in orders:
-        for condition in all_conditions(valued.tableau, n, tolerance):
+        for condition in all_conditions(valued.method, n):
             yield ConditionRow(condition.tree, False, condition)
 
 

@@ -7,19 +7,21 @@ from typing import Literal, TypeAlias
 
 from flint import fmpq
 
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.check.deciding import analyse
 from garkcli.comparison.differences import BlockGap, block_gaps
 from garkcli.comparison.grid import Grid
 from garkcli.comparison.likeness import Likeness
-from garkcli.comparison.met import Met, Side, conditions_met
+from garkcli.comparison.met import Met, conditions_met
 from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.deciding import AnyOrder
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
 
@@ -233,8 +235,8 @@ def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Gr
     return conditions_met(_side(one), _side(other), upto)
 
 
-def _side(found: Analysis) -> Side:
-    return Side(found.tableau, found.tolerance or ZERO)
+def _side(found: Analysis) -> AnyTableau:
+    return meant(found.tableau, found.tolerance)
 
 
 def _properties(one: Analysis, other: Analysis) -> tuple[PropertyPair, ...]:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from flint import fmpq
-
-from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
+from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import count_by_root
 from garkcli.trees.tree import Tree
@@ -40,15 +38,7 @@ class Met:
         return tuple(x for x in self.pairs if x[1].holds)
 
 
-@dataclass(frozen=True)
-class Side:
-    """A method whose conditions are compared: its tableau and its tolerance."""
-
-    tableau: Tableau
-    tolerance: fmpq = ZERO
-
-
-def conditions_met(one: Side, other: Side, upto: int) -> Met:
+def conditions_met(one: AnyTableau, other: AnyTableau, upto: int) -> Met:
     """The conditions that one method meets and the other does not.
 
     Args:
@@ -57,26 +47,23 @@ def conditions_met(one: Side, other: Side, upto: int) -> Met:
         upto: the highest order of interest; fewer are compared where there are more than
             ``MAX_CONDITIONS`` conditions.
     """
-    graph = _common_graph(one.tableau, other.tableau)
-    roots = _common_roots(one.tableau, other.tableau)
+    tableau = printed(one)
+    graph = _common_graph(tableau, printed(other))
+    roots = _common_roots(tableau, printed(other))
     pairs: list[tuple[Condition, Condition]] = []
     reached, total = 0, 0
     for order in range(1, upto + 1):
-        by_root = count_by_root(one.tableau.size, order, *graph)
+        by_root = count_by_root(tableau.size, order, *graph)
         total += sum(by_root[root] for root in roots)
         if total > MAX_CONDITIONS:
             break
-        trees = list(_trees(one.tableau.size, order, graph, roots))
-        found = zip(_of(one, trees), _of(other, trees), strict=True)
+        trees = list(_trees(tableau.size, order, graph, roots))
+        found = zip(conditions(one, trees), conditions(other, trees), strict=True)
         for first, second in found:
             if first.holds != second.holds:
                 pairs.append((first, second))
         reached = order
     return Met(reached, tuple(pairs))
-
-
-def _of(side: Side, trees: Sequence[Tree]) -> Iterator[Condition]:
-    return conditions(side.tableau, trees, side.tolerance)
 
 
 _Graph = tuple[tuple[tuple[bool, ...], ...], frozenset[int]]

@@ -25,11 +25,12 @@ from garkcli.convergence.result import (
 )
 from garkcli.convergence.solver import Solver
 from garkcli.errors import UsageProblem
-from garkcli.order.certificate import find_order
+from garkcli.order import deciding
 from garkcli.order.simplifying import simplifying
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.stepping.linear import whole_steps
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 _SHORT_STEPS = (4, 8, 16, 32)  # in which a short time is stepped through
@@ -164,9 +165,9 @@ def _stiffness(
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
-    found = simplifying(tableau, tolerance=fmpq(0) if tolerance is None else tolerance)
+    found = simplifying(meant(tableau, tolerance))
     is_stable = ladder.is_part(rows[-1], solver.size())
-    return Stiffness(resolution, found.eta, is_stable)
+    return Stiffness(resolution, found.stage_order, is_stable)
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:
@@ -201,11 +202,7 @@ def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
     """By the certificate, up to ``MAX_ORDER``; within the tolerance of rounded coefficients."""
-    if tolerance is None:
-        return find_order(tableau, MAX_ORDER).order
-    from garkcli.order.rounded import find_order_within
-
-    return find_order_within(tableau, tolerance).order
+    return deciding.order_of(meant(tableau, tolerance), MAX_ORDER).order
 
 
 def _solver(

@@ -102,7 +102,7 @@ class Stiffness:
 
     Attributes:
         resolution: h ‖∂f/∂y‖ of the smallest step, far above 1.
-        stage_order: the largest q for which C^{l,m}(q) holds for all blocks.
+        stage_order: the largest q for which B(q) and C(q) hold.
         is_stable: whether the error of the smallest step is a small part of the solution.
     """
 

@@ -20,6 +20,21 @@ OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
 """What the signs of a chain do with what stands before them."""
 
 
+def integer_power(base: arb, exponent: int) -> arb:
+    """A ball to an integer power. The operator of python-flint gives nan for balls around 0.
+
+    >>> integer_power(arb(0, 0.5), 2).str(2), (arb(0, 0.5) ** 2).str(2)
+    ('[+/- 0.251]', 'nan')
+    """
+    found, square, rest = arb(1), base, abs(exponent)
+    while rest:
+        if rest % 2:
+            found *= square
+        square *= square
+        rest //= 2
+    return found if exponent >= 0 else 1 / found
+
+
 def enclose(expression: Expression) -> arb:
     """A ball that holds the value of ``expression``, at the current ``flint.ctx`` precision.
 
@@ -38,7 +53,7 @@ def enclose(expression: Expression) -> arb:
                 total = OPERATIONS[sign](total, enclose(operand))
             return total
         case Power(base=base, exponent=exponent):
-            return enclose(base) ** exponent
+            return integer_power(enclose(base), exponent)
         case Root(radicand=radicand, index=index):
             inside = enclose(radicand)
             if index % 2 and inside < 0:

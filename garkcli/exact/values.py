@@ -11,7 +11,7 @@ from flint import arb, fmpq
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.domain import MAX_BITS, too_many_bits
-from garkcli.exact.enclosing import OPERATIONS
+from garkcli.exact.enclosing import OPERATIONS, integer_power
 from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import FUNCTIONS, Call, RealPower
 from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
@@ -142,7 +142,7 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
     if exponent.q == 1:
         n = int(exponent.p)
         if not isinstance(base, fmpq):
-            return _bounded(base**n, at)
+            return _bounded(integer_power(base, n), at)
         bits = base.height_bits() * abs(n)
         if bits > MAX_BITS:
             raise too_many_bits(at)

@@ -17,12 +17,12 @@ from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.longtime.history import State
-from garkcli.order.defects import is_symplectic_within
+from garkcli.order.defects import is_symplectic
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import Integrator, bind
 from garkcli.stepping.step import integrate
-from garkcli.tableau.conjugate import is_symplectic
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 Jacobian: TypeAlias = list[list[Any]]
@@ -161,9 +161,7 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
     """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance: all steps
     are symplectic.
     """
-    if tolerance is None:
-        return is_symplectic(tableau)
-    return is_symplectic_within(tableau, tolerance)
+    return is_symplectic(meant(tableau, tolerance))
 
 
 @doing("symplecticity")

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.enclosing import OPERATIONS, enclose
+from garkcli.exact.enclosing import OPERATIONS, enclose, integer_power
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
 from garkcli.order.tolerance import rounded_up
@@ -17,7 +17,7 @@ Printed: TypeAlias = Sequence[tuple[Expression, Number]]
 FEWEST_DIGITS = 6
 """A number with fewer digits is meant exactly."""
 SHORTENED = 4
-"""So many digits fewer has the denominator of a decimal in lowest terms, at most."""
+"""The denominator of a decimal has so many digits fewer in lowest terms, at most."""
 MANY_DIGITS = 14
 """In the source of a solver a decimal of so many digits is a rounded one, however long others are:
 products of two that are written out have twice as many.
@@ -64,15 +64,15 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
 
     A fraction with a long denominator q may be an approximant of an irrational number, as those of
     Kennedy and Carpenter are: good ones are off by 1/q^2, and a hundred times that is admitted.
-    One that is a decimal in lowest terms is taken for that decimal. Every other fraction is exact,
-    so that a wrong digit of it is no rounding.
+    One that is a decimal in lowest terms is taken for that decimal. Every fraction with a shorter
+    denominator, such as 161/1000 and 3/64, is exact, so that a wrong digit of it is no rounding.
 
     >>> from garkcli.exact.expression import parse
-    >>> texts = ("19372/6561", "1767732205903/4055673282236")
-    >>> values = (fmpq(19372, 6561), fmpq(1767732205903, 4055673282236))
+    >>> texts = ("19372/6561", "1767732205903/4055673282236", "3/64")
+    >>> values = (fmpq(19372, 6561), fmpq(1767732205903, 4055673282236), fmpq(3, 64))
     >>> units = approximant_units(list(zip(map(parse, texts), values, strict=True)))
-    >>> units[values[0]], 0 < units[values[1]] < fmpq(1, 10**22)
-    (0, True)
+    >>> units[values[0]], 0 < units[values[1]] < fmpq(1, 10**22), units[values[2]]
+    (0, True, 0)
     """
     decimals = [pair for pair in printed if not _is_whole(pair[0])]
     units = printed_units(decimals, MANY_DIGITS)
@@ -89,15 +89,14 @@ def _is_whole(expression: Expression) -> bool:
 
 def _approximation(value: Number) -> fmpq:
     """By how much a fraction may be off."""
-    if not isinstance(value, fmpq):
+    if not isinstance(value, fmpq) or value.q < LONG_DENOMINATOR:
         return fmpq(0)
     q = int(value.q)
-    for places in range(FEWEST_DIGITS, len(str(q)) + SHORTENED):
+    for places in range(len(str(q)), len(str(q)) + SHORTENED):
         # a decimal that was written as a fraction, in lowest terms
-        if not 10**places % q and 10**places < q * 10**SHORTENED:
+        if not 10**places % q:
             return fmpq(1, 10**places)
-    is_long = q >= LONG_DENOMINATOR
-    return fmpq(100, q * q) if is_long else fmpq(0)
+    return fmpq(100, q * q)
 
 
 def _literals(expression: Expression) -> Iterator[Literal]:
@@ -142,7 +141,7 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
                 total = OPERATIONS[sign](total, _enclosed(operand, fewest))
             return total
         case Power(base=base, exponent=exponent):
-            return _enclosed(base, fewest) ** exponent
+            return integer_power(_enclosed(base, fewest), exponent)
         case Root(radicand=radicand, index=index):
             inner = _enclosed(radicand, fewest)
             if inner < 0:

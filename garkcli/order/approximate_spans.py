@@ -4,17 +4,17 @@ The affine spans of ``certificate`` for rounded coefficients, where nothing is e
 Some trees are members, with their normalised stage vectors ψ_i; every other tree u of the same
 order and root colour is
 
-    ψ(u) = Σ λ_i ψ_i + e,      Σ λ_i = 1,      w Σ|λ_i| ≤ Λ,      w |e| ≤ ε,      w |ψ(u)| ≤ π,
+    ψ(u) = Σ λ_i ψ_i + e,      Σ λ_i = 1,      Σ|λ_i| ≤ Λ,      |e| ≤ ε,      |ψ(u)| ≤ π,
 
-with one Λ for all trees, vectors ε and π that hold entry by entry, and w = ρ(u)/γ(u), the factor
-between ψ(u) and 𝒜^[u]. The order condition of u is w (b_lᵀ ψ(u) − 1/ρ) = 0, so its residual is at
-most
+with one Λ for all trees, and vectors ε and π that hold entry by entry. The order condition of u is
+b_lᵀ ψ(u) = 1/ρ, and it is missed by at most
 
     Λ max_i |b_lᵀ ψ_i − 1/ρ| + |b_l|ᵀ ε.
 
-Λ, ε and π follow branches and products: a branch ρ A ψ has the factor 1/γ = w/ρ, hence Λ/ρ, |A| ε
-and |A| π; a product of independent parts has Λ Λ', π ε' + ε π' + ε ε' and π π'. All numbers are
-balls, so the bounds are proved; the choice of members only makes them good or bad.
+Its residual b_lᵀ 𝒜^[u] − 1/γ(u) is ρ/γ ≤ 1 times as large. Λ, ε and π follow branches and products:
+a branch ρ A ψ has Λ, ρ |A| ε and ρ |A| π; a product of independent parts has Λ Λ', π ε' + ε π' + ε
+ε' and π π'. All numbers are balls, so the bounds are proved; the choice of members only makes them
+good or bad.
 """
 
 from __future__ import annotations
@@ -28,7 +28,6 @@ from flint import arb, arb_mat, ctx
 
 from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.order.recursion import OrderByOrder
-from garkcli.order.residuals import Sizes
 from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
@@ -55,6 +54,24 @@ class _Hull:
     size: Entries
 
 
+@dataclass(frozen=True, eq=False)
+class HullSizes:
+    """How far the conditions of one order are missed.
+
+    Attributes:
+        bound: no |b_lᵀ ψ(u) − 1/ρ| is larger; no |residual| either.
+        members: trees with their |residuals|, the largest first.
+    """
+
+    bound: arb
+    members: list[tuple[arb, Tree]]
+
+    @property
+    def reached(self) -> arb:
+        """The largest |residual| of a member."""
+        return self.members[0][0] if self.members else arb(0)
+
+
 class ApproximateSpans(OrderByOrder[_Hull]):
     """Members and bounds for the branches and forests of each stage space, made on demand.
 
@@ -73,10 +90,10 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         single_vertices = [_unit(s) for s in enclosure.stages]
         super().__init__(tableau, single_vertices)
 
-    def sizes(self, order: int) -> Sizes:
-        """A bound on all |residuals| of an order, and the largest among those of members."""
-        bound = reached = arb(0)
-        largest: Tree | None = None
+    def sizes(self, order: int) -> HullSizes:
+        """A bound on all |bᵀψ(u) − 1/ρ| of an order, and the members with their |residuals|."""
+        bound = arb(0)
+        members: list[tuple[arb, Tree]] = []
         with ctx.workprec(self.enclosure.bits):
             for l, b in enumerate(self.enclosure.b):
                 hull = self.of_trees(l, order)
@@ -86,18 +103,14 @@ class ApproximateSpans(OrderByOrder[_Hull]):
                 required = arb(1) / order
                 worst = arb(0)
                 for member in hull.members:
-                    weight = scalar_product(weights, member.vector)
-                    defect = abs(weight - required)
+                    defect = abs(scalar_product(weights, member.vector) - required)
                     worst = worst.max(defect)
                     tree = Tree(l, member.branches)
-                    size = defect * order / tree.density
-                    if largest is None or size > reached:
-                        reached = size
-                        largest = tree
+                    members.append((defect * order / tree.density, tree))
                 beyond = scalar_product(_absolute(weights), hull.error)
-                here = hull.weight * worst + beyond
-                bound = bound.max(here)
-        return Sizes(bound.abs_upper(), reached, largest)
+                bound = bound.max(hull.weight * worst + beyond)
+        members.sort(key=lambda x: float(x[0].mid()), reverse=True)
+        return HullSizes(bound.abs_upper(), members)
 
     def _new_branches(self, k: int, order: int) -> _Hull | None:
         """Order · A ψ over the colours that the stages of space k see."""
@@ -118,11 +131,10 @@ class ApproximateSpans(OrderByOrder[_Hull]):
             branch = Tree(m, x.branches)
             vector = _image(A, x.vector)
             members.append(_Member(vector, (branch,)))
-        absolute = self._absolute[k, m]
-        error = _image(absolute, hull.error)
-        size = _image(absolute, hull.size)
-        weight = hull.weight / order
-        return _Hull(members, weight, error, size)
+        absolute = self._absolute[k, m] * order
+        return _Hull(
+            members, hull.weight, _image(absolute, hull.error), _image(absolute, hull.size)
+        )
 
     def _new_forests(self, k: int, order: int) -> _Hull | None:
         """The smallest branch times the forest of the others, or one branch.

@@ -16,6 +16,7 @@ from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
 from garkcli.order.repairs import Missed, Repair, named_block, named_blocks, repairs
+from garkcli.tableau.meant import printed
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
@@ -84,10 +85,11 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     Returns:
         None where there are more than ``MAX_CONDITIONS`` conditions.
     """
-    tableau = missed.derive(method)
+    judged = missed.judged(method)
+    tableau = printed(judged)
     if count_conditions(tableau, missed.order) > MAX_CONDITIONS:
         return None
-    found = list(all_conditions(tableau, missed.order, missed.tolerance))
+    found = list(all_conditions(judged, missed.order))
     failing = [condition for condition in found if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     in_every: list[Edge] = []

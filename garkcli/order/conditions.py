@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
@@ -12,9 +12,13 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.order.tolerance import within
+from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
 from garkcli.upward import found
+
+if TYPE_CHECKING:
+    from garkcli.tableau.rounded import RoundedTableau
 
 _Place: TypeAlias = tuple[int, Tree]
 """Who sees a branch, by its stage space, and the branch."""
@@ -27,14 +31,15 @@ class Condition:
     Attributes:
         tree: u, with colours counted from 0.
         value: the elementary weight b_lᵀ 𝒜^[u], exact.
-        tolerance: the rounding that the coefficients admit; zero where they are meant exactly.
+        allowed: how far rounding of the coefficients can move the value; zero where they are meant
+            exactly.
         twins: further root colours with which the tree has the same condition, as they share stages
             and weights.
     """
 
     tree: Tree
     value: Number
-    tolerance: fmpq = ZERO
+    allowed: fmpq = ZERO
     twins: tuple[int, ...] = ()
 
     @property
@@ -49,10 +54,8 @@ class Condition:
 
     @property
     def holds(self) -> bool:
-        """Whether |residual| ≤ tolerance; without one, whether the residual is exactly zero."""
-        if self.is_exact:
-            return True
-        return bool(self.tolerance and within(self.residual, self.tolerance))
+        """Whether the residual is zero, or no larger than rounding can make it."""
+        return self.is_exact or bool(self.allowed and within(self.residual, self.allowed))
 
     @property
     def is_exact(self) -> bool:
@@ -83,19 +86,32 @@ class Condition:
         return html
 
 
-def conditions(
-    tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO
-) -> Iterator[Condition]:
-    """The conditions of ``trees`` for ``tableau``; what comes of shared branches is computed once.
+def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]:
+    """The conditions of ``trees`` for a tableau; what comes of shared branches is computed once.
 
     Raises:
         MethodError: a tree that the coupling graph does not admit.
     """
     images: dict[_Place, Vector] = {}
+    tableau = printed(method)
+    allowed = _exactly if isinstance(method, Tableau) else _effects(method)
     for tree in trees:
         b = tableau.colours[tree.root].b
         value = dot(b, _stage_vector(tableau, tree, images))
-        yield Condition(tree, value, tolerance)
+        is_met = value == fmpq(1, tree.density)
+        yield Condition(tree, value, ZERO if is_met else allowed(tree))
+
+
+def _exactly(_: Tree) -> fmpq:
+    return ZERO
+
+
+def _effects(rounded: RoundedTableau) -> Callable[[Tree], fmpq]:
+    from garkcli.order.effects import Effects  # balls, which exact methods do without
+
+    if rounded.obstacle:
+        raise MethodError(rounded.obstacle, "give more digits and a smaller tolerance")
+    return Effects(rounded).bound
 
 
 def elementary_weight(tableau: Tableau, tree: Tree) -> Number:

@@ -1,19 +1,22 @@
-"""By how much B, C and D are missed, and which symplectic tableaus are so within a tolerance.
-
-A defect is an exact element, functional or bilinear form of stage spaces: zero where the condition
-holds, and within t where all its values at the nodes are, ``tolerance`` says how.
+"""By how much B, C and D are missed: exact elements and functionals of stage spaces, zero where a
+condition holds.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from flint import fmpq
 
-from garkcli.exact.field import Number
 from garkcli.exact.linear_map import EntrywiseMap, LinearMap
 from garkcli.exact.matrix import Vector, dot
-from garkcli.order.tolerance import form_within, functional_within
-from garkcli.tableau.conjugate import symplectic_defect
+from garkcli.tableau import conjugate
+from garkcli.tableau.meant import printed
 from garkcli.tableau.tableau import Edge, Tableau
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded_defects import RoundedDefects
+    from garkcli.tableau.meant import AnyTableau
 
 
 class Defects:
@@ -41,11 +44,16 @@ class Defects:
             powers.append(following)
         return powers[exponent]
 
-    def B(self, l: int, k: int) -> Number:  # noqa: N802 -- the paper's letter
+    @staticmethod
+    def vanish(defects: Vector) -> bool:
+        """Whether they are all zero."""
+        return not any(defects)
+
+    def B(self, l: int, k: int) -> Vector:  # noqa: N802 -- the paper's letter
         """b_l(c_l^(k−1)) − 1/k, eq. (B)."""
         b = self.tableau.colours[l].b
         mean = dot(b, self.power(l, k - 1))
-        return mean - fmpq(1, k)
+        return (mean - fmpq(1, k),)
 
     def C(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
         """A^{l,m} c_m^(k−1) − c_l^k / k, eq. (C): an element of the space of l; with k = 1 eq.
@@ -89,32 +97,22 @@ def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
     return tuple(difference)
 
 
-def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
-    """Whether |b_i a_ij + b_j a_ji − b_i b_j| ≤ ``tolerance`` between all colours that the
-    symplectic form pairs.
-
-    Where positions and momenta share stages their weights are within ``tolerance`` of each other,
-    too.
+def is_symplectic(method: AnyTableau) -> bool:
+    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs:
+    exactly, or as far as rounding lets it be.
     """
-    for l, one in enumerate(tableau.colours):
-        for m, other in enumerate(tableau.colours):
-            parts = {one.part, other.part}
-            is_canonical = parts == {"q", "p"}
-            if is_canonical and one.space == other.space:
-                space = tableau.space(l)
-                difference = _minus_part(one.b, other.b, 1)
-                if not functional_within(space, difference, tolerance):
-                    return False
-            if not is_canonical and parts != {"y"}:
-                continue  # velocities among each other, or forces: the form pairs none
-            forth = tableau.block(l, m)
-            back = tableau.block(m, l)
-            if forth is None and back is None:
-                continue
-            if forth is None or back is None:
-                return False
-            defect = symplectic_defect(tableau, l, m)
-            spaces = tableau.space(l), tableau.space(m)
-            if not form_within(*spaces, defect, tolerance):
-                return False
-    return True
+    if isinstance(method, Tableau) or method.obstacle:
+        return conjugate.is_symplectic(printed(method))
+    from garkcli.order.rounded_defects import is_symplectic_within
+
+    return is_symplectic_within(method)
+
+
+def defects_of(method: AnyTableau) -> Defects | RoundedDefects:
+    """The defects of a tableau, over its box where it is rounded."""
+    if isinstance(method, Tableau) or method.obstacle:
+        return Defects(printed(method))
+    # balls, which exact methods do without
+    from garkcli.order.rounded_defects import RoundedDefects
+
+    return RoundedDefects(method)

@@ -20,15 +20,10 @@ from flint import fmpq
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.order.certificate import StageSpans, Witness
-from garkcli.order.functionals import (
-    Failure,
-    Functional,
-    Undecided,
-    first_failure,
-    first_failure_within,
-)
-from garkcli.order.tolerance import within
+from garkcli.order.functionals import Functional, Undecided, first_failure
+from garkcli.order.tolerance import are_alike, within
 from garkcli.tableau.embedded import DenseOutput, Weights
+from garkcli.tableau.meant import AnyTableau, meant, printed, tolerance_of
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -46,8 +41,7 @@ class DenseOrder:
     """The order of dense output.
 
     Attributes:
-        order: every condition up to it holds, for all θ; within ``tolerance`` where that is given:
-            each coefficient of a condition is as far off at most.
+        order: every condition up to it holds, for all θ; within ``tolerance`` where that is given.
         witness: what fails one order higher; None where the search stopped, or nothing is decided.
         undecided: whether the next order is left open.
         tolerance: the rounding of the coefficients; None where they are exact.
@@ -65,29 +59,25 @@ class DenseOrder:
 
 
 def dense_order(
-    tableau: Tableau,
-    dense: DenseOutput,
-    limit: int,
-    tolerance: fmpq | None = None,
-    spans: StageSpans | None = None,
+    method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseOrder:
     """The largest order ≤ ``limit`` up to which dense output meets all conditions, for every θ.
 
     Args:
-        tableau: the method.
+        method: the tableau, with its rounding where it is rounded.
         dense: its dense output.
         limit: the order at which to stop.
-        tolerance: the rounding of the coefficients; None for exact ones.
         spans: of the stage vectors, where some are known.
     """
     powers = range(1, dense.degree + 1)
     functionals = [Functional(dense.coefficients(k), k) for k in powers]
     # the next power has no coefficients, and its order should have one
     beyond = dense.degree + 1
-    functionals.append(Functional(_zeros(tableau), beyond))
+    functionals.append(Functional(_zeros(printed(method)), beyond))
     orders = range(1, min(limit, beyond) + 1)
+    tolerance = tolerance_of(method)
     try:
-        failure = _failure(tableau, functionals, orders, tolerance, spans)
+        failure = first_failure(method, functionals, orders, spans)
     except Undecided as found:
         return DenseOrder(found.order - 1, None, True, tolerance)
     if failure is None:
@@ -98,28 +88,19 @@ def dense_order(
     return DenseOrder(order, witness, False, tolerance)
 
 
-def _failure(
-    tableau: Tableau,
-    functionals: Sequence[Functional],
-    orders: range,
-    tolerance: fmpq | None,
-    spans: StageSpans | None = None,
-) -> Failure | None:
-    if tolerance is None:
-        return first_failure(tableau, functionals, orders, spans)
-    return first_failure_within(tableau, functionals, orders, tolerance)
-
-
 def _zeros(tableau: Tableau) -> Weights:
     return tuple((ZERO,) * len(colour.b) for colour in tableau.colours)
 
 
-def ends_at_step(tableau: Tableau, dense: DenseOutput, tolerance: fmpq = ZERO) -> bool:
-    """Whether b(1) = b, entry by entry: then the output is continuous from step to step."""
-    ends = zip(tableau.colours, dense.at(ONE), strict=True)
-    for colour, row in ends:
-        for b, x in zip(colour.b, row, strict=True):
-            if not within(b - x, tolerance):
+def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:
+    """Whether b(1) = b, entry by entry, or as far as rounding lets it be: then the output is
+    continuous from step to step.
+    """
+    t = tolerance_of(method) or ZERO
+    for l, colour in enumerate(printed(method).colours):
+        for b, x, row in zip(colour.b, dense.at(ONE)[l], dense.weights[l], strict=True):
+            terms = sum(1 for coefficient in (b, *row) if coefficient)
+            if not within(b - x, terms * t):
                 return False
     return True
 
@@ -147,18 +128,28 @@ class Slopes:
         return False if False in both else None
 
 
-def slopes(tableau: Tableau, dense: DenseOutput, tolerance: fmpq | None = None) -> Slopes:
+def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
     """The slope at both ends of a step.
 
     It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
     it is not where an elementary weight says so.
     """
-    whole = _with_ends(tableau)
+    whole = meant(_with_ends(printed(method)), tolerance_of(method))
     first = dense.coefficients(1)
-    last = _slope_at_one(dense)
-    stages = [_differing(first, at_start=True), _differing(last, at_start=False)]
-    start, end = (_vanishes(whole, x, tolerance) for x in stages)
+    ends = (
+        Functional(_beside(first, (-ONE, ZERO)), terms=_beside(_ones(first), (ZERO, ZERO))),
+        Functional(
+            _beside(_slope_at_one(dense.weights), (ZERO, -ONE)),
+            terms=_beside(_slope_at_one(tuple(map(_ones, dense.weights))), (ZERO, ZERO)),
+        ),
+    )
+    start, end = (_vanishes(whole, x) for x in ends)
     return Slopes(start, end)
+
+
+def _ones(rows: Sequence[Vector]) -> tuple[Vector, ...]:
+    """1 for each coefficient that is not 0."""
+    return tuple(tuple(ONE if x else ZERO for x in row) for row in rows)
 
 
 def _with_ends(tableau: Tableau) -> Tableau:
@@ -178,10 +169,10 @@ def _with_ends(tableau: Tableau) -> Tableau:
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def _slope_at_one(dense: DenseOutput) -> Weights:
+def _slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
     """b'(1) = Σ_k k B_k, a row a colour."""
     rows = []
-    for of_colour in dense.weights:
+    for of_colour in weights:
         row = []
         for coefficients in of_colour:
             slope: Number = ZERO
@@ -192,45 +183,40 @@ def _slope_at_one(dense: DenseOutput) -> Weights:
     return tuple(rows)
 
 
-def _differing(slope: Weights, at_start: bool) -> Weights:
-    """A slope less the value of the vector field at one of the stages of ``_with_ends``."""
-    ends = (-ONE, ZERO) if at_start else (ZERO, -ONE)
-    return tuple((*row, *ends) for row in slope)
+def _beside(rows: Weights, ends: Vector) -> Weights:
+    """Weights with those of the two stages of ``_with_ends``."""
+    return tuple((*row, *ends) for row in rows)
 
 
-def _vanishes(tableau: Tableau, weights: Weights, tolerance: fmpq | None) -> bool | None:
+def _vanishes(method: AnyTableau, functional: Functional) -> bool | None:
     """Whether a functional is zero on every problem; None where that is not decided."""
-    near = ZERO if tolerance is None else tolerance
-    if all(
-        within(x, near)
-        for l, row in enumerate(weights)
-        for x in _of_equal_stages(tableau, l, row, near)
-    ):
+    tableau = printed(method)
+    if all(_cancels(method, functional, l) for l in range(tableau.size)):
         return True
-    functionals = [Functional(weights)]
     largest = max(space.stages for space in tableau.spaces)
-    orders = range(1, 2 * largest + 1)
     try:
-        failure = _failure(tableau, functionals, orders, tolerance)
+        failure = first_failure(method, [functional], range(1, 2 * largest + 1))
     except Undecided:
         return None
     return None if failure is None else False
 
 
-def _of_equal_stages(tableau: Tableau, l: int, weights: Vector, near: fmpq) -> list[Number]:
-    """The weights of a colour, those of stages that evaluate at the same place together."""
+def _cancels(method: AnyTableau, functional: Functional, l: int) -> bool:
+    """Whether the weights of a colour cancel at stages that evaluate at the same place."""
+    tableau, t = printed(method), tolerance_of(method) or ZERO
     k = tableau.colours[l].space
     blocks = [block for (j, _), block in tableau.blocks.items() if j == k]
+    assert functional.terms is not None
     places: list[Vector] = []
-    sums: list[Number] = []
-    for i, weight in enumerate(weights):
+    sums: list[tuple[Number, Number]] = []
+    for i, parts in enumerate(zip(functional.weights[l], functional.terms[l], strict=True)):
         row = tuple(x for block in blocks for x in block[i])
         for number, place in enumerate(places):
-            pairs = zip(place, row, strict=True)
-            if all(within(x - y, near) for x, y in pairs):
-                sums[number] = sums[number] + weight
+            if all(are_alike(x, y, t) for x, y in zip(place, row, strict=True)):
+                weight, terms = sums[number]
+                sums[number] = weight + parts[0], terms + parts[1]
                 break
         else:
             places.append(row)
-            sums.append(weight)
-    return sums
+            sums.append(parts)
+    return all(within(weight, t * fmpq(str(terms))) for weight, terms in sums)

@@ -15,9 +15,9 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.order.certificate import StageSpans
 from garkcli.order.constants import ErrorConstants, estimate_constants
-from garkcli.order.functionals import Functional, Undecided, first_failure, first_failure_within
+from garkcli.order.functionals import Functional, Undecided, first_failure
 from garkcli.tableau.embedded import Weights, with_weights
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.meant import AnyTableau, printed
 
 
 @dataclass(frozen=True)
@@ -54,37 +54,34 @@ class Orders:
 
 
 def estimator(
-    tableau: Tableau,
-    embedded: Weights,
-    orders: Orders,
-    tolerance: fmpq | None = None,
-    spans: StageSpans | None = None,
+    method: AnyTableau, embedded: Weights, orders: Orders, spans: StageSpans | None = None
 ) -> Estimator:
     """The estimate that embedded weights give.
 
     Args:
-        tableau: the method.
+        method: the tableau, with its rounding where it is rounded, which the estimate has to
+            exceed.
         embedded: a row of weights a colour.
         orders: of both rows of weights.
-        tolerance: the rounding of the coefficients, which the estimate has to exceed; None for
-            exact ones.
         spans: of the stage vectors, where some are known.
     """
-    rows = []
+    tableau = printed(method)
+    rows, terms = [], []
     for colour, row in zip(tableau.colours, embedded, strict=True):
-        pairs = zip(colour.b, row, strict=True)
+        pairs = list(zip(colour.b, row, strict=True))
         rows.append(tuple(b - other for b, other in pairs))
+        terms.append(tuple(fmpq(bool(b) + bool(other)) for b, other in pairs))
     sums = tuple(_sum(row) for row in rows)
     if not any(x for row in rows for x in row):
         return Estimator(sums, None, None, is_zero=True)
     difference = with_weights(tableau, tuple(rows))
     order: int | None = orders.least + 1
     if not orders.differ:
-        order = _leading(difference, orders, tolerance, spans)
+        larger = range(orders.least + 1, orders.limit + 1)
+        order = _leading(method, Functional(tuple(rows), terms=tuple(terms)), larger, spans)
     constants = None
     if order is not None:
-        is_rounded = tolerance is not None
-        constants = estimate_constants(difference, order, is_rounded)
+        constants = estimate_constants(difference, order, is_rounded=method is not tableau)
     return Estimator(sums, order, constants, is_zero=False)
 
 
@@ -93,17 +90,11 @@ def _sum(row: Vector) -> Number:
 
 
 def _leading(
-    difference: Tableau, orders: Orders, tolerance: fmpq | None, spans: StageSpans | None
+    method: AnyTableau, difference: Functional, orders: range, spans: StageSpans | None
 ) -> int | None:
     """The first order of trees at which the estimate does not vanish."""
-    weights = tuple(colour.b for colour in difference.colours)
-    functionals = [Functional(weights)]
-    larger = range(orders.least + 1, orders.limit + 1)
-    if tolerance is None:
-        failure = first_failure(difference, functionals, larger, spans)
-    else:
-        try:
-            failure = first_failure_within(difference, functionals, larger, tolerance)
-        except Undecided:
-            return None
+    try:
+        failure = first_failure(method, [difference], orders, spans)
+    except Undecided:
+        return None
     return None if failure is None else failure.witness.tree.order

@@ -4,27 +4,26 @@ A functional is a row of weights a colour. At one order, or at none, its element
 be those of the exact solution, 1/γ(u), and at all others they should vanish: of the difference of
 two rows of weights, of the coefficients of one power of θ in dense output, of a slope. As with b
 that is a condition on all trees of an order at once, decided on the spanning ones
-(``order.certificate``), and within a tolerance on all trees, in balls.
+(``order.certificate``), and of rounded coefficients on all trees (``order.rounded``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from flint import arb, ctx, fmpq
+from flint import fmpq
 
 from garkcli.exact.matrix import dot
 from garkcli.order.certificate import StageSpans, Witness
-from garkcli.order.conditions import coupling_graph, elementary_weight
-from garkcli.order.residuals import TreeResiduals
-from garkcli.order.rounded import GUARD
-from garkcli.order.tolerance import within
-from garkcli.tableau.embedded import Weights, with_weights
-from garkcli.tableau.enclosing import enclose_tableau
+from garkcli.tableau.embedded import Weights
+from garkcli.tableau.meant import AnyTableau
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.tree import Tree
+
+if TYPE_CHECKING:
+    from garkcli.tableau.rounded import RoundedTableau
 
 MOST_TREES = 50_000
 """Most trees of an order whose weights are enclosed one by one."""
@@ -38,10 +37,13 @@ class Functional:
         weights: a row a colour.
         exact_at: the order at which their elementary weights should be 1/γ(u); at all others, and
             everywhere where it is None, they should be zero.
+        terms: of how many coefficients that are not 0 each weight is the sum: it is rounded by so
+            many times their rounding. None where each is one coefficient.
     """
 
     weights: Weights
     exact_at: int | None = None
+    terms: Weights | None = None
 
     def required(self, tree: Tree) -> fmpq:
         """What the elementary weight of a tree should be."""
@@ -69,19 +71,40 @@ class Undecided(Exception):
 
 
 def first_failure(
-    tableau: Tableau,
+    method: AnyTableau,
     functionals: Sequence[Functional],
     orders: Iterable[int],
     spans: StageSpans | None = None,
 ) -> Failure | None:
-    """The first condition that is not met exactly, order by order; None where all are.
+    """The first condition that is not met, exactly or as far as rounding explains, order by order;
+    None where all are.
 
     Args:
-        tableau: whose stages they are at.
+        method: whose stages they are at.
         functionals: each is held against every tree.
         orders: of the trees.
         spans: of the stage vectors, where some are known.
+
+    Raises:
+        Undecided: of a rounded method an order has more than ``MOST_TREES`` trees, and not all of
+            its conditions are met exactly.
     """
+    if isinstance(method, Tableau):
+        return _first_exact(method, functionals, orders, spans)
+    remaining = list(orders)
+    exact = _first_exact(method.tableau, functionals, remaining, spans)
+    if exact is None:
+        return None
+    first = exact.witness.tree.order
+    return _first_within(method, functionals, [n for n in remaining if n >= first])
+
+
+def _first_exact(
+    tableau: Tableau,
+    functionals: Sequence[Functional],
+    orders: Iterable[int],
+    spans: StageSpans | None,
+) -> Failure | None:
     spans = spans or StageSpans(tableau)
     for order in orders:
         for l in range(tableau.size):
@@ -98,60 +121,20 @@ def first_failure(
     return None
 
 
-def first_failure_within(
-    tableau: Tableau, functionals: Sequence[Functional], orders: Iterable[int], tolerance: fmpq
+def _first_within(
+    method: RoundedTableau, functionals: Sequence[Functional], orders: Iterable[int]
 ) -> Failure | None:
-    """The first condition that is missed by more than a tolerance t > 0.
+    from garkcli.order.rounded import Conditions  # balls, which exact methods do without
 
-    Raises:
-        Undecided: an order has more than ``MOST_TREES`` trees, and not all of its conditions are
-            met exactly.
-    """
-    remaining = list(orders)
-    exact = first_failure(tableau, functionals, remaining)
-    if exact is None:
-        return None
-    judges = [_Judge(tableau, x, tolerance) for x in functionals]
-    edges, linear = coupling_graph(tableau)
-    admissible = Admissible.of(tableau.size, edges, linear)
-    for order in remaining:
-        if order < exact.witness.tree.order:
-            continue
-        if sum(counts_upto(admissible, order)[-1]) > MOST_TREES:
-            raise Undecided(order)
-        for number, judge in enumerate(judges):
-            witness = judge.failure(order)
-            if witness is not None:
-                return Failure(number, witness)
+    judges = []
+    for functional in functionals:
+        rounded = method.with_weights(functional.weights, functional.terms)
+        judges.append(Conditions(rounded, MOST_TREES))
+    for order in orders:
+        for number, (judge, functional) in enumerate(zip(judges, functionals, strict=True)):
+            verdict = judge.of(order, functional.share(order))
+            if verdict is None:
+                raise Undecided(order)
+            if verdict.witness is not None:
+                return Failure(number, verdict.witness)
     return None
-
-
-class _Judge:
-    """One functional, all trees of an order at a time."""
-
-    def __init__(self, tableau: Tableau, functional: Functional, tolerance: fmpq) -> None:
-        self.tableau = with_weights(tableau, functional.weights)
-        self.functional = functional
-        self.tolerance = tolerance
-        below = int(tolerance.q.bit_length()) - int(tolerance.p.bit_length())
-        self.bits = GUARD + max(below + 1, 0)
-        enclosure = enclose_tableau(self.tableau, self.bits)
-        self.residuals = TreeResiduals(self.tableau, enclosure)
-
-    def failure(self, order: int) -> Witness | None:
-        """A tree whose weight is off by more than the tolerance."""
-        with ctx.workprec(self.bits):
-            limit = arb(self.tolerance)
-        share = self.functional.share(order)
-        sizes = self.residuals.sizes(order, limit, share)
-        if sizes.largest is not None and sizes.reached > limit:
-            return self._witness(sizes.largest)
-        for tree in sizes.doubtful:
-            witness = self._witness(tree)
-            if not within(witness.residual, self.tolerance):
-                return witness
-        return None
-
-    def _witness(self, tree: Tree) -> Witness:
-        weight = elementary_weight(self.tableau, tree)
-        return Witness(tree, weight, self.functional.required(tree))

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from flint import fmpq
-
-from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
+from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import count_by_root
 from garkcli.trees.tree import Tree
@@ -21,12 +19,13 @@ def count_conditions(tableau: Tableau, order: int) -> int:
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
-def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[Condition]:
+def all_conditions(method: AnyTableau, order: int) -> Iterator[Condition]:
     """Every condition of ``order``, its value exact, with the twins of its root: identical ones
     come once.
     """
+    tableau = printed(method)
     twins = twin_roots(tableau)
-    for condition in conditions(tableau, admissible_trees(tableau, order), tolerance):
+    for condition in conditions(method, admissible_trees(tableau, order)):
         others = twins[condition.tree.root][1:]
         yield replace(condition, twins=others)
 

@@ -6,9 +6,8 @@ print.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
 
 from flint import fmpq
 
@@ -16,9 +15,9 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
-from garkcli.order.certificate import find_order
 from garkcli.order.conditions import Condition, conditions
-from garkcli.order.tolerance import within
+from garkcli.order.deciding import order_of
+from garkcli.tableau.meant import AnyTableau, derived, meant, printed
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
@@ -31,8 +30,6 @@ FEW_CHECKED = 20
 """So many failing conditions are looked at before the order is found."""
 NEWTON_STEPS = 3
 """Steps of the simplified Newton's method; each squares a small misprint, nearly."""
-Derive: TypeAlias = Callable[[Tableau], Tableau]
-"""What is made of a method, such as its conjugate."""
 
 
 @dataclass(frozen=True)
@@ -66,17 +63,36 @@ class Missed:
         order: the first failing order.
         claimed: the order that was meant.
         of: what claims it, as it is called in a file.
-        derive: from the method to the tableau that it is claimed of.
-        tolerance: conditions fail beyond it.
-        near: within it they are restored: more than ``tolerance`` where coefficients are rounded.
+        which: ``conjugate`` or ``pair`` where it is claimed of that; empty for the method.
+        tolerance: the rounding of the coefficients; conditions fail beyond what it explains.
+        near: the rounding with which they are restored: more than ``tolerance`` where coefficients
+            are rounded, as the entry that is changed carries the rounding of all others.
     """
 
     order: int
     claimed: int
     of: str = "order"
-    derive: Derive = lambda tableau: tableau
+    which: str = ""
     tolerance: fmpq = ZERO
     near: fmpq = ZERO
+
+    def judged(self, method: Tableau) -> AnyTableau:
+        """What the order is claimed of, as its conditions fail.
+
+        Raises:
+            ZeroWeight: there is no such thing.
+        """
+        return derived(meant(method, self.tolerance), self.which)
+
+    def restored(self, method: Tableau) -> AnyTableau | None:
+        """The same, as its conditions are restored; None where there is no such thing, or rounding
+        may leave none.
+        """
+        try:
+            made = derived(meant(method, self.near), self.which)
+        except ZeroWeight:
+            return None
+        return made if isinstance(made, Tableau) or not made.obstacle else None
 
 
 def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:
@@ -97,11 +113,11 @@ def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterat
         new = _solution(method, missed, place, solved)
         if new is None:
             continue
-        changed = _derived(missed, place.put(method, new))
+        changed = missed.restored(place.put(method, new))
         if changed is None:
             continue
         few = failing[:FEW_CHECKED]
-        if _holds(changed, few, missed.near) and _is_restored(changed, missed):
+        if _holds(changed, few) and order_of(changed, missed.claimed).order >= missed.claimed:
             l, m = place.l, place.m
             i, j = place.i, place.j
             yield Repair(l, m, i, j, place.old, new)
@@ -129,20 +145,10 @@ def _size(number: Number) -> float:
     return float(abs(to_ball(number, 20)))
 
 
-def _holds(tableau: Tableau, failing: Sequence[Condition], near: fmpq) -> bool:
+def _holds(method: AnyTableau, failing: Sequence[Condition]) -> bool:
     """Whether some conditions hold that failed: that takes less than finding the order."""
     trees = [condition.tree for condition in failing]
-    found = conditions(tableau, trees)
-    return all(within(condition.residual, near) for condition in found)
-
-
-def _is_restored(tableau: Tableau, missed: Missed) -> bool:
-    if not missed.near:
-        return find_order(tableau, missed.claimed).order >= missed.claimed
-    from garkcli.order.rounded import find_order_within
-
-    found = find_order_within(tableau, missed.near, missed.claimed)
-    return found.order >= missed.claimed
+    return all(condition.holds for condition in conditions(method, trees))
 
 
 @dataclass(frozen=True)
@@ -245,18 +251,10 @@ def _refined(
 
 def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
     """The elementary weights of some trees; None where the changed method has none."""
-    tableau = _derived(missed, method)
-    if tableau is None:
+    made = missed.restored(method)
+    if made is None:
         return None
-    return [condition.value for condition in conditions(tableau, trees)]
-
-
-def _derived(missed: Missed, method: Tableau) -> Tableau | None:
-    """What is claimed of; None where the changed method has none."""
-    try:
-        return missed.derive(method)
-    except ZeroWeight:
-        return None
+    return [condition.value for condition in conditions(printed(made), trees)]
 
 
 def _with_entry(tableau: Tableau, key: Edge, i: int, j: int, value: Number) -> Tableau:

@@ -25,11 +25,8 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.trees.columns import Segment
 from garkcli.trees.count import Admissible
 from garkcli.trees.table import TreeTable
-from garkcli.trees.tree import Tree
 
 Row: TypeAlias = list[arb]
-_Residual: TypeAlias = tuple[arb, int]
-"""|b_lᵀ 𝒜^[u] − 1/γ(u)|, and the id of u."""
 _Nature: TypeAlias = tuple[int, bool]
 """Stage space of a colour, and whether it is linear."""
 
@@ -40,17 +37,11 @@ class Sizes:
 
     Attributes:
         bound: no |residual| of the order is larger.
-        reached: the |residual| of ``largest``.
-        largest: a tree whose |residual| is the largest, or nearly so; one that surely exceeds the
-            tolerance where there is one. None where no residual differs from zero by more than the
-            enclosures do.
-        doubtful: trees whose ball leaves open whether they are within the tolerance.
+        reached: the largest |residual| that is known of a tree.
     """
 
     bound: arb
     reached: arb
-    largest: Tree | None
-    doubtful: tuple[Tree, ...] = ()
 
 
 class TreeResiduals:
@@ -78,44 +69,34 @@ class TreeResiduals:
             self._vectors[1, nature] = [one]
         self._applied: dict[tuple[int, int, int], arb_mat] = {}
 
-    def sizes(self, order: int, tolerance: arb | None = None, share: int = 1) -> Sizes:
-        """Bounds on all |residuals| of an order; ``tolerance`` tells which trees are doubtful.
-
-        With ``share`` 0 it is the elementary weights themselves that are bounded.
-        """
+    def sizes(self, order: int) -> Sizes:
+        """Bounds on all |residuals| of an order."""
         bound = reached = arb(0)
-        largest: int | None = None
-        doubtful: list[int] = []
-        failed = False
-        with ctx.workprec(self.enclosure.bits):
-            table = TreeTable.of(self._admissible, order)
-            for size, tree_id in self._residuals(table, order, share):
-                if not size < reached:
-                    bound = bound.max(size)
-                fails = tolerance is not None and size > tolerance
-                is_first_failure = fails and not failed
-                is_larger = size > reached and fails == failed
-                if is_first_failure or is_larger:
-                    reached = size
-                    largest = tree_id
-                    failed = fails
-                if tolerance is None or fails:
-                    continue
-                if not size <= tolerance:
-                    doubtful.append(tree_id)
-            worst = None if largest is None else table.tree(largest)
-            trees = tuple(table.tree(u) for u in doubtful)
-            return Sizes(bound.abs_upper(), reached, worst, trees)
+        for residual, _, _ in self.of(order):
+            size = abs(residual)
+            bound = bound.max(size)
+            if size > reached:
+                reached = size
+        return Sizes(bound.abs_upper(), reached)
 
-    def _residuals(self, table: TreeTable, order: int, share: int) -> Iterator[_Residual]:
-        """|b_lᵀ 𝒜^[u] − share/γ(u)| and the id, for the roots that differ in more than their
-        colour.
+    def table(self, order: int) -> TreeTable:
+        """The table whose ids ``of`` gives."""
+        return TreeTable.of(self._admissible, order)
+
+    def of(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
+        """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order, for
+        the roots that differ in more than their colour.
         """
+        with ctx.workprec(self.enclosure.bits):
+            return list(self._residuals(self.table(order), order, share))
+
+    def _residuals(
+        self, table: TreeTable, order: int, share: int
+    ) -> Iterator[tuple[arb, arb, int]]:
         if order == 1:
             for l in self._roots:
                 weights = self.enclosure.b[l].entries()
-                residual = sum(weights, arb(-share))
-                yield abs(residual), l
+                yield sum(weights, arb(-share)), arb(share), l
             return
         required: dict[int, arb] = {}
         for segment in table.segments:
@@ -131,8 +112,7 @@ class TreeResiduals:
             for i, u, gamma in trees:
                 if gamma not in required:
                     required[gamma] = share / arb(gamma)
-                residual = values[i] - required[gamma]
-                yield abs(residual), u
+                yield values[i] - required[gamma], required[gamma], u
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:
         """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""

@@ -1,15 +1,16 @@
 """The order within a tolerance, of tableaus whose coefficients are rounded.
 
-A condition is met when |b_lᵀ 𝒜^[u] − 1/γ(u)| ≤ t. That is decided by proof, never by floats:
-exactly as far as the conditions hold exactly, then by all trees of an order in ball arithmetic, or
-by bounds from approximate spans where the trees are too many. A residual whose ball holds t is
-evaluated exactly; one that equals t counts as met.
+A condition is met within t when its residual |b_lᵀ 𝒜^[u] − 1/γ(u)| is no larger than rounding every
+coefficient by t can make it, ``order.effects``. It fails when it is larger: then every method
+within t misses it. That is decided by proof, never by floats: exactly as far as the conditions hold
+exactly, then tree by tree in ball arithmetic, or for all trees at once by bounds from approximate
+spans where the trees are too many.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias
 
@@ -20,10 +21,11 @@ from garkcli.exact.display import decimal, to_ball
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
 from garkcli.order.conditions import coupling_graph, elementary_weight
+from garkcli.order.effects import Effects
 from garkcli.order.residuals import TreeResiduals
-from garkcli.order.tolerance import rounded_up, unnatural, within
+from garkcli.order.tolerance import within
 from garkcli.tableau.enclosing import enclose_tableau
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.rounded import RoundedTableau, Row
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.tree import Tree
 
@@ -31,36 +33,18 @@ FEW_TREES = 20_000
 """Up to so many trees an order is decided by listing them; beyond, spans are tried first."""
 MOST_TREES = 500_000
 """Beyond so many trees of an order they are not listed at all."""
-FEW_DOUBTS = 64
-"""So many residuals near the tolerance are evaluated exactly; more of them, in finer balls
-first.
-"""
-MOST_BITS = 8192
-"""The finest balls; what they leave in doubt is evaluated exactly however much there is."""
-GUARD = 96
-"""Bits beyond those of the tolerance that balls begin with."""
-GRAIN = 64
-"""Spans count what is shorter than this part of the tolerance as an error."""
+FEW_DOUBTS = 200
+"""So many residuals are held against what rounding can do one by one."""
+
+TOO_MANY = "there are too many trees to decide"
 
 Means: TypeAlias = Literal["exact", "trees", "spans"]
 """How an order was decided: conditions hold exactly; every tree was evaluated; by bounds on all
 trees.
 """
-Effect: TypeAlias = Callable[[int], "arb | None"]
-"""What rounding does to the residuals of an order at most; None where nothing is known of that."""
 
-
-@dataclass(frozen=True, eq=False)
-class Doubt:
-    """Why an order is left open: its residuals miss the tolerance, and rounding may be the cause.
-
-    Attributes:
-        reached: the |residual| that misses it.
-        effect: how large rounding may make residuals of this order; None where without bound.
-    """
-
-    reached: arb
-    effect: arb | None
+_Doubt: TypeAlias = tuple[arb, arb, int]
+"""The |residual| and the residual of a tree, and its id."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -69,28 +53,26 @@ class RoundedOrder:
 
     Attributes:
         order: the largest such order, a lower bound where there is no witness.
-        tolerance: t ≥ 0; where rounding of the coefficients explains more, what was needed of that.
-        witness: a tree of the next order with |residual| > t; its value is exact.
-        undecided: whether the next order was too much to decide; otherwise a search without witness
+        tolerance: t > 0, the rounding of the coefficients.
+        witness: a tree of the next order whose residual is larger than rounding can make it; its
+            value is exact.
+        undecided: why the next order is not decided; empty where it is, or where the search
             stopped at its limit.
         sizes: for each order 1, 2, … that was decided a bound on all |residuals|; for the order
             that fails, the |residual| of the witness.
         means: what decided each of these orders.
-        doubt: why the next order is not decided within the tolerance, where that is so.
     """
 
     order: int
     tolerance: fmpq
     witness: Witness | None
-    undecided: bool = False
+    undecided: str = ""
     sizes: tuple[arb, ...] = field(default=(), compare=False)
     means: tuple[Means, ...] = ()
-    doubt: Doubt | None = field(default=None, compare=False)
 
     def __repr__(self) -> str:
         least = "at least " if self.is_lower_bound else ""
-        tolerance = decimal(self.tolerance)
-        return f"<RoundedOrder {least}{self.order} within {tolerance}>"
+        return f"<RoundedOrder {least}{self.order} within {decimal(self.tolerance)}>"
 
     @property
     def is_lower_bound(self) -> bool:
@@ -107,155 +89,170 @@ class RoundedOrder:
 
 
 @doing("order within the tolerance")
-def find_order_within(
-    tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT, effect: Effect | None = None
-) -> RoundedOrder:
-    """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within ``tolerance``.
-
-    With an ``effect``, residuals of order n that exceed the tolerance t are met within
-    t + effect(n) instead, as far as that is too small for a genuine residual, ``unnatural``; beyond
-    that they are left open. They fail where they exceed it, as rounding does not explain them.
+def find_order_within(rounded: RoundedTableau, limit: int = DEFAULT_LIMIT) -> RoundedOrder:
+    """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within the rounding.
 
     Args:
-        tableau: any tableau; its coupling graph decides which trees count.
-        tolerance: t ≥ 0; with 0 this is ``find_order``.
+        rounded: a tableau with its radii; its coupling graph decides which trees count.
         limit: the order at which to stop.
-        effect: for a tableau that is computed from rounded coefficients, what that does.
     """
-    exact = find_order(tableau, limit)
-    verdicts = [_Verdict("exact", arb(0))] * exact.order
-    if exact.witness is not None:
-        decision = _Decision(tableau, tolerance, effect)
-        verdicts.append(decision.first(exact.witness))
-        while verdicts[-1].is_met and len(verdicts) < limit:
-            order = len(verdicts) + 1
-            verdicts.append(decision.of(order))
-    decided = [verdict for verdict in verdicts if verdict.size is not None]
-    met = [verdict for verdict in verdicts if verdict.is_met]
-    wider = [verdict.tolerance for verdict in met if verdict.tolerance is not None]
-    last = verdicts[-1] if verdicts else None
+    exact = find_order(rounded.tableau, limit)
+    verdicts = [Verdict(arb(0), "exact")] * exact.order
+    if exact.witness is None or rounded.obstacle:
+        return _outcome(rounded, verdicts, rounded.obstacle)
+    search = Conditions(rounded)
+    if search.fails(exact.witness):
+        return _outcome(rounded, [*verdicts, Verdict(arb(0), "exact", exact.witness)])
+    while len(verdicts) < limit:
+        verdict = search.of(len(verdicts) + 1)
+        if verdict is None:
+            return _outcome(rounded, verdicts, TOO_MANY)
+        verdicts.append(verdict)
+        if verdict.witness is not None:
+            break
+    return _outcome(rounded, verdicts)
+
+
+def _outcome(
+    rounded: RoundedTableau, verdicts: Sequence[Verdict], undecided: str = ""
+) -> RoundedOrder:
+    met = [x.size for x in verdicts if x.witness is None]
+    failing = [x.witness for x in verdicts if x.witness is not None]
     return RoundedOrder(
-        order=len(met),
-        tolerance=max(wider, default=tolerance),
-        witness=last.witness if last else None,
-        undecided=len(decided) < len(verdicts),
-        sizes=tuple(verdict.size for verdict in decided if verdict.size is not None),
-        means=tuple(verdict.means for verdict in decided),
-        doubt=last.doubt if last else None,
+        len(met),
+        rounded.tolerance,
+        failing[0] if failing else None,
+        undecided,
+        (*met, *(abs(to_ball(x.residual)) for x in failing)),
+        tuple(x.means for x in verdicts),
     )
 
 
 @dataclass(frozen=True, eq=False)
-class _Verdict:
-    """What became of one order: met with ``size`` a bound, failed with a witness, or undecided:
-    neither.
-
-    ``tolerance`` is what it is met within, where that is more than was asked for.
+class Verdict:
+    """What became of the conditions of an order: ``size`` bounds all |residuals| where they are
+    met; otherwise there is a witness.
     """
 
+    size: arb
     means: Means
-    size: arb | None = None
     witness: Witness | None = None
-    tolerance: fmpq | None = None
-    doubt: Doubt | None = None
-
-    @property
-    def is_met(self) -> bool:
-        return self.size is not None and self.witness is None
 
 
-class _Decision:
-    """One order after the other of one tableau, with one tolerance > 0."""
+class Conditions:
+    """The conditions b_lᵀ 𝒜^[u] = share/γ(u) of one rounded tableau, an order at a time.
 
-    def __init__(self, tableau: Tableau, tolerance: fmpq, effect: Effect | None) -> None:
-        self.tableau = tableau
-        self.tolerance = tolerance
-        self.effect = effect
-        # the tolerance is at least 2 to the power of minus this
-        numerator, denominator = tolerance.p, tolerance.q
-        bits_above = int(numerator.bit_length())
-        bits_below = int(denominator.bit_length())
-        self.magnitude = bits_below - bits_above + 1
-        self.bits = GUARD + max(self.magnitude, 0)
-        self.admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+    Args:
+        rounded: the tableau with its radii.
+        most: beyond so many trees of an order they are not listed.
+    """
 
-    def first(self, witness: Witness) -> _Verdict:
-        """The first order that fails exactly; no tree is listed where its witness shows enough."""
-        order = witness.tree.order
-        if within(witness.residual, self.tolerance):
-            return self.of(order)
-        return self._explained(order, _failed("exact", witness))
-
-    def of(self, order: int) -> _Verdict:
-        """One order, within the tolerance and what rounding explains."""
-        return self._explained(order, self._decided(order, self.tolerance))
-
-    def _explained(self, order: int, verdict: _Verdict) -> _Verdict:
-        """What is left of a failure once rounding is known."""
-        if self.effect is None or verdict.witness is None or verdict.size is None:
-            return verdict
-        effect = self.effect(order)
-        doubtful = _Verdict(verdict.means, doubt=Doubt(verdict.size, effect))
-        if effect is None:
-            return doubtful
-        tolerance = self.tolerance + rounded_up(effect)
-        if not within(verdict.witness.residual, tolerance):
-            return verdict
-        if tolerance > unnatural(order):
-            return doubtful
-        return replace(self._decided(order, tolerance), tolerance=tolerance)
+    def __init__(self, rounded: RoundedTableau, most: int = MOST_TREES) -> None:
+        self.rounded = rounded
+        self.most = most
+        self.admissible = Admissible.of(rounded.tableau.size, *coupling_graph(rounded.tableau))
 
     @cached_property
-    def trees(self) -> TreeResiduals:
-        return TreeResiduals(self.tableau, enclose_tableau(self.tableau, self.bits))
+    def effects(self) -> Effects:
+        return Effects(self.rounded)
+
+    @cached_property
+    def residuals(self) -> TreeResiduals:
+        return TreeResiduals(self.rounded.tableau, self.rounded.enclosure)
+
+    @cached_property
+    def corner(self) -> TreeResiduals:
+        return TreeResiduals(self.rounded.tableau, self.rounded.corner)
 
     @cached_property
     def spans(self) -> ApproximateSpans:
-        # each member as short as the grain costs bits
-        bits = GUARD + 6 * max(self.magnitude, 8)
-        enclosure = enclose_tableau(self.tableau, bits)
-        grain = arb(self.tolerance) / GRAIN
-        return ApproximateSpans(self.tableau, enclosure, grain)
+        # members as short as the tolerance cost bits
+        enclosure = enclose_tableau(self.rounded.tableau, 6 * self.rounded.bits)
+        grain = arb(self.rounded.tolerance)
+        return ApproximateSpans(self.rounded.tableau, enclosure, grain)
 
-    def _decided(self, order: int, tolerance: fmpq) -> _Verdict:
-        """One order within any tolerance that is not smaller than the one asked for."""
+    def fails(self, witness: Witness) -> bool:
+        """Whether rounding does not explain the residual of a tree."""
+        return not within(witness.residual, self.effects.bound(witness.tree))
+
+    def of(self, order: int, share: int = 1) -> Verdict | None:
+        """All conditions of an order; None where there are too many trees to decide."""
         count = sum(counts_upto(self.admissible, order)[-1])
-        if count > FEW_TREES:
-            verdict = self._by_spans(order, tolerance)
-            if verdict.size is not None or count > MOST_TREES:
+        if count > FEW_TREES and share:
+            verdict = self._by_spans(order)
+            if verdict is not None:
                 return verdict
-        return self._by_trees(order, tolerance)
+        return None if count > self.most else self._by_trees(order, share)
 
-    def _by_spans(self, order: int, tolerance: fmpq) -> _Verdict:
-        sizes = self.spans.sizes(order)
-        with ctx.workprec(self.bits):
-            limit = arb(tolerance)
-            if sizes.bound <= limit:
-                return _Verdict("spans", sizes.bound)
-            if sizes.largest is not None and sizes.reached > limit:
-                return _failed("spans", self._witness(sizes.largest))
-        return _Verdict("spans")
+    def _least_effect(self, order: int) -> arb:
+        """For each tree of an order its weight |b_lᵀ 𝒜^[u]|, times this, changes by no less.
 
-    def _by_trees(self, order: int, tolerance: fmpq) -> _Verdict:
-        with ctx.workprec(self.bits):
-            limit = arb(tolerance)
-        sizes = self.trees.sizes(order, limit)
-        if sizes.largest is not None and sizes.reached > limit:
-            return _failed("trees", self._witness(sizes.largest))
-        if len(sizes.doubtful) > FEW_DOUBTS and self.bits < MOST_BITS:
-            self.bits *= 2
-            del self.trees
-            return self._by_trees(order, tolerance)
-        for tree in sizes.doubtful:
-            witness = self._witness(tree)
-            if not within(witness.residual, tolerance):
-                return _failed("trees", witness)
-        return _Verdict("trees", sizes.bound)
+        The derivatives of the weight, each times its coefficient, sum to the weight over all
+        weights b and to as much again for each edge of the tree over all blocks.
+        """
+        rounded = self.rounded
+        weights = [
+            (x.entries(), off) for x, off in zip(rounded.enclosure.b, rounded.b, strict=True)
+        ]
+        blocks = [
+            (rounded.enclosure.A[key].entries(), [x for row in rows for x in row])
+            for key, rows in rounded.A.items()
+        ]
+        return _least_ratio(weights) + (order - 1) * _least_ratio(blocks)
 
-    def _witness(self, tree: Tree) -> Witness:
-        weight = elementary_weight(self.tableau, tree)
-        return Witness(tree, weight, fmpq(1, tree.density))
+    def _by_trees(self, order: int, share: int) -> Verdict:
+        bound = arb(0)
+        with ctx.workprec(self.rounded.bits):
+            least = self._least_effect(order)
+            doubtful: list[_Doubt] = []
+            for residual, required, tree_id in self.residuals.of(order, share):
+                size = abs(residual)
+                bound = bound.max(size)
+                if not size <= least * (required - size):
+                    doubtful.append((size, residual, tree_id))
+            if len(doubtful) > FEW_DOUBTS:
+                doubtful = self._left_by_a_corner(doubtful, order, share)
+        doubtful.sort(key=lambda x: float(x[0].mid()), reverse=True)
+        table = self.residuals.table(order)
+        witness = self._first_failing(((size, table.tree(u)) for size, _, u in doubtful), share)
+        return Verdict(bound.abs_upper(), "trees", witness)
+
+    def _left_by_a_corner(self, doubtful: Sequence[_Doubt], order: int, share: int) -> list[_Doubt]:
+        """Those whose residuals one method of the box does not explain: the one with the largest
+        coefficients, whose residuals differ by no more than any rounding can make them.
+        """
+        moved = {u: residual for residual, _, u in self.corner.of(order, share)}
+        return [x for x in doubtful if not x[0] <= abs(moved[x[2]] - x[1])]
+
+    def _by_spans(self, order: int) -> Verdict | None:
+        """The conditions of an order where a bound on all decides, or one tree that fails."""
+        hulls = self.spans.sizes(order)
+        with ctx.workprec(self.rounded.bits):
+            # no residual is a larger part of the weight that is required
+            part = hulls.bound * order
+            if part <= self._least_effect(order) * (1 - part):
+                return Verdict(hulls.bound, "spans")
+        witness = self._first_failing(hulls.members, 1)
+        return None if witness is None else Verdict(hulls.bound, "spans", witness)
+
+    def _first_failing(self, trees: Iterable[tuple[arb, Tree]], share: int) -> Witness | None:
+        """The first tree whose |residual|, in a ball beside it, rounding does not explain."""
+        for size, tree in trees:
+            if size <= self.effects.effect(tree):
+                continue
+            weight = elementary_weight(self.rounded.tableau, tree)
+            witness = Witness(tree, weight, fmpq(share, tree.density))
+            if self.fails(witness):
+                return witness
+        return None
 
 
-def _failed(means: Means, witness: Witness) -> _Verdict:
-    return _Verdict(means, abs(to_ball(witness.residual)), witness)
+def _least_ratio(parts: Sequence[tuple[Row, Row]]) -> arb:
+    """The least radius, each in units of its coefficient, of those that are not 0."""
+    least: arb | None = None
+    for entries, radii in parts:
+        for x, radius in zip(entries, radii, strict=True):
+            if not x.is_zero():
+                ratio = (radius / x.abs_upper()).abs_lower()
+                least = ratio if least is None else least.min(ratio)
+    return arb(0) if least is None else least

@@ -7,17 +7,16 @@ themselves.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TypeAlias
-
-from flint import fmpq
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.doing import doing
-from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.defects import Defects
-from garkcli.order.tolerance import functional_within, vector_within, within
+from garkcli.order.defects import defects_of
 from garkcli.tableau.tableau import Edge, Tableau
+
+if TYPE_CHECKING:
+    from garkcli.tableau.meant import AnyTableau
 
 Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"
 """A number for each block; None where the block does not exist."""
@@ -31,11 +30,29 @@ class Simplifying:
         B: r^{l} for each colour.
         C: η^{l,m}; None where the block does not exist.
         D: ζ^{l,m}; None where the block does not exist.
+        limit: where each search stopped: numbers that reached it may be larger.
     """
 
     B: tuple[int, ...]
     C: Table
     D: Table
+    limit: int = field(default=DEFAULT_LIMIT, repr=False, compare=False)
+
+    def is_open(self, number: int) -> bool:
+        """Whether a number that is made of these may be larger, as one reached the limit."""
+        entries = (*self.B, *_existing(self.C), *_existing(self.D))
+        return number >= self.limit and max(entries, default=0) >= self.limit
+
+    @property
+    def stage_orders(self) -> tuple[int, ...]:
+        """For each colour the largest q with B(q) and C(q) for all its stages."""
+        rows = zip(self.B, self.C, strict=True)
+        return tuple(min([r, *(eta for eta in etas if eta is not None)]) for r, etas in rows)
+
+    @property
+    def stage_order(self) -> int:
+        """The largest q with B(q) and C(q)."""
+        return min(self.r, self.eta)
 
     @property
     def r(self) -> int:
@@ -97,79 +114,60 @@ def _existing(table: Table) -> list[int]:
 
 
 @doing("B, C and D")
-def simplifying(
-    tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = ZERO
-) -> Simplifying:
+def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
     """B, C and D of a tableau; each search stops at ``limit``.
 
-    With a ``tolerance`` every entry of every condition is met within it, otherwise exactly.
+    Of a rounded tableau a condition is met where rounding explains every entry of its defect.
     """
-    found = _Search(tableau, limit, tolerance)
-    colours = range(tableau.size)
+    found = _Search(method, limit)
+    colours = range(found.tableau.size)
     B = [found.r(l) for l in colours]
     C = [tuple(found.eta(l, m) for m in colours) for l in colours]
     D = [tuple(found.zeta(l, m) for m in colours) for l in colours]
-    return Simplifying(tuple(B), tuple(C), tuple(D))
+    return Simplifying(tuple(B), tuple(C), tuple(D), limit)
 
 
 class _Search:
     """The largest r, η and ζ of one tableau; colours that are alike are looked at once."""
 
-    def __init__(self, tableau: Tableau, limit: int, tolerance: fmpq) -> None:
-        self.tableau = tableau
+    def __init__(self, method: AnyTableau, limit: int) -> None:
+        self.defects = defects_of(method)
+        self.tableau = self.defects.tableau
         self.limit = limit
-        self.tolerance = tolerance
-        self.defects = Defects(tableau)
-        self.alike = _Alike.of(tableau)
+        self.alike = _Alike.of(self.tableau)
         self._r: dict[int, int] = {}
         self._eta: dict[Edge, int] = {}
         self._zeta: dict[Edge, int] = {}
 
     def r(self, l: int) -> int:
         """The largest r for which B^{l}(r) holds."""
-
-        def is_met(k: int) -> bool:
-            return within(self.defects.B(l, k), self.tolerance)
-
         key = self.alike.weights[l]
         if key not in self._r:
-            self._r[key] = self._largest(is_met)
+            self._r[key] = self._largest(lambda k: self.defects.B(l, k))
         return self._r[key]
 
     def eta(self, l: int, m: int) -> int | None:
         """The largest η for which C^{l,m}(η) holds."""
         if self.tableau.block(l, m) is None:
             return None
-        space = self.tableau.space(l)
-
-        def is_met(k: int) -> bool:
-            defect = self.defects.C(l, m, k)
-            return vector_within(space, defect, self.tolerance)
-
         key = self.alike.nodes[l], m
         if key not in self._eta:
-            self._eta[key] = self._largest(is_met)
+            self._eta[key] = self._largest(lambda k: self.defects.C(l, m, k))
         return self._eta[key]
 
     def zeta(self, l: int, m: int) -> int | None:
         """The largest ζ for which D^{l,m}(ζ) holds."""
         if self.tableau.block(l, m) is None:
             return None
-        space = self.tableau.space(m)
-
-        def is_met(k: int) -> bool:
-            defect = self.defects.D(l, m, k)
-            return functional_within(space, defect, self.tolerance)
-
         key = self.alike.weights[l], m
         if key not in self._zeta:
-            self._zeta[key] = self._largest(is_met)
+            self._zeta[key] = self._largest(lambda k: self.defects.D(l, m, k))
         return self._zeta[key]
 
-    def _largest(self, is_met: Callable[[int], bool]) -> int:
-        """The largest k, up to the limit, before the first that is not met."""
+    def _largest(self, defects: Callable[[int], Any]) -> int:
+        """The largest k, up to the limit, before the first with a defect."""
         for k in range(1, self.limit + 1):
-            if not is_met(k):
+            if not self.defects.vanish(defects(k)):
                 return k - 1
         return self.limit
 
@@ -192,19 +190,18 @@ class _Alike:
         return _Alike(tuple(map(nodes.index, nodes)), tuple(map(weights.index, weights)))
 
 
-def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[Edge, bool]:
-    """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
-    every stage.
+def consistent_blocks(method: AnyTableau) -> dict[Edge, bool]:
+    """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), exactly or as far as
+    rounding lets it be.
     """
-    defects = Defects(tableau)
-    alike = _Alike.of(tableau)
+    defects = defects_of(method)
+    alike = _Alike.of(defects.tableau)
     known: dict[Edge, bool] = {}
     found: dict[Edge, bool] = {}
-    for l, m in tableau.edges():
+    for l, m in defects.tableau.edges():
         key = alike.nodes[l], m
         if key not in known:
-            defect = defects.C(l, m, 1)
-            space = tableau.space(l)
-            known[key] = vector_within(space, defect, tolerance)
+            defect: Any = defects.C(l, m, 1)
+            known[key] = defects.vanish(defect)
         found[l, m] = known[key]
     return found

@@ -13,14 +13,16 @@ from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.blame import blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import coupling_graph
+from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.effects import Effects
 from garkcli.order.listing import count_conditions
-from garkcli.order.propagation import Propagation, printed_rounding
 from garkcli.order.repairs import Missed, Repair
 from garkcli.order.residuals import Sizes, TreeResiduals
-from garkcli.order.rounded import FEW_TREES, RoundedOrder, find_order_within
-from garkcli.order.tolerance import rounded_up, unnatural, within
+from garkcli.order.rounded import FEW_TREES, RoundedOrder
+from garkcli.order.tolerance import unnatural, within
 from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 
@@ -67,8 +69,8 @@ class Misprint:
 
     Attributes:
         order: the order that the method would have.
-        residual: the largest |residual| up to there.
-        explained: how large rounding of the last digits makes residuals at most.
+        residual: a |residual| up to there.
+        explained: how large rounding of the last digits makes it at most.
         repairs: single entries whose change restores the order: one of them is misprinted.
     """
 
@@ -83,9 +85,9 @@ def find_misprint(
 ) -> Misprint | None:
     """Whether the residuals that a tolerance would cover are larger than rounding makes them.
 
-    A coefficient is rounded by one unit of its last place at most, ten where it was computed; what
-    that does to residuals is bounded, ``printed_rounding``. A long fraction may be off by one in
-    its numerator, so there one entry that makes all conditions hold exactly is a misprint, too.
+    A coefficient is off by one unit of its last place at most, ten where it was computed. A long
+    fraction may be off by one in its numerator, so there one entry that makes all conditions hold
+    exactly is a misprint, too.
 
     Args:
         tableau: the method.
@@ -96,28 +98,31 @@ def find_misprint(
     Returns:
         None where rounding explains them.
     """
-    made = printed_rounding(tableau, units)
-    explained = arb(0)
-    for order in range(1, found.order + 1):
-        explained = explained.max(made.effect(order))
-    near = rounded_up(SLACK * explained)
-    is_explained = found.rounding <= near
-    if is_explained:
-        near = ZERO
+    if exact.witness is None:
+        return None
+    wide = {value: SLACK * unit for value, unit in units.items()}
+    rounded = RoundedTableau.printed(tableau, wide)
+    within_digits = order_of(rounded, found.order)
+    is_explained = within_digits.order >= found.order
+    largest = max(units.values(), default=ZERO)
+    near = ZERO if is_explained else SLACK * largest
     # where residuals are largest they depend on the entry most: earlier ones may be its squares
     looked_at = found.worst if near else exact.order + 1
     missed = Missed(looked_at, found.order, tolerance=near, near=near)
-    repairs = _few_repairs(tableau, missed)
-    largest = max(units.values(), default=ZERO)
     visible: list[Repair] = []
-    for repair in repairs:
+    for repair in _few_repairs(tableau, missed):
         unit = largest if is_explained else units.get(repair.old, ZERO)
-        change = repair.new - repair.old
-        if not within(change, SLACK * unit):
+        if not within(repair.new - repair.old, SLACK * unit):
             visible.append(repair)
     if is_explained and not visible:
         return None
-    return Misprint(found.order, found.rounding, explained, tuple(visible))
+    witness = within_digits.witness or exact.witness
+    return Misprint(
+        found.order,
+        abs(to_ball(witness.residual)),
+        Effects(rounded).effect(witness.tree),
+        tuple(visible),
+    )
 
 
 def _few_repairs(tableau: Tableau, missed: Missed) -> tuple[Repair, ...]:
@@ -172,7 +177,7 @@ def suggest_tolerance(
             if sizes.bound > rounding:
                 rounding, worst = sizes.bound, order
         elif order > failing and sizes.reached >= JUMP * rounding:
-            exponent = _exponent(rounding)
+            exponent = enough(tableau, order - 1, rounding)
             return Suggestion(order - 1, exponent, rounding, sizes.reached, worst)
         else:
             return None
@@ -180,40 +185,34 @@ def suggest_tolerance(
 
 
 def suggest_wider(
-    tableau: Tableau, found: RoundedOrder, limit: int = DEFAULT_LIMIT
+    rounded: RoundedTableau,
+    found: AnyOrder,
+    units: Mapping[Number, fmpq],
+    limit: int = DEFAULT_LIMIT,
 ) -> Suggestion | None:
-    """A tolerance that would do where that of the file is too tight for its own rounding.
-
-    Entries that are off by t make residuals of several t. Where the residual that misses t is no
-    larger than that, ``Propagation``, the power of ten that lets it pass is proposed, if residuals
-    jump afterwards.
+    """A tolerance that would do where that of the file is tighter than its own digits.
 
     Args:
-        tableau: the method.
-        found: its order within the tolerance of the file.
+        rounded: the method with the tolerance of the file.
+        found: its order within that.
+        units: by how much each printed value may be off.
         limit: the order at which to stop.
 
     Returns:
-        None where the order fails by more than rounding explains.
+        None where the digits do not explain the order that fails, or residuals do not jump after
+        those that they explain.
     """
-    if found.witness is None:
+    if found.witness is None or max(units.values(), default=ZERO) <= rounded.tolerance:
         return None
-    order = found.order + 1
-    reached = abs(to_ball(found.witness.residual))
-    if not reached <= unnatural(order):
+    wider = order_of(RoundedTableau.printed(rounded.tableau, units), limit)
+    if wider.witness is None or wider.order <= found.order or not isinstance(wider, RoundedOrder):
         return None
-    explained = Propagation(tableau, {}, found.tolerance).effect(order)
-    if not reached <= explained + found.tolerance:
+    genuine, rounding = abs(to_ball(wider.witness.residual)), wider.largest_residual
+    if not genuine >= JUMP * rounding:
         return None
-    first = _exponent(reached)
-    for exponent in range(first, first + 3):
-        wider = find_order_within(tableau, fmpq(10) ** exponent, limit)
-        if wider.witness is None or wider.order < order:
-            return None
-        genuine = abs(to_ball(wider.witness.residual))
-        if genuine >= JUMP * wider.largest_residual:
-            return Suggestion(wider.order, exponent, wider.largest_residual, genuine)
-    return None
+    return Suggestion(
+        wider.order, enough(rounded.tableau, wider.order, rounding), rounding, genuine
+    )
 
 
 def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, Sizes]]:
@@ -228,14 +227,23 @@ def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, S
     admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
     for order in orders:
         few = sum(counts_upto(admissible, order)[-1]) <= FEW_TREES
-        yield order, (trees if few else spans).sizes(order)
+        if few:
+            yield order, trees.sizes(order)
+        else:
+            hulls = spans.sizes(order)
+            yield order, Sizes(hulls.bound, hulls.reached)
 
 
-def _exponent(rounding: arb) -> int:
-    """Of the smallest power of ten that is twice as large as what is taken for rounding, at
-    least.
+def enough(tableau: Tableau, order: int, rounding: arb) -> int:
+    """The exponent of the smallest power of ten that is twice as large as what is taken for
+    rounding at least, and within which the method has the order.
     """
     exponent = 0
     while fmpq(10) ** (exponent - 1) >= 2 * rounding:
         exponent -= 1
+    while exponent < -1:
+        rounded = RoundedTableau.within(tableau, fmpq(10) ** exponent)
+        if order_of(rounded, order).order >= order:
+            break
+        exponent += 1
     return exponent

@@ -7,17 +7,12 @@ by their coefficients there: the entries that a printed tableau has.
 
 from __future__ import annotations
 
-from contextlib import suppress
 from math import factorial
 
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
-from garkcli.exact.matrix import Matrix, Vector
-from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.vandermonde import coordinates_at_nodes, powers_of_nodes
 
 FIRST_BITS = 128
 """Precision at which values at irrational nodes are compared first; doubled until they tell."""
@@ -86,68 +81,8 @@ def within(number: Number, tolerance: fmpq) -> bool:
         digits *= 2
 
 
-def vector_within(space: StageSpace, vector: Vector, tolerance: fmpq) -> bool:
-    """Whether an element of a stage space is within the tolerance of zero at every node."""
-    column = tuple((x,) for x in vector)
-    return form_within(space, None, column, tolerance, dual=False)
-
-
-def functional_within(space: StageSpace, functional: Vector, tolerance: fmpq) -> bool:
-    """Whether a functional, Σ w_i f(c_i), has all |w_i| ≤ tolerance."""
-    column = tuple((x,) for x in functional)
-    return form_within(space, None, column, tolerance)
-
-
-def form_within(
-    space: StageSpace, other: StageSpace | None, matrix: Matrix, tolerance: fmpq, dual: bool = True
-) -> bool:
-    """Whether a bilinear form Σ m_ij f(c_i) g(c_j) has all |m_ij| ≤ tolerance.
-
-    Args:
-        space: where f lives, s rows of ``matrix``.
-        other: where g lives; None for numbers.
-        matrix: the form on the coordinates of both.
-        tolerance: not negative.
-        dual: whether the rows are coefficients of a functional; otherwise coordinates of elements.
-    """
-    entries = [x for row in matrix for x in row]
-    if not any(entries) or not tolerance:
-        return not any(entries)
-    if not any(isinstance(x, PolynomialSpace) for x in (space, other)):
-        return all(within(x, tolerance) for x in entries)
-    bits = FIRST_BITS
-    while bits <= MOST_BITS:
-        # a Vandermonde matrix may be too ill-conditioned for the precision
-        with ctx.workprec(bits), suppress(ZeroDivisionError):
-            values = _at_nodes(space, other, matrix, dual)
-            sizes = [abs(x) for x in values.entries()]
-            if any(size > tolerance for size in sizes):
-                return False
-            if all(size <= tolerance for size in sizes):
-                return True
-        bits *= 2
-    return True
-
-
-def form_entries(space: StageSpace, other: StageSpace, matrix: Matrix) -> arb_mat:
-    """The coefficients m_ij of a bilinear form at the nodes, in balls."""
-    with ctx.workprec(FIRST_BITS):
-        return _at_nodes(space, other, matrix, dual=True)
-
-
-def _to_nodes(space: PolynomialSpace, dual: bool) -> arb_mat:
-    """From coordinates of functionals (``dual``), or of elements, to values at the nodes."""
-    if dual:
-        return coordinates_at_nodes(space).transpose()
-    return powers_of_nodes(space)
-
-
-def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool) -> arb_mat:
-    digits = int(ctx.prec * 0.302)
-    rows = [[to_ball(x, digits) for x in row] for row in matrix]
-    balls = arb_mat(rows)
-    if isinstance(space, PolynomialSpace):
-        balls = _to_nodes(space, dual) * balls
-    if isinstance(other, PolynomialSpace):
-        balls = balls * coordinates_at_nodes(other)
-    return balls
+def are_alike(x: Number, y: Number, tolerance: fmpq) -> bool:
+    """Whether two coefficients may be one: each is off by t at most, and zeros are exact."""
+    if x == y or not tolerance:
+        return x == y
+    return bool(x) and bool(y) and within(x - y, 2 * tolerance)

@@ -56,10 +56,27 @@ class StageGraph:
         return vertex in self.successors[vertex]
 
 
+def spaces_that_matter(tableau: Tableau) -> set[int]:
+    """The stage spaces with weights, and those that stages of these see: no step depends on the
+    others.
+    """
+    matters: set[int] = set()
+    reached = {colour.space for colour in tableau.colours if any(colour.b)}
+    while reached:
+        matters |= reached
+        seen = {
+            tableau.colours[m].space
+            for (k, m), block in tableau.blocks.items()
+            if k in reached and any(any(row) for row in block)
+        }
+        reached = seen - matters
+    return matters
+
+
 def stage_graph(
     tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
-    """The graph of all stages, or that of some colours alone.
+    """The graph of all stages that matter, or that of some colours alone.
 
     Args:
         tableau: the method.
@@ -67,9 +84,12 @@ def stage_graph(
         tolerance: the rounding of its coefficients; those that are 0 in the file are 0.
     """
     chosen = list(range(tableau.size) if colours is None else colours)
+    matters = spaces_that_matter(tableau)
     graph = _Graph(tableau, tolerance)
     for l in chosen:
         space = tableau.colours[l].space
+        if colours is None and space not in matters:
+            continue
         graph.add_stages(space)
         for m in chosen:
             graph.add_block(l, m)

@@ -16,7 +16,7 @@ from flint import fmpq, fmpq_poly
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
 from garkcli.exact.signs import roots_below
-from garkcli.properties.pattern import Vertex, is_nonzero
+from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -28,7 +28,7 @@ def reduced(tableau: Tableau) -> Tableau | None:
     """The smallest method that does the same; the same object where there is nothing to leave out.
 
     None where the nodes have no simple radicals. A stage space of which nothing is left keeps one
-    stage, with weight zero.
+    stage, a zero with weight zero.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -39,12 +39,12 @@ def reduced(tableau: Tableau) -> Tableau | None:
     if exact is None:
         return None
     smaller = _once(exact)
-    if _sizes(smaller) == _sizes(exact):
+    if smaller.spaces == exact.spaces and smaller.blocks == exact.blocks:
         return tableau
     # weights that were added may be zero, and leave a stage without influence
     while True:
         smaller, before = _once(smaller), smaller
-        if _sizes(smaller) == _sizes(before):
+        if sizes(smaller) == sizes(before):
             return smaller
 
 
@@ -60,10 +60,28 @@ def _at_points(tableau: Tableau) -> Tableau | None:
 def _once(tableau: Tableau) -> Tableau:
     kept = _that_matter(tableau)
     smaller = _without(tableau, kept)
-    return merged(smaller)
+    return merged(_with_idle_stages_zero(smaller))
 
 
-def _sizes(tableau: Tableau) -> list[int]:
+def _with_idle_stages_zero(tableau: Tableau) -> Tableau:
+    """The method with a zero row and a zero node where no step depends on a stage space."""
+    idle = set(range(len(tableau.spaces))) - spaces_that_matter(tableau)
+    if not idle:
+        return tableau
+    spaces, colours, blocks = list(tableau.spaces), [], dict(tableau.blocks)
+    for k in idle:
+        spaces[k] = PointSpace((ZERO,) * spaces[k].stages)
+    for colour in tableau.colours:
+        is_idle = colour.space in idle
+        colours.append(replace(colour, c=(ZERO,) * len(colour.c)) if is_idle else colour)
+    for (k, m), block in tableau.blocks.items():
+        if k in idle:
+            blocks[k, m] = tuple((ZERO,) * len(row) for row in block)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
+
+
+def sizes(tableau: Tableau) -> list[int]:
+    """The number of stages of each stage space."""
     return [space.stages for space in tableau.spaces]
 
 
@@ -74,7 +92,7 @@ def is_reducible(tableau: Tableau) -> bool | None:
     if is_plainly_irreducible(tableau):
         return False
     smaller = reduced(tableau)
-    return None if smaller is None else smaller is not tableau
+    return None if smaller is None else sizes(smaller) != sizes(tableau)
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:

@@ -122,11 +122,8 @@ class Subject:
 
     @cached_property
     def stage_orders(self) -> tuple[int, ...]:
-        """For each colour the largest q with B(q) and C(q) for all its stages."""
-        found = []
-        for r, etas in zip(self.simplifying.B, self.simplifying.C, strict=True):
-            found.append(min([r, *(eta for eta in etas if eta is not None)]))
-        return tuple(found)
+        """The stage order of each colour."""
+        return self.simplifying.stage_orders
 
     @cached_property
     def linear(self) -> StabilityFunction | None:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from garkcli.check.analysis import Analysis
 from garkcli.check.explained import BOUND, SHARP_BOUND, bound_numbers
 from garkcli.exact.display import decimal
+from garkcli.order.simplifying import Simplifying
 from garkcli.page.paint import Paint, aligned
 from garkcli.report.check_orders import LABEL
 
@@ -25,17 +26,24 @@ def simplifying_lines(analysis: Analysis) -> list[str]:
     for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
         cells = [_capped(row, limit) for row in table]
         rows += labelled(label, aligned(cells))
-    rows += _bound("bound", found.bound, BOUND, analysis.bound)
-    sharper = analysis.sharp_bound
-    rows += _bound("sharper bound", found.sharp_bound, SHARP_BOUND, sharper)
-    rows += labelled("", [bound_numbers(found)])
+    rows += _bounds(found, "bound", "sharper bound", analysis.bound, analysis.sharp_bound)
     both = analysis.pair_simplifying
     bound, sharper_of_pair = analysis.pair_bound, analysis.pair_sharp_bound
     if both is None or both is found or bound is None or sharper_of_pair is None:
         return rows
-    rows += _bound("pair bound", both.bound, BOUND, bound)
-    rows += _bound("pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair)
-    return rows + labelled("", [bound_numbers(both)])
+    return rows + _bounds(both, "pair bound", "pair, sharper", bound, sharper_of_pair)
+
+
+def _bounds(
+    found: Simplifying, label: str, sharp_label: str, bound: int, sharp_bound: int
+) -> list[str]:
+    """Both bounds, and what they are made of."""
+    of_paper, own = found.bound, found.sharp_bound
+    return [
+        *_bound(label, of_paper, BOUND, bound, found.is_open(of_paper)),
+        *_bound(sharp_label, own, SHARP_BOUND, sharp_bound, found.is_open(own)),
+        *labelled("", [bound_numbers(found)]),
+    ]
 
 
 def labelled(label: str, texts: Sequence[str]) -> list[str]:
@@ -60,7 +68,7 @@ def _capped(numbers: Sequence[int | None], limit: int) -> list[str]:
     return cells
 
 
-def _bound(label: str, computed: int, formula: str, bound: int) -> list[str]:
+def _bound(label: str, computed: int, formula: str, bound: int, is_open: bool) -> list[str]:
     """A bound with its formula.
 
     Args:
@@ -68,8 +76,9 @@ def _bound(label: str, computed: int, formula: str, bound: int) -> list[str]:
         computed: what the formula gives.
         formula: it, in letters.
         bound: as far as the order bears it out, within a tolerance.
+        is_open: whether it may be larger, as the search stopped.
     """
-    equation = f"{computed} = {formula}"
+    equation = f"{'at least ' if is_open else ''}{computed} = {formula}"
     if bound == computed:
         return labelled(label, [equation])
     doubt = f"{bound}   {computed} is not decided within the tolerance,"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from garkcli.check.analysis import AnyOrder
 from garkcli.check.findings import findings
 from garkcli.check.outcome import Outcome
+from garkcli.order.deciding import AnyOrder
 from garkcli.page.plain import printable
 from garkcli.report.check_text import no_claims
 

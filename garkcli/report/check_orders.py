@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
 
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
-from garkcli.order.nonautonomous import with_time
+from garkcli.order.deciding import AnyOrder
 from garkcli.page.paint import Paint, beside, indented
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_tree
@@ -134,22 +135,12 @@ def _failure(failed: str, witness: Witness, tableau: Tableau, digits: int | None
 
 def _undecided(head: str, order: RoundedOrder) -> list[str]:
     """What is left open, and why: on a line of its own where it is long."""
-    doubt = doubt_text(order)
-    if order.doubt is None:
-        return [f"{head}; {doubt}"]
-    return [head, f"      {doubt}"]
+    return [head, f"      {doubt_text(order)}"]
 
 
 def doubt_text(order: RoundedOrder) -> str:
     """Why the next order is left open."""
-    next_order, doubt = order.order + 1, order.doubt
-    if doubt is None:
-        return f"order {next_order} is too much to decide"
-    why = "a weight may be zero within it"
-    if doubt.effect is not None:
-        why = f"rounding may make up to {size(doubt.effect)} of that"
-    reached = f"residuals reach {size(doubt.reached)}"
-    return f"order {next_order} is not decided: {reached}, {why}"
+    return f"order {order.order + 1} is not decided: {order.undecided}"
 
 
 def suggestion_lines(found: Suggestion, tolerance: fmpq | None, paint: Paint) -> list[str]:

@@ -150,7 +150,7 @@ def _stage_order(subject: Subject) -> str:
     if verdict.is_at_least:
         text = f"at least {text}"
     if len(set(found)) > 1:
-        numbers = ", ".join(map(str, found))
+        numbers = ", ".join(f">={q}" if q >= subject.limit else str(q) for q in found)
         text += f"   by colour {numbers}"
     return text
 

@@ -9,6 +9,7 @@ from flint import fmpq
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
+from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, condition_text, vertex_letters
 from garkcli.trees.tree import Tree
@@ -56,18 +57,26 @@ class Valued:
     """What a table with values is about.
 
     Attributes:
-        tableau: the method.
-        tolerance: the rounding of its coefficients, or None.
+        method: its tableau, with its rounding where it is rounded.
         only_failing: whether conditions that hold are counted but not shown.
         parameters: the free ones, of which values are rational functions.
         derivation: whether the method is the conjugate or the pair of what a file gives.
     """
 
-    tableau: Tableau
-    tolerance: fmpq | None = None
+    method: AnyTableau
     only_failing: bool = False
     parameters: tuple[str, ...] = ()
     derivation: str = ""
+
+    @property
+    def tableau(self) -> Tableau:
+        """As it is printed."""
+        return printed(self.method)
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding of its coefficients; None where they are exact."""
+        return tolerance_of(self.method)
 
     @property
     def names(self) -> list[str]:

@@ -6,13 +6,13 @@ from typing import Any, NamedTuple
 
 from flint import arb
 
-from garkcli.check.analysis import AnyOrder
 from garkcli.comparison.comparison import Comparison, OrderPair, PropertyPair
 from garkcli.comparison.differences import BlockGap, EntryGap
 from garkcli.comparison.met import Met
 from garkcli.comparison.sameness import Sameness
 from garkcli.exact.display import to_text
 from garkcli.order.conditions import Condition
+from garkcli.order.deciding import AnyOrder
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import (
     COUNT,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from garkcli.check.analysis import AnyOrder
 from garkcli.comparison.comparison import Comparison
+from garkcli.order.deciding import AnyOrder
 from garkcli.page.plain import printable
 from garkcli.report.diff_words import (
     cell_name,

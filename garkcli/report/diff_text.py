@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.check.analysis import AnyOrder
 from garkcli.comparison.comparison import WITH_TIME, Comparison, PropertyPair
 from garkcli.comparison.differences import BlockGap
 from garkcli.order.conditions import Condition
+from garkcli.order.deciding import AnyOrder
 from garkcli.page.paint import Paint, aligned, counted, folded, indented
 from garkcli.page.plain import printable
 from garkcli.properties.property import Verdict

@@ -12,8 +12,9 @@ from garkcli.report.order_json import order_fields
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
     from garkcli.check.further import DenseFacts
+    from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
     from garkcli.order.estimator import Estimator
 

@@ -16,11 +16,12 @@ from garkcli.page.tableau_latex import displays, parts_of
 from garkcli.trees.svg import draw_svg_sheet
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Claim, Outcome
     from garkcli.errors import Fault
     from garkcli.order.certificate import Order, Witness
     from garkcli.order.conditions import Condition
+    from garkcli.order.deciding import AnyOrder
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.pointwise import Cell, Entries
 

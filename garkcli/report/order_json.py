@@ -22,8 +22,9 @@ from garkcli.page.schema import (
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.analysis import Analysis
     from garkcli.order.certificate import Witness
+    from garkcli.order.deciding import AnyOrder
 
 _WITNESS: Record[Witness] = Record(
     Field("order", POSITION, lambda x: x.tree.order),
@@ -76,11 +77,18 @@ def _undecided(order: AnyOrder) -> bool | None:
     """True where the next order is left open."""
     if isinstance(order, Order):
         return None
-    return order.undecided or None
+    return bool(order.undecided) or None
 
 
 _TABLE: Schema = array(array(nullable(INTEGER)))
 """A number for each block, null where the block does not exist."""
+
+
+def _reached_limit(found: Analysis) -> int | None:
+    """Where the search stopped, if a number reached it."""
+    conditions = found.simplifying
+    return conditions.limit if conditions.is_open(conditions.limit) else None
+
 
 SIMPLIFYING: Record[Analysis] = Record(
     Field("B", array(COUNT), lambda x: list(x.simplifying.B)),
@@ -92,5 +100,6 @@ SIMPLIFYING: Record[Analysis] = Record(
     Field("xi", COUNT, lambda x: x.simplifying.xi),
     Field("chi", COUNT, lambda x: x.simplifying.chi),
     Field("bound", COUNT, lambda x: x.bound),
+    Field("limit", COUNT, _reached_limit, is_optional=True),
 )
 """B, C and D of a method, and the order they guarantee."""

@@ -84,12 +84,18 @@ class _Colour(NamedTuple):
         """Of its stages."""
         return self.subject.stage_orders[self.number]
 
+    @property
+    def is_open(self) -> bool:
+        """Whether its stage order may be larger."""
+        return self.stage_order >= self.subject.limit
+
 
 _OF_COLOUR: Record[_Colour] = Record(
     Field("name", TEXT, lambda x: x.name),
     Field("kind", _KIND, lambda x: _kind(x.shape)),
     Field("gamma", nullable(EXACT), lambda x: _gamma(x.shape)),
     Field("stage_order", COUNT, lambda x: x.stage_order),
+    Field("stage_order_is_lower_bound", TRUE, lambda x: x.is_open or None, is_optional=True),
 )
 _STAGES: Schema = {
     "type": "object",

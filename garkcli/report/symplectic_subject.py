@@ -11,6 +11,7 @@ from garkcli.errors import UsageProblem
 from garkcli.page.paint import counted
 from garkcli.page.record import Field, Record
 from garkcli.page.schema import COUNT, POSITION, TEXT, array
+from garkcli.tableau.meant import printed
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.free import Structure
 from garkcli.trees.notation import format_tree
@@ -24,6 +25,7 @@ from garkcli.trees.symplectic import (
 )
 
 if TYPE_CHECKING:
+    from garkcli.tableau.meant import AnyTableau
     from garkcli.tableau.tableau import Tableau
 
 _LETTERS = {"q": "V", "p": "F", "y": "f"}
@@ -43,14 +45,14 @@ class Subject:
         structure: its colours, and how roots move among them.
         names: the names of the colours.
         orders: the orders asked for.
-        tableau: the method, where there is one.
+        method: its tableau, with its rounding where it is rounded; None without one.
     """
 
     kind: Kind
     structure: Structure
     names: tuple[str, ...]
     orders: range
-    tableau: Tableau | None = None
+    method: AnyTableau | None = None
 
     @cached_property
     def counts(self) -> tuple[tuple[int, int, int], ...]:
@@ -71,11 +73,12 @@ class Subject:
     @property
     def _admissible(self) -> Admissible:
         """The trees that have a condition."""
-        if self.tableau is None:
+        if self.method is None:
             return self.structure.admissible
         from garkcli.order.conditions import coupling_graph
 
-        return Admissible.of(self.tableau.size, *coupling_graph(self.tableau))
+        tableau = printed(self.method)
+        return Admissible.of(tableau.size, *coupling_graph(tableau))
 
     def classes(self) -> Iterator[ConditionClass]:
         """The classes of all orders."""
@@ -84,11 +87,11 @@ class Subject:
 
     def _of_order(self, order: int) -> Iterator[ConditionClass]:
         classes = independent_classes(self.structure, order)
-        if self.tableau is None:
+        if self.method is None:
             return classes
         from garkcli.order.conditions import is_admissible
 
-        tableau = self.tableau
+        tableau = printed(self.method)
         return (c for c in classes if is_admissible(tableau, c.representative))
 
     @property
@@ -172,7 +175,7 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
     return Subject(kind, structure, tuple(names), orders)
 
 
-def subject_of_method(tableau: Tableau, orders: range) -> Subject:
+def subject_of_method(method: AnyTableau, orders: range) -> Subject:
     """One method: a partitioned one or its own conjugate as it stands, of any other the symplectic
     pair.
 
@@ -181,13 +184,14 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
             momenta only.
         ZeroWeight: the pair would divide by zero.
     """
-    from garkcli.tableau.conjugate import is_symplectic
-    from garkcli.tableau.forms import pair
+    from garkcli.order.defects import is_symplectic
+    from garkcli.tableau.meant import derived
 
-    if not is_symplectic(tableau):
-        if tableau.is_partitioned:
-            raise _not_symplectic(tableau)
-        tableau = pair(tableau)
+    if not is_symplectic(method):
+        if printed(method).is_partitioned:
+            raise _not_symplectic(printed(method))
+        method = derived(method, "pair")
+    tableau = printed(method)
     terms = list(range(tableau.size))
     if tableau.is_partitioned:
         terms = [x.space for x in tableau.colours]
@@ -201,7 +205,7 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
     colours = tuple((term, x.part) for term, x in natures)
     structure = Structure(colours, quadratic)
     names = tuple(x.name for x in tableau.colours)
-    return Subject(_kind(structure), structure, names, orders, tableau)
+    return Subject(_kind(structure), structure, names, orders, method)
 
 
 def _kind(structure: Structure) -> Kind:

@@ -16,7 +16,7 @@ once.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
@@ -58,8 +58,8 @@ def ssp_coefficient(
 
     Args:
         tableau: the method.
-        shares: r_l / r for each colour; None for 1 each. Colours with 0 have the vector field 0, so
-            that nothing is asked of their coefficients.
+        shares: r_l / r for each colour; None for 1 each. Colours with 0 have the vector field 0:
+            neither they nor the stages at which they alone are evaluated count.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -67,9 +67,8 @@ def ssp_coefficient(
     >>> found.value.exact
     1
     """
-    ratios = [ONE] * tableau.size if shares is None else list(shares)
-    driven = [l for l, ratio in enumerate(ratios) if ratio]
-    return _radius(tableau, ratios, driven)
+    part, ratios = driven_part(tableau, shares or [ONE] * tableau.size)
+    return _radius(part, ratios)
 
 
 def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
@@ -80,21 +79,35 @@ def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadiu
         ratios: the direction, one number a colour; colours with 0 have a vector field all the same,
             for which no step size is admitted by itself.
     """
-    found = _radius(tableau, ratios, range(tableau.size))
-    return AdditiveRadius(tuple(ratios), found)
+    return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 
 
-def _radius(
-    tableau: Tableau, ratios: Sequence[Number], driven: Sequence[int]
-) -> SspCoefficient | None:
-    """The largest r in a direction, with the conditions of the ``driven`` colours."""
+def driven_part(tableau: Tableau, shares: Sequence[Number]) -> tuple[Tableau, list[Number]]:
+    """The method for the vector fields whose shares are not 0, with these: other colours are left
+    out, and stages at which no remaining colour is evaluated.
+    """
+    driven = [l for l, share in enumerate(shares) if share]
+    spaces = sorted({tableau.colours[l].space for l in driven})
+    colours = []
+    for l in driven:
+        colour = tableau.colours[l]
+        colours.append(replace(colour, space=spaces.index(colour.space)))
+    blocks = {}
+    for (k, m), block in tableau.blocks.items():
+        if k in spaces and m in driven:
+            blocks[spaces.index(k), driven.index(m)] = block
+    kept = tuple(tableau.spaces[k] for k in spaces)
+    return Tableau(kept, tuple(colours), blocks), [shares[l] for l in driven]
+
+
+def _radius(tableau: Tableau, ratios: Sequence[Number]) -> SspCoefficient | None:
+    """The largest r in a direction."""
     exact = in_points(tableau)
     if exact is None or len(list(exact.edges())) < exact.size**2:
         return None
     whole, parts = stacked(exact, ratios)
-    driven_parts = [parts[l] for l in driven]
     failures = []
-    for condition in _conditions(whole, driven_parts):
+    for condition in _conditions(whole, parts):
         failing = _first_failure(condition)
         if failing is not None:
             failures.append(failing)

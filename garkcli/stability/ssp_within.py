@@ -15,7 +15,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
 from garkcli.graph import components
 from garkcli.stability.bounds import Bounds, first_failure, least
-from garkcli.stability.ssp import stacked
+from garkcli.stability.ssp import driven_part, stacked
 from garkcli.tableau.tableau import Tableau
 
 DIGITS = 64
@@ -27,18 +27,19 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
 
     Args:
         tableau: the method, one coordinate a stage.
-        shares: r_l / r for each colour; those with 0 have the vector field 0.
+        shares: r_l / r for each colour; those with 0 have the vector field 0, as for
+            ``ssp_coefficient``.
         tolerance: the rounding of coefficients that are not zero.
     """
-    pattern, parts = stacked(tableau, shares)
+    pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
     whole = arb_mat(n, n)
     vectors = [[arb(1)] * n]
-    for share, part in zip(shares, parts, strict=True):
-        if share:
-            wide = _widened(part, tolerance)
-            whole += wide * to_ball(share, DIGITS)
-            vectors += _columns(wide)
+    driven = [share for share in shares if share]
+    for share, part in zip(driven, parts, strict=True):
+        wide = _widened(part, tolerance)
+        whole += wide * to_ball(share, DIGITS)
+        vectors += _columns(wide)
     denominator = _reciprocal(pattern, whole)
     conditions = [denominator]
     for vector in vectors:

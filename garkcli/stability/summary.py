@@ -13,6 +13,7 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
+from garkcli.order.deciding import order_of
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability
 from garkcli.stability.algebraic_within import algebraic_within
@@ -30,6 +31,7 @@ from garkcli.stability.oscillator import OscillatorStability, oscillator_stabili
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
 
@@ -162,9 +164,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
         tableau: the method.
         tolerance: the rounding of its coefficients.
     """
-    from garkcli.order.rounded import find_order_within
-
-    order = find_order_within(tableau, tolerance).order
+    order = order_of(meant(tableau, tolerance)).order
     found = []
     for name, shares in directions(tableau):
         decided = stability_within(tableau, shares, tolerance, order)

@@ -66,6 +66,18 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     return Enclosure(bits, stages, A, tuple(b))
 
 
+def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
+    """The nodes to ``bits`` bits, a row a colour; those of families as ``enclose_tableau`` has
+    them.
+    """
+    digits = int((bits + GUARD) * DIGITS_OF_A_BIT)
+    with ctx.workprec(bits + GUARD):
+        if all(isinstance(space, PointSpace) for space in tableau.spaces):
+            return [_balls([colour.c], digits).entries() for colour in tableau.colours]
+        found = numeric_entries(tableau, min(digits, MAX_DIGITS))
+        return [[cast("arb", x) for x in row] for row in found.c]
+
+
 def _spelled_out(tableau: Tableau, digits: int) -> _Enclosed:
     """A and b of coefficients that are given one by one."""
     A: _Blocks = {}

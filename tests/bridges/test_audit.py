@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -203,6 +204,30 @@ def test_products_are_no_better_than_their_factors(tmp_path: Path) -> None:
     assert (run.code, "none wrong" in run.out) == (0, True)
     path.write_text(table.replace("0.8660254", "0.8660264"), encoding="utf-8")
     assert gark("audit", str(tmp_path)).code == 1
+
+
+LONG = re.compile(r"SUN_RCONST\((-?[0-9]+\.[0-9]{15,})\)")
+
+
+@pytest.mark.parametrize("name", ["tsitouras-5", "verner-9"])
+@pytest.mark.parametrize("place", [6, 8, 10, 12])
+def test_a_short_decimal_is_exact_among_long_ones(name: str, place: int, tmp_path: Path) -> None:
+    """The node 0.161, the weight 0.01 or the entry 0.005 do not make the others uncertain: a digit
+    changed at any place is an error, and the table as it is has none.
+    """
+    table = gark("export", name, "--to", "sundials").out
+    path = tmp_path / "table.c"
+    path.write_text(table, encoding="utf-8")
+    assert gark("audit", str(path)).code == 0
+    literals = list(LONG.finditer(table))
+    for literal in literals[:: len(literals) // 3]:
+        number = literal[1]
+        digits = [i for i, x in enumerate(number) if x.isdigit()]
+        first = next(k for k, i in enumerate(digits) if number[i] != "0")
+        at = literal.start(1) + digits[first + place - 1]
+        changed = str((int(table[at]) + 5) % 10)
+        path.write_text(table[:at] + changed + table[at + 1 :], encoding="utf-8")
+        assert gark("audit", str(path)).code == 1, number
 
 
 UNLIKE = {

@@ -14,6 +14,7 @@ from flint import fmpq
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.methodfile.load import loads
 from garkcli.order.rounded import find_order_within
+from garkcli.tableau.rounded import RoundedTableau
 from tests.cli.harness import ROOT, gark
 
 DECIMALS = ROOT / "tests" / "examples" / "hints" / "gauss2-decimals.gark.yaml"
@@ -62,7 +63,9 @@ def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
         again = loads(gark("conjugate", rounded, "--format", "yaml", *options).out)
         assert again.tolerance is not None
         assert to_float(again.tolerance) == 1e-15
-        assert find_order_within(again.tableau, again.tolerance, 6).order == 4
+        assert (
+            find_order_within(RoundedTableau.within(again.tableau, again.tolerance), 6).order == 4
+        )
 
 
 @pytest.mark.parametrize("command", ["tableau", "conditions", "conjugate"])

@@ -19,7 +19,7 @@ from garkcli.comparison.comparison import compare
 from garkcli.comparison.grid import grid_of
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.matching import find_matching
-from garkcli.comparison.met import MAX_CONDITIONS, Side, conditions_met
+from garkcli.comparison.met import MAX_CONDITIONS, conditions_met
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import Sheet, each_its_own, sheet_of
 from garkcli.errors import LimitExceeded
@@ -27,6 +27,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_tableau_file
 from garkcli.order.conditions import elementary_weight
 from garkcli.page.paint import Paint
+from garkcli.properties.reduction import reduced
 from garkcli.report import diff_json, diff_markdown, diff_text
 from garkcli.report.schemas import report_schema
 from garkcli.tableau.garkmethod import GarkMethod
@@ -282,7 +283,7 @@ def test_the_search_gives_up_honestly(monkeypatch: Any) -> None:
 
 def test_few_conditions_are_compared_of_many() -> None:
     """No more than so many; which orders are complete is said."""
-    side = Side(load(str(ROOT / "methods/three-colours.gark.yaml")).tableau)
+    side = load(str(ROOT / "methods/three-colours.gark.yaml")).tableau
     found = conditions_met(side, side, 12)
     assert found.pairs == ()
     assert 3 <= found.order < 12
@@ -399,3 +400,21 @@ def test_orders_that_neither_has_are_no_rows() -> None:
     assert "order of the conjugate" not in neither
     one = diff_markdown.render(compare(midpoint, RK4), files)
     assert "| order of the conjugate | none | 4 |" in one
+
+
+def test_a_stage_without_influence_is_no_difference() -> None:
+    """A colour of weight 0 that nobody sees: methods that differ in its row alone are the same once
+    reduced, and `gark reduce` writes zeros there.
+    """
+    text = "tableau: {A: [[[[1/2]], [[0]]], [[[ROW]], [[OWN]]]], b: [[1], [0]]}"
+    one, other = (
+        loads(text.replace("ROW", row).replace("OWN", own))
+        for row, own in (("1/4", "3/4"), ("1/3", "1/5"))
+    )
+    found = compare(one, other)
+    assert found.sameness is not None
+    assert found.sameness.is_reduced
+    smaller = reduced(one.tableau)
+    assert smaller is not None
+    assert smaller.blocks[1, 0] == smaller.blocks[1, 1] == ((0,),)
+    assert reduced(smaller) is smaller

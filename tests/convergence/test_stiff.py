@@ -15,6 +15,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.order.simplifying import simplifying
 from garkcli.problems.builtin import problem
 from garkcli.stepping.step import StepFailed
+from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 
@@ -97,7 +98,7 @@ def row(name: str) -> list[str]:
     found = method(name)
     tolerance = fmpq(0) if found.tolerance is None else found.tolerance
     order = measured(name, "prothero-robinson", 1).predicted_order
-    stage_order = simplifying(found.tableau, tolerance=tolerance).eta
+    stage_order = simplifying(meant(found.tableau, tolerance)).eta
     return [name, str(order), str(stage_order), *(shown(name, *test) for test in TESTS)]
 
 

@@ -216,3 +216,11 @@ def test_square_classes(number: Fraction, factor: Fraction) -> None:
     ratio = found / small
     assert ratio.p.isqrt() ** 2 == ratio.p
     assert ratio.q.isqrt() ** 2 == ratio.q
+
+
+def test_powers_of_what_cancels() -> None:
+    """The square of sqrt(2) − sqrt(2) is 0, under a root too: a ball around 0 has powers."""
+    expression = parse("sqrt(2 + (sqrt(2) - sqrt(2))**2)")
+    root = parse("sqrt(2)")
+    domain = Domain([expression, root])
+    assert domain.evaluate(expression) == domain.evaluate(root)

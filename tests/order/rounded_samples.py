@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
+from random import Random
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -64,3 +66,14 @@ def gauss_lobatto(stages: int, digits: int) -> Tableau:
     """
     names = f"gauss {stages}", f"lobatto-iiia {stages + 1}"
     return in_decimals(samples.everywhere(collocation, *names), digits)
+
+
+def rounded(tableau: Tableau, dice: Random, size: fmpq) -> Tableau:
+    """Every coefficient that is not 0 moved by a random amount up to ``size``."""
+
+    def moved(row: tuple[fmpq, ...]) -> tuple[fmpq, ...]:
+        return tuple(x + size * fmpq(dice.randint(-100, 100), 100) if x else x for x in row)
+
+    blocks = {key: tuple(moved(row) for row in block) for key, block in tableau.blocks.items()}  # type: ignore[arg-type]
+    colours = tuple(replace(x, b=moved(x.b)) for x in tableau.colours)  # type: ignore[arg-type]
+    return Tableau(tableau.spaces, colours, blocks)

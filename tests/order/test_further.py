@@ -29,6 +29,7 @@ from garkcli.order.conditions import elementary_weight
 from garkcli.order.dense import DenseOrder, dense_order, ends_at_step, slopes
 from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.forms import gark, spelled_out
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, order_of, plain
@@ -327,7 +328,7 @@ def test_ends_and_slopes(name: str) -> None:
     tableau, dense = method.tableau, method.dense
     assert ends_at_step(tableau, dense) == ends
     assert slopes(tableau, dense).are_continuous is smooth
-    near = slopes(tableau, dense, TOLERANCE)
+    near = slopes(meant(tableau, TOLERANCE), dense)
     assert near == slopes(tableau, dense)
     first = ((dense.weights[0][0][0] + 1, *dense.weights[0][0][1:]),)
     rows = (*first, *dense.weights[0][1:])
@@ -380,7 +381,7 @@ def test_random_dense_output_has_the_order_of_its_values(
     tableau, dense = drawn
     found = dense_order(tableau, dense, 4)
     assert found.order == order_by_values(tableau, dense, 4)
-    near = dense_order(tableau, dense, 4, fmpq(1, 10**30))
+    near = dense_order(meant(tableau, fmpq(1, 10**30)), dense, 4)
     assert near.order == found.order
 
 
@@ -436,7 +437,7 @@ def test_too_many_trees_leave_dense_output_open(monkeypatch: pytest.MonkeyPatch)
     method = loads(HERMITE)
     assert method.dense is not None
     tableau = rounded_tableau(method.tableau)
-    found = dense_order(tableau, method.dense, 9, TOLERANCE)
+    found = dense_order(meant(tableau, TOLERANCE), method.dense, 9)
     assert (found.order, found.undecided, found.is_lower_bound) == (2, True, True)
     alike = loads(ALIKE)
     analysis = analyse(alike.tableau, 9, TOLERANCE, further=alike.further)

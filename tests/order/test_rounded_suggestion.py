@@ -20,6 +20,7 @@ from garkcli.order.rounded import find_order_within
 from garkcli.order.suggestion import Suggestion, suggest_tolerance
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
+from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import tableau
 from tests.catalogue.method_files import method_file
@@ -65,7 +66,7 @@ def test_decimals_of_gauss_and_lobatto(stages: int, digits: int, order: int) -> 
     found = suggestion(decimal)
     assert found is not None
     assert found.order == order
-    assert find_order_within(decimal, found.tolerance).order == order
+    assert find_order_within(RoundedTableau.within(decimal, found.tolerance)).order == order
 
 
 def test_no_gap_no_suggestion() -> None:
@@ -121,7 +122,7 @@ def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
     assert proposed is not None
     assert proposed.order == ENTRIES[name]["verified_order"]
     assert proposed.rounding < proposed.tolerance < proposed.genuine
-    within = find_order_within(published(name), proposed.tolerance)
+    within = find_order_within(RoundedTableau.within(published(name), proposed.tolerance))
     assert within.order == proposed.order
 
 

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.exact.matrix import Matrix
+from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import consistent_blocks, simplifying
 from garkcli.tableau.conjugate import conjugate, is_symplectic
@@ -146,6 +147,15 @@ def test_blocks_conjugate_to_each_other_keep_the_order(rule: Callable[..., Matri
     assert find_order(Q).order == find_order(pair(Q)).order == brute_order(pair(Q), 5) == 4
     assert conjugate(Q).block(0, 1) == Q.block(0, 1)
     assert conjugate(Q).block(1, 0) == Q.block(1, 0)
+
+
+@pytest.mark.parametrize(("rule", "order"), [("collocation", 2), ("interpolation", 3)])
+def test_blocks_conjugate_to_each_other_may_lose_the_order(rule: str, order: int) -> None:
+    """The 3/8 rule, of order 4, with Gauss 3, of order 6."""
+    methods = "[{A: [[0,0,0,0],[1/3,0,0,0],[-1/3,1,0,0],[1,-1,1,0]], b: [1/8,3/8,3/8,1/8]}, "
+    methods += "{family: gauss, stages: 3}]"
+    tableau = loads(f"methods: {methods}\ntransfer: symplectic-{rule}").tableau
+    assert find_order(pair(tableau)).order == order
 
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])

@@ -23,6 +23,7 @@ from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
 from garkcli.properties.registry import every_property
 from garkcli.properties.subject import Subject
+from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import Entry, entries
 from tests.catalogue.method_files import method_file
 
@@ -376,7 +377,7 @@ def subject_of(method: object) -> Subject:
     """A method as its properties are decided."""
     tableau = method.tableau  # type: ignore[attr-defined]
     tolerance = method.tolerance or ZERO  # type: ignore[attr-defined]
-    return Subject(tableau, 1, simplifying(tableau, 5, tolerance), 5, tolerance)
+    return Subject(tableau, 1, simplifying(meant(tableau, tolerance), 5), 5, tolerance)
 
 
 # -- the catalogue
@@ -447,3 +448,30 @@ def _value(subject: Subject, z: complex) -> complex:
     for a in reversed(subject.linear.numerator.coefficients):
         total = total * z + float(fmpq(str(a)).p) / float(fmpq(str(a)).q)  # type: ignore[arg-type]
     return total
+
+
+IDLE = "tableau: {A: [[[[1/2]], [[0]]], [[[ROW]], [[OWN]]]], b: [[1], [0]]}"
+
+
+@pytest.mark.parametrize(("row", "own"), [("1/4", "3/4"), ("0", "0"), ("1/3", "1/5")])
+def test_a_colour_that_no_step_depends_on_is_no_part_of_the_shape(row: str, own: str) -> None:
+    """Its stage is neither solved for nor has it a γ, whatever its row is."""
+    method = loads(IDLE.replace("ROW", row).replace("OWN", own))
+    found = analyse(method.tableau).subject
+    assert found.shape.implicit_stages == 1
+    assert found.shape.gamma == fmpq(1, 2)
+    assert found.verdict("reducible").value is False
+
+
+def test_stage_order_is_that_of_b_and_c() -> None:
+    """Weights that sum to 3/4 have stage order 0 though C(1) holds; a search that stops says so."""
+    low = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/4]}")
+    found = analyse(low.tableau)
+    assert found.simplifying.eta == 1
+    assert found.subject.verdict("stage-order").value == found.simplifying.stage_order == 0
+    gauss = analyse(loads("methods: [{family: gauss, stages: 4}]").tableau, 3)
+    assert gauss.subject.verdict("stage-order").is_at_least
+    assert gauss.simplifying.is_open(gauss.bound)
+    assert not analyse(loads("methods: [{family: gauss, stages: 4}]").tableau).simplifying.is_open(
+        8
+    )

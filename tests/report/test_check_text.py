@@ -220,7 +220,7 @@ def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     """
     monkeypatch.chdir(tmp_path)
     tight = DECIMALS.replace("33333338333333", "33333333333333")
-    tight = tight.replace("1e-12", "1e-18")
+    tight = tight.replace("1e-12", "1e-19")
     for text, shown in (
         (DECIMALS, "instead of -0.33333333338333333\n"),
         (tight, "the tolerance is too tight;\n"),

@@ -12,6 +12,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.stability.algebraic import algebraic_stability, is_positive_semidefinite
 from garkcli.stability.ssp import ssp_coefficient
+from garkcli.stability.ssp_within import ssp_within
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
@@ -156,3 +157,45 @@ def test_the_conditions_by_floating_point(tableau: Tableau) -> None:
         assert smallest(radius * 0.999) >= -1e-9
     if found.value is not None:
         assert min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
+
+
+ALONE = """
+tableau:
+  A: [[[[0, 0], [1, 0]], [[0], [1]]], [[[3/4, -1/4]], [[1/2]]]]
+  b: [[1/2, 1/2], [1]]
+"""
+
+
+@pytest.mark.parametrize("transfer", ["collocation", "interpolation"])
+@pytest.mark.parametrize(
+    "names", [("ssp2", "radau-iia"), ("ssp2", "gauss"), ("radau-iia", "ssp2"), ("heun", "ssp2")]
+)
+def test_a_colour_alone_is_its_diagonal_method(names: tuple[str, str], transfer: str) -> None:
+    """Rows of stages at which other colours are evaluated ask for nothing: each colour alone has
+    the coefficient of its diagonal method, whatever couples them, exactly and within a tolerance.
+    """
+    stages = {"ssp2": 3, "radau-iia": 1, "gauss": 1, "heun": None}
+    members = ", ".join(
+        f"{{family: {x}{f', stages: {stages[x]}' if stages[x] else ''}}}" for x in names
+    )
+    tableau = loads(f"methods: [{members}]\ntransfer: {transfer}").tableau
+    for l, name in enumerate(names):
+        shares = [fmpq(int(l == m)) for m in range(2)]
+        alone = ssp_coefficient(gark([diagonal_method(name, stages[name])], {}))
+        assert ssp_coefficient(tableau, shares) == alone
+        assert alone is not None
+        points = in_points(tableau)
+        assert points is not None
+        near = ssp_within(points, shares, fmpq(1, 10**12))
+        exact = alone.value and alone.value.exact
+        assert (exact is None) == (near.high is None)
+        assert exact is None or near.low <= exact <= near.high
+
+
+def test_a_colour_alone_with_negative_entries_in_rows_of_the_other() -> None:
+    """Heun's method beside the midpoint: 1 and 2."""
+    tableau = loads(ALONE).tableau
+    found = [
+        ssp_coefficient(tableau, shares) for shares in ([fmpq(1), fmpq(0)], [fmpq(0), fmpq(1)])
+    ]
+    assert [x.value.exact for x in found if x and x.value] == [1, 2]

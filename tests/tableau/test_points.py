@@ -21,6 +21,7 @@ from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
+from garkcli.tableau.meant import meant
 from garkcli.tableau.method import butcher
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import (
@@ -197,7 +198,7 @@ def test_many_stages_are_soon_checked(tolerance: fmpq) -> None:
     tolerance.
     """
     before = process_time()
-    found = simplifying(gark([diagonal_method("gauss", 60)], {}), 60, tolerance)
+    found = simplifying(meant(gark([diagonal_method("gauss", 60)], {}), tolerance), 60)
     assert (found.r, found.eta, found.zeta) == (60, 60, 60)
     assert process_time() - before < 5
 

@@ -123,8 +123,7 @@ TERMS = (
     ),
     Term(
         "C(η)",
-        "The stages of a block are exact where the solution is a polynomial of degree up to η."
-        " The least η of all blocks is the stage order.",
+        "The stages of a block are exact where the solution is a polynomial of degree up to η.",
         "A^{l,m} (c^{m})^(k−1) = (c^{l})^k / k,  k = 1, …, η",
         paper(_ORDER + ", definition of the simplifying conditions"),
         ("C", "C(eta)", "C(q)", "C(k)"),
@@ -159,9 +158,9 @@ TERMS = (
     ),
     Term(
         "stage order",
-        "The order of the worst stage value: the least η of C. Stiff problems show it where the"
-        " order is larger.",
-        "",
+        "The largest q for which B(q) and C(q) hold: the weights and all stage values have that"
+        " order. Stiff problems show it where the order of the method is larger.",
+        "B(q) and C(q)",
         "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.15",
         ("stage orders",),
         ("C(η)", "stiffness"),
@@ -186,8 +185,8 @@ TERMS = (
     ),
     Term(
         "tolerance",
-        "How far the coefficients of a file are rounded. Then conditions hold within what this"
-        " rounding explains, never exactly, and the report says so.",
+        "How far each coefficient of a file may be off; zeros are exact. A condition is met within"
+        " t when rounding by t explains its residual, and fails when it does not.",
         "",
         "this project, docs/exact-order.md",
         ("within",),

@@ -16,8 +16,9 @@ from garkcli.methodfile.coefficient_schema import Schema, closed
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
 from garkcli.methodfile.description import ConstructionText, Structure
 from garkcli.methodfile.source import Entries
-from garkcli.order.certificate import find_order
+from garkcli.order.deciding import order_of
 from garkcli.properties.symmetry import symmetry
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 _KEYS = ("of", "order", "sequence", "from", "symmetric")
@@ -128,12 +129,7 @@ def _found_order(base: Tableau, tolerance: fmpq | None) -> int:
     """
     if base.has_parameters:
         raise MethodError(_FREE, _SAY)
-    if tolerance is None:
-        order = find_order(base, MAX_ORDER).order
-    else:
-        from garkcli.order.rounded import find_order_within
-
-        order = find_order_within(base, tolerance, MAX_ORDER).order
+    order = order_of(meant(base, tolerance), MAX_ORDER).order
     if order < 1:
         message = "the method has order 0: its error does not go to 0 with h"
         raise MethodError(message, "extrapolate a consistent one")

@@ -1,7 +1,7 @@
 """Reducible methods."""
 
 from garkcli.properties.property import Property, Verdict
-from garkcli.properties.reduction import is_plainly_irreducible, reduced
+from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes
 from garkcli.properties.subject import Subject
 
 
@@ -12,7 +12,7 @@ def _decide(subject: Subject) -> Verdict:
     smaller = reduced(tableau)
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")
-    if smaller is not tableau:
+    if sizes(smaller) != sizes(tableau):
         stages = ", ".join(str(space.stages) for space in smaller.spaces)
         return Verdict(True, f"{stages} stages do the same")
     if subject.tolerance:

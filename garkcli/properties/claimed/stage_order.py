@@ -8,7 +8,10 @@ def _decide(subject: Subject) -> Verdict:
     found = subject.stage_orders
     least = min(found)
     names = [colour.name for colour in subject.tableau.colours]
-    by_colour = [f"{q} of {name}" for q, name in zip(found, names, strict=True)]
+    by_colour = [
+        f"{'at least ' if q >= subject.limit else ''}{q} of {name}"
+        for q, name in zip(found, names, strict=True)
+    ]
     why = f"by colour: {', '.join(by_colour)}" if len(found) > 1 else ""
     return Verdict(least, why, is_at_least=least >= subject.limit)
 

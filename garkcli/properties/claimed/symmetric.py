@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from flint import fmpq
 
+from garkcli.properties.pattern import spaces_that_matter
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.reduction import is_plainly_irreducible, reduced
 from garkcli.properties.subject import Subject
@@ -52,27 +53,12 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
     """
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
-    matters = _that_matter(tableau)
+    matters = spaces_that_matter(tableau)
     idle = [k for k, space in enumerate(tableau.spaces) if k not in matters and space.stages == 1]
     for k, m in tableau.blocks:
         if k in idle:
             blocks[k, m] = (tuple(half * b for b in tableau.colours[m].b),)
     return replace(tableau, blocks=blocks) if idle else tableau
-
-
-def _that_matter(tableau: Tableau) -> set[int]:
-    """The stage spaces with weights, and those that stages of these see."""
-    matters: set[int] = set()
-    reached = {colour.space for colour in tableau.colours if any(colour.b)}
-    while reached:
-        matters |= reached
-        seen = {
-            tableau.colours[m].space
-            for (k, m), block in tableau.blocks.items()
-            if k in reached and any(any(row) for row in block)
-        }
-        reached = seen - matters
-    return matters
 
 
 PROPERTY = Property(

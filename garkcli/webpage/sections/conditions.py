@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
 from garkcli.report.conditions import is_parametric
 from garkcli.report.conditions_data import ConditionRow
 from garkcli.report.conditions_json import row_data
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
 from garkcli.webpage.mathml import typeset_condition, typeset_number
@@ -70,13 +70,12 @@ def _wanted(method: Reported) -> int:
 
 def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
     """Whole orders as long as there is room."""
-    tolerance = method.tolerance or ZERO
     rows: list[Condition] = []
     for n in range(1, wanted + 1):
         count = count_conditions(tableau, n)
         if len(rows) + count > method.most_conditions:
             return Listed(rows, n - 1, count)
-        rows += all_conditions(tableau, n, tolerance)
+        rows += all_conditions(meant(tableau, method.tolerance), n)
     return Listed(rows, wanted, 0)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from textwrap import dedent
 
-from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.analysis import Analysis
 from garkcli.check.every_facts import Fact
 from garkcli.check.every_orders import EveryOrder
 from garkcli.check.every_value import EveryValue
@@ -14,12 +14,13 @@ from garkcli.check.every_words import fact_text
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
 from garkcli.order.certificate import Order, Witness
+from garkcli.order.deciding import AnyOrder
 from garkcli.order.dense import DenseOrder
-from garkcli.order.nonautonomous import with_time
 from garkcli.page.paint import Paint
 from garkcli.report.check_further import estimate_text, fit_text
 from garkcli.report.check_orders import doubt_text, order_number, size, suggestion_lines
 from garkcli.report.hints import blame_lines, misprint_lines
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, format_tree
 from garkcli.trees.tree import Tree

@@ -70,9 +70,13 @@ def _cells(numbers: Sequence[int | None], limit: int) -> list[tuple[str, int | N
     return found
 
 
-def _numbers(found: Simplifying) -> list[tuple[str, int]]:
-    """What the bounds are made of."""
-    return [("r", found.r), ("η", found.eta), ("ζ", found.zeta), ("ξ", found.xi), ("χ", found.chi)]
+def _numbers(found: Simplifying) -> list[tuple[str, str]]:
+    """What the bounds are made of; those that reached the limit may be larger."""
+    numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
+    return [
+        (name, f"at least {number}" if found.is_open(number) else str(number))
+        for name, number in numbers.items()
+    ]
 
 
 SECTION = Section("simplifying", "Simplifying assumptions", _content)

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from garkcli import loads
 from garkcli.check.deciding import analyse
 from garkcli.order.certificate import find_order
-from garkcli.order.nonautonomous import with_time
 from garkcli.tableau.forms import gark
 from garkcli.tableau.method import butcher
+from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import brute_order
