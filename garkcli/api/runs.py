@@ -101,7 +101,7 @@ def long_run(
         digits: of the steps; floats up to 15. Those of the oscillator are exact.
         points: about how many times are kept.
         tolerance: the rounding of the coefficients; that of the method where it is not given. A
-            drift that it can cause is none of the method's.
+            drift that is seen, and that it can cause, is undecided.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, the step does not divide the

@@ -268,7 +268,7 @@ def test_usage_errors_come_before_the_work(monkeypatch: pytest.MonkeyPatch) -> N
     def never(*_: Any, **__: Any) -> None:
         raise AssertionError("work was done")
 
-    monkeypatch.setattr("garkcli.convergence.convergence.find_order", never)
+    monkeypatch.setattr("garkcli.convergence.convergence.order_of", never)
     monkeypatch.setattr("garkcli.convergence.stepped_solver.reference", never)
     for problem in (hamiltonian("kepler", 2), Oscillator.default(2, fmpq(1))):
         with pytest.raises(UsageProblem, match="not a whole number of steps"):
