@@ -64,7 +64,8 @@ class InvariantHistory:
         longer: a time that would decide what is undecided; None where there is no such time within
             ``MAX_STEPS``, or nothing undecided.
         doubt: why it is undecided; None where it is decided.
-        no_value_at: the first time at which I has no value; None where it has one throughout.
+        no_value_at: the first time at which I has no value, or one beyond 1e150; None where it has
+            one throughout.
             Errors are nan from there on.
     """
 

@@ -23,6 +23,7 @@ COMPARED = 128
 # how many times the energy the energy error is when the failure of a step is called a blow-up
 _BLOWN = 1000
 _CHUNK = 8192  # steps measured at a time
+_TOO_LARGE = 1e150  # whose square is no float; sums of squares are kept
 _MOVES = 2.0**-40  # part of the largest number at the start that is a move
 _PARTS = 4  # equal parts of a run at whose ends the state is kept
 
@@ -46,8 +47,8 @@ class Record:
         exchange: of energy, along the trajectory.
         blew_up: whether the steps ended there because the first quantity has passed all bounds.
         has_moved: whether a state differs from the start by more than rounding.
-        lost: the first step at which an invariant has no value, by the number of the invariant; its
-            errors are nan from there on, and count no more.
+        lost: the first step at which an invariant has no value, or one too large for squares of
+            it, by the number of the invariant; its errors are nan from there on, and count no more.
     """
 
     def __init__(self, measure: Measure, count: int, points: int) -> None:
@@ -160,7 +161,7 @@ class Record:
         import numpy as np
 
         for k, own in enumerate(errors.T):
-            missing = np.flatnonzero(~np.isfinite(own))
+            missing = np.flatnonzero(~(np.abs(own) < _TOO_LARGE))
             if missing.size:
                 number = start + int(missing[0])
                 self.lost[k] = min(number, self.lost.get(k, number))

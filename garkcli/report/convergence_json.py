@@ -94,8 +94,8 @@ class _Step(NamedTuple):
         return dict(zip(self.names, self.row.invariant_errors, strict=True))
 
     @property
-    def in_numbers(self) -> dict[str, float]:
-        """The same in floats."""
+    def in_numbers(self) -> dict[str, float | None]:
+        """The same in floats; None where one is unknown."""
         return {name: _number(error) for name, error in self.errors.items()}
 
     @property
@@ -106,14 +106,14 @@ class _Step(NamedTuple):
             measured = {"energy": self.row.energy_error, **measured}
         below = []
         for name, x in measured.items():
-            if x.contains(0) and not x.is_zero():
+            if x.is_finite() and x.contains(0) and not x.is_zero():
                 below.append(name)
         return below or None
 
 
-def _number(ball: arb) -> float:
+def _number(ball: arb) -> float | None:
     digits = for_programs(ball, DIGITS)
-    return float(digits)
+    return float(digits) if digits else None
 
 
 def _energy_error(step: _Step) -> float | None:

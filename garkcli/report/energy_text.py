@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.longtime.history import InvariantHistory, LongRun
@@ -88,7 +89,10 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     # noise is different on every machine, and nothing to look at
     if is_long and first.max_error > first.round_off:
         label = "H(t) − H(0)" if run.energy else f"error of {first.name}"
-        plot = terminal_band(run.times, first.errors, label)
+        # an invariant may have lost its value on the way
+        points = [(t, x) for t, x in zip(run.times, first.errors, strict=True) if isfinite(x)]
+        times, errors = zip(*points, strict=True)
+        plot = terminal_band(times, errors, label)
         lines.append("")
         lines += indented(plot.splitlines())
     return lines

@@ -327,3 +327,23 @@ def test_quiet_reports_have_no_plot() -> None:
     worked = gark("converge", VERLET, *steps, "--work", "-q").out
     assert "evaluations" in worked
     assert "┤" not in worked
+
+
+def test_an_invariant_without_a_value(tmp_path: Path) -> None:
+    """One that has no value at the end is unknown there in every format, and stops no test."""
+    problem = tmp_path / "turning.yaml"
+    problem.write_text(
+        "variables: [x]\nhamiltonian: px**2/2 + x**2/2\ninitial: {x: 3/10, px: 1}\nt_end: 4\n"
+        "invariants: {I: log(px)}\n"
+    )
+    arguments = ("converge", "rk4", "--problem", str(problem))
+    shown = gark(*arguments)
+    assert shown.code == 0
+    assert "I error" in shown.out
+    assert " unknown " in shown.out
+    report = json.loads(gark(*arguments, "--format", "json").out)
+    schema = json.loads(gark("schema", "--report", "converge").out)
+    assert not list(Draft7Validator(schema).iter_errors(report))
+    assert {step["invariant_errors"]["I"] for step in report["steps"]} == {None}
+    rows = list(csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out)))
+    assert {row["I_error"] for row in rows} == {""}
