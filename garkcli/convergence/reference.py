@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from math import ceil, log10
+from math import ceil, inf, log10
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -40,6 +40,7 @@ _FAR = 0.01  # part of the solution by which runs differ that have found none
 # of the number of steps, from one run to the next
 _LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8
 _REFINED = 64  # times the first number of steps with which they should have
+_APART = 8  # times as many steps, between which it is seen how fast the error falls
 
 
 def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
@@ -132,6 +133,7 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
     """
     runs = _Runs(problem, t_end, digits)
     fewer, before = 0, None
+    changes: list[tuple[int, _Change]] = []
     enough = max(MAX_TRIED // 2, _REFINED * steps)
     while True:
         y = runs.end(steps)
@@ -151,6 +153,14 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
                 "choose an earlier final time: it comes near a singularity, "
                 "or depends on its start too much",
             )
+        changes.append((fewer, change))
+        if fewer > enough and _needed(changes) > log10(MAX_STEPS):
+            raise UsageProblem(
+                f"the solution at t = {t_end} is not found to {digits} digits: "
+                "shorter steps hardly reduce its error",
+                "the problem is not smooth on the way, as sqrt(t) is not at t = 0: "
+                "start or end elsewhere",
+            )
         before, fewer = y, steps
         steps = ceil(steps * change.factor)
 
@@ -163,11 +173,29 @@ class _Change:
         is_small: whether the error that is left is as small as it has to be.
         is_far: whether it is so large that the runs have nothing to do with each other.
         factor: how many times more steps are likely to be enough.
+        decades: by how many powers of ten it is larger than the error may be.
     """
 
     is_small: bool
     is_far: bool
     factor: float
+    decades: float = 0.0
+
+
+def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
+    """How many decades of steps the error needs if it goes on to fall as it has fallen, whatever
+    the order of the method says; 0 where nobody can tell.
+
+    Args:
+        changes: what more steps have changed, with the fewer ones, in ascending order.
+    """
+    steps, last = changes[-1]
+    earlier = [x for x in changes if _APART * x[0] <= steps and not x[1].is_far]
+    if not earlier:
+        return 0.0
+    fewer, first = earlier[-1]
+    rate = (first.decades - last.decades) / log10(steps / fewer)
+    return log10(steps) + last.decades / rate if rate > 0 else inf
 
 
 class _Runs:
@@ -236,10 +264,11 @@ class _Runs:
             if left <= goal:  # both are 0 where the solution rests at 0
                 return _Change(True, False, 1.0)
             is_far = bool(change > _FAR * size)
+            decades = float(((change / goal).log() / arb(10).log()).mid())
             excess = float((change * ratio ** (2 * s) / goal).mid())
         factor = 1.1 * excess ** (1 / s) if excess > 0 else _LEAST_FACTOR
         factor = min(max(factor, _LEAST_FACTOR), _LARGEST_FACTOR)
-        return _Change(False, is_far, factor)
+        return _Change(False, is_far, factor, decades)
 
 
 def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:

@@ -9,6 +9,7 @@ from garkcli.convergence import reference as module
 from garkcli.convergence.reference import Reference, magnitude, reference
 from garkcli.doing import telling
 from garkcli.errors import UsageProblem
+from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
 from garkcli.stepping.step import StepFailed
 from tests.listener import Listener
@@ -112,6 +113,16 @@ def test_a_solution_that_ends_is_told_when() -> None:
     ) as told:
         Reference(problem.unsplit(), fmpq(2)).to(16)
     assert "final time before 0.75" in (told.value.help or "")
+
+
+def test_what_is_not_smooth_is_seen_by_its_error() -> None:
+    """At t = 0 sqrt(t) has no derivative: the error falls like the power 3/2 of the step, and far
+    fewer steps than are allowed tell that these would not do.
+    """
+    problem = loads_problem("{variables: [y], rhs: {y: sqrt(t)*y}, initial: {y: 1}, t_end: 1}")
+    with telling(listener := Listener()), pytest.raises(UsageProblem, match="hardly reduce"):
+        Reference(problem, fmpq(1)).to(21)
+    assert max(work.total or 0 for work in listener.told) < module.MAX_STEPS // 50
 
 
 def test_search_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
