@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 
+from garkcli.doing import hush
+
 STDIN = "-"
 """What stands for standard input."""
 _OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d{1,9}|stdin|stdout|stderr)|/proc/self/fd/(\d{1,9})")
@@ -58,6 +60,8 @@ def read_bytes(path: str, most: int) -> bytes:
     if path == STDIN:
         if sys.stdin is None:
             raise OSError(0, "standard input is closed")
+        if sys.stdin.isatty():
+            hush()  # somebody types
         return sys.stdin.buffer.read(most + 1)
     status = os.stat(path)
     is_file = stat.S_ISREG(status.st_mode)

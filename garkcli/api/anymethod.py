@@ -91,6 +91,24 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
     return value or None
 
 
+def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
+    """Refuse the conjugate and the pair of rounded coefficients where something is to be proved.
+
+    Args:
+        method: the method, or its conjugate or pair already.
+        derivation: what is to be made of it.
+
+    Raises:
+        MethodError: it is one of them: its coefficients are off by more than the tolerance.
+    """
+    derivation = derivation or method.derivation
+    if derivation and method.tolerance is not None:
+        raise MethodError(
+            f"the coefficients are rounded, and those of the {derivation} by more",
+            "give exact coefficients, without tolerance",
+        )
+
+
 def with_tolerance(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, fmpq | None]:
     """A method with the tolerance that it is judged within: the one given, or its own."""
     method = method_of(given, tolerance)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from flint import fmpq
 
-from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
+from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, with_tolerance
 from garkcli.api.methods import analyse
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
 from garkcli.check import proof
@@ -87,13 +87,15 @@ def find_stability(
             coefficients.
 
     Raises:
-        MethodError: there are ratios for another method, or one is not positive.
+        MethodError: there are ratios for another method, or one is not positive; or it is the
+            conjugate or the pair of rounded coefficients.
 
     >>> found = find_stability("gauss-3")
     >>> found, found.linear[0].a_stable
     (<Stability A-stable, not L-stable>, True)
     """
     method, near = with_tolerance(method, tolerance)
+    refuse_rounded(method)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
         raise MethodError("ratios are for exact methods of two colours", "leave them out")

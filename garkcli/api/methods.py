@@ -10,7 +10,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Protocol, cast, overload
 
-from garkcli.api.anymethod import AnyMethod, meant_of, method_of, tableau_of, with_tolerance
+from garkcli.api.anymethod import (
+    AnyMethod,
+    meant_of,
+    method_of,
+    refuse_rounded,
+    tableau_of,
+    with_tolerance,
+)
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis
@@ -21,7 +28,7 @@ from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
-from garkcli.tableau.garkmethod import Derivation, GarkMethod
+from garkcli.tableau.garkmethod import Derivation, GarkMethod, derived_name
 from garkcli.tableau.meant import meant
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
@@ -72,12 +79,16 @@ def analyse(
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
+    Raises:
+        MethodError: it is the conjugate or the pair of rounded coefficients.
+
     >>> found = analyse("gauss-2")
     >>> found, found.bound, found.symplectic
     (<Analysis order 4, conjugate 4, pair 4>, 4, True)
     """
     limit = whole(limit, "limit", 1)
     method, near = with_tolerance(method, tolerance)
+    refuse_rounded(method)
     return deciding.analyse(method.tableau, limit, near, further=method.further)
 
 
@@ -184,9 +195,12 @@ def pair(method: AnyMethod) -> Tableau | GarkMethod:
 
 
 def _derived(method: GarkMethod, tableau: Tableau, derivation: Derivation) -> GarkMethod:
-    name = f"{derivation} of {method.name}" if method.name else ""
     return GarkMethod(
-        tableau=tableau, name=name, tolerance=method.tolerance, derivation=derivation, base=method
+        tableau=tableau,
+        name=derived_name(derivation, method.name),
+        tolerance=method.tolerance,
+        derivation=derivation,
+        base=method,
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
+from dataclasses import replace
+
+from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, rational_or_none, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for
 from garkcli.backward import energy, formulas, summary
@@ -27,6 +29,7 @@ def backward_analysis(
 
     Raises:
         UsageProblem: there are too many trees.
+        MethodError: it is the conjugate or the pair of rounded coefficients.
 
     >>> found = backward_analysis("stoermer-verlet", 5)
     >>> found, found.symplectic, found.effective.order
@@ -34,6 +37,7 @@ def backward_analysis(
     """
     most = whole(max_order, "max_order", 1)
     method, near = with_tolerance(method, tolerance)
+    refuse_rounded(method)
     return summary.backward_analysis(method.tableau, most, near)
 
 
@@ -85,11 +89,13 @@ def modified_run(
     >>> run, [(x.power, x.exact_order, x.verdict) for x in run.energies]
     (<ModifiedRun pendulum: h^0 agree, h^2 agree>, [(0, 2, 'agree'), (2, 4, 'agree')])
     """
-    tableau = tableau_of(method)
-    return energy.modified_run(
+    method = method_of(method)
+    tableau = method.tableau
+    run = energy.modified_run(
         tableau,
         hamiltonian_for(problem, tableau),
         whole(max_order, "max_order", 1),
         rational_or_none(t_end, "t_end"),
         rational_or_none(longest, "longest"),
     )
+    return replace(run, method=method)

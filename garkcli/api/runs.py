@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from flint import arb, fmpq
 
 from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
+from garkcli.api.methods import find_order
 from garkcli.api.numbers import Number, Whole, rational, rational_or_none, rationals, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for, problem_for, to_step
 from garkcli.convergence import convergence
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError, counted
 from garkcli.longtime import longtime, symplecticity
-from garkcli.longtime.history import SERIES, LongRun, State
+from garkcli.longtime.history import SERIES, LongRun, State, whole_run
 from garkcli.longtime.symplecticity import Defect
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.stepping import integrator as stepping
@@ -32,7 +34,8 @@ def converge(
 ) -> Convergence:
     """Test the convergence of a method on a problem: ``gark converge``.
 
-    The method steps as it is; for the symplectic pair give ``method.pair``.
+    The method steps as it was given, whatever its file looks like: ``method.pair`` and
+    ``method.conjugate`` are what ``--pair`` and ``--conjugate`` take.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -57,16 +60,22 @@ def converge(
     >>> found.rows[0].h, float(found.rows[0].error) < 0.1
     (1, True)
     """
+    is_own = tolerance is None
     method, near = with_tolerance(method, tolerance)
     tableau = method.tableau
-    return convergence.converge(
+    order = None
+    if near is not None and is_own and method.base is not None:
+        order = find_order(method).order
+    found = convergence.converge(
         tableau,
         None if problem is None else problem_for(problem, tableau),
         rational_or_none(t_end, "t_end"),
         None if steps is None else _some(rationals(steps, "steps")),
         near,
         is_timed,
+        order,
     )
+    return replace(found, method=method)
 
 
 def long_run(
@@ -81,17 +90,18 @@ def long_run(
     """Step a problem for a long time and watch its energy and its other invariants:
     ``gark energy``.
 
-    The method steps as it is; for the symplectic pair give ``method.pair``.
+    The method steps as it was given, as in ``converge``.
 
     Args:
         method: whatever ``method_of`` takes.
         problem: as in ``converge``.
         t_end: the final time, a whole number of steps; by default one that shows the long run.
-        step: the step size h; that of the problem by default.
+        step: the step size h; by default that of the problem, or a shorter one that divides
+            ``t_end``.
         digits: of the steps; floats up to 15. Those of the oscillator are exact.
         points: about how many times are kept.
         tolerance: the rounding of the coefficients; that of the method where it is not given. A
-            drift that it can cause is none of the method's.
+            drift that is seen, and that it can cause, is undecided.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, the step does not divide the
@@ -106,16 +116,13 @@ def long_run(
     """
     method, near = with_tolerance(method, tolerance)
     found = problem_for(problem, method.tableau)
-    usual_step, usual_end = longtime.usual(found)
-    return longtime.long_run(
-        method.tableau,
-        found,
-        usual_end if t_end is None else rational(t_end, "t_end"),
-        usual_step if step is None else rational(step, "step"),
-        whole(digits, "digits", 1),
-        whole(points, "points", 1),
-        near,
+    h, end = whole_run(
+        rational_or_none(step, "step"), rational_or_none(t_end, "t_end"), *longtime.usual(found)
     )
+    run = longtime.long_run(
+        method.tableau, found, end, h, whole(digits, "digits", 1), whole(points, "points", 1), near
+    )
+    return replace(run, method=method)
 
 
 def symplecticity_defects(

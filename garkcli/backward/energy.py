@@ -12,7 +12,7 @@ IX.8.1.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import fmpq
 
@@ -20,7 +20,6 @@ from garkcli.backward.energy_meter import (
     MAX_STEPS,
     ROWS,
     Meter,
-    Watch,
     are_above_noise,
     slopes_have_settled,
 )
@@ -33,6 +32,9 @@ from garkcli.stepping.integrator import bind
 from garkcli.stepping.linear import whole_steps
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
+
+if TYPE_CHECKING:
+    from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
 _BEYOND = 3  # further orders in which the next power of h is looked for
@@ -86,6 +88,7 @@ class ModifiedRun:
         max_order: of the trees in the modified Hamiltonian.
         digits: of the steps.
         energies: by ascending powers of h, that of H first.
+        method: what stepped, where it is known by more than its tableau.
     """
 
     problem: Hamiltonian
@@ -93,6 +96,7 @@ class ModifiedRun:
     max_order: int
     digits: int
     energies: tuple[ModifiedEnergy, ...]
+    method: GarkMethod | None = None
 
     @property
     def is_refuted(self) -> bool:
@@ -114,7 +118,6 @@ def modified_run(
     max_order: int,
     t_end: fmpq | None = None,
     longest: fmpq | None = None,
-    watch: Watch = lambda path, _: path,
 ) -> ModifiedRun:
     """Measure the energy error of ``tableau`` on ``problem`` in its modified Hamiltonian.
 
@@ -124,7 +127,6 @@ def modified_run(
         max_order: of the trees: powers of h up to one less.
         t_end: the problem's own by default.
         longest: the largest step size is at most so long.
-        watch: is given the states of each row and their number.
 
     Raises:
         UsageProblem: the method is not symplectic or not consistent, there are too many trees or
@@ -151,7 +153,7 @@ def modified_run(
     bound = bind(tableau, problem)
     t_end = problem.t_end if t_end is None else t_end
     first = _first_count(problem, t_end, longest)
-    meter = Meter(bound, formulas, powers, t_end, watch)
+    meter = Meter(bound, formulas, powers, t_end)
     meter.choose_digits(first, following[-1][0])
     table = meter.table(first)
     energies = []

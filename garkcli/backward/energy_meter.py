@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log10
-from typing import Any, TypeAlias
+from typing import Any
 
 from flint import arb, ctx, fmpq
 
 from garkcli.convergence.ladder import has_settled
 from garkcli.convergence.result import Row, slope_between
+from garkcli.doing import counting
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.integrator import Binding
 from garkcli.stepping.step import trajectory
 
-Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
-"""Passes on a number of states and may count them."""
 ROWS = 5
 """Step sizes; more, up to ``MAX_ROWS``, while the slopes have not settled."""
 MAX_ROWS = 7
@@ -38,7 +37,6 @@ class Meter:
         formulas: H, and what multiplies the powers.
         powers: of h, 0 first.
         t_end: the final time.
-        watch: as for ``modified_run``.
         digits: of the steps.
     """
 
@@ -46,7 +44,6 @@ class Meter:
     formulas: Sequence[Any]
     powers: Sequence[int]
     t_end: fmpq
-    watch: Watch
     digits: int = _DIGITS
 
     def choose_digits(self, first: int, order: int) -> None:
@@ -92,7 +89,7 @@ class Meter:
         q = symbols(variables, "q")
         p = symbols(variables, "p")
         steps = trajectory(integrator, h, count)
-        path = self.watch(steps, count + 1)
+        path = counting(f"h = {h}", steps, count + 1)
         with ctx.workprec(integrator.bits):
             values_of = function(tuple(self.formulas), (*q, *p), True)
             squares = [arb(0) for _ in self.powers]

@@ -10,6 +10,7 @@ from garkcli.backward.differentials import Differentials, Formula, FormulaVector
 from garkcli.backward.hamiltonian import modified_hamiltonian
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.backward.visible import visible
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -83,6 +84,7 @@ class ModifiedFormula:
         return latex
 
 
+@doing("modified Hamiltonian of the problem")
 def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> ModifiedFormula:
     """The modified Hamiltonian of a symplectic method, the modified equation of any other.
 

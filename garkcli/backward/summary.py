@@ -14,6 +14,7 @@ from garkcli.backward.hamiltonian import (
     symplectic_order,
 )
 from garkcli.backward.modified import ModifiedEquation, modified_equation
+from garkcli.doing import doing
 from garkcli.order.deciding import order_of
 from garkcli.order.defects import is_symplectic
 from garkcli.tableau.tableau import Tableau
@@ -75,6 +76,7 @@ class BackwardAnalysis:
         return html
 
 
+@doing("modified equation")
 def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None
 ) -> BackwardAnalysis:

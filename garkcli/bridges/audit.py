@@ -15,6 +15,7 @@ from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_ta
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.explained import repair_text, witness_text
+from garkcli.doing import doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
@@ -106,11 +107,16 @@ def audited(paths: Iterable[str]) -> Iterator[Audited]:
         UsageProblem: a source cannot be read.
     """
     for path in paths:
-        text, source = source_text(path)
-        for table in find_tables(text, source, readers_for(path)):
-            found = audit(table)
-            if found is not None:
-                yield found
+        with doing(path):
+            found = _audited(path)
+        yield from found
+
+
+def _audited(path: str) -> list[Audited]:
+    """The tables of one source."""
+    text, source = source_text(path)
+    judged = (audit(table) for table in find_tables(text, source, readers_for(path)))
+    return [found for found in judged if found is not None]
 
 
 def unlike(paths: Iterable[str]) -> Iterator[str]:

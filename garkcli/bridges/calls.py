@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
-from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded
 from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.audit import Audited, audited
 from garkcli.bridges.collecting import collected
@@ -14,7 +14,6 @@ from garkcli.bridges.preparing import prepared
 from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridge_named
 from garkcli.bridges.sources import source_files
-from garkcli.errors import MethodError
 from garkcli.methodfile.build import MethodFile
 
 AnyPath: TypeAlias = "str | os.PathLike[str]"
@@ -25,23 +24,22 @@ def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
     """The text that ``gark export`` writes.
 
     Args:
-        method: from a file, a text or arrays; or a path or a name of the catalogue.
+        method: from a file, a text or arrays, or its ``conjugate`` or ``pair``; or a path or a name
+            of the catalogue.
         target: as ``gark list exports`` shows it.
         digits: of every number, where they are asked for; exact otherwise.
 
     Raises:
         UsageProblem: there is no such target.
         CannotExport: the target cannot hold the method.
-        MethodError: the method was not read from a text.
+        MethodError: the method was not read from a text, or it is the conjugate or the pair of
+            rounded coefficients.
 
     >>> export("heun", "csv").splitlines()[0][:1]
     '#'
     """
     method = method_of(method)
-    if not isinstance(method, MethodFile):
-        raise MethodError(
-            f"{method!r} is no method file", "give what load, loads or from_arrays return"
-        )
+    refuse_rounded(method)
     many = None if digits is None else whole(digits, "digits", 1)
     return bridge_named(target).written(prepared(method, many))
 

@@ -12,6 +12,7 @@ from garkcli.bridges import names
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.rounding import Cell, TooWide
+from garkcli.tableau.garkmethod import Derivation
 from garkcli.tableau.pointwise import Block, Entries, Row
 from garkcli.tableau.tableau import Tableau
 from garkcli.version import __version__
@@ -41,6 +42,7 @@ class Payload:
         reference: where it was published, in one line.
         digits: of every number, where they were asked for.
         coupling: between the slow stages of a multirate infinitesimal method.
+        derivation: whether it is the conjugate or the pair of what a file gives.
         version: of gark.
     """
 
@@ -56,6 +58,7 @@ class Payload:
     reference: str = ""
     digits: int | None = None
     coupling: Coupling | None = None
+    derivation: Derivation = ""
     version: str = field(default=__version__)
 
     @property

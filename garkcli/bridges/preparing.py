@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
 
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
-from garkcli.errors import printable
+from garkcli.doing import doing
+from garkcli.errors import MethodError, printable
+from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.infinitesimal import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
+from garkcli.tableau.garkmethod import GarkMethod, derived_name
 from garkcli.tableau.pointwise import Block, Cell, Entries, entries, in_points, numeric_entries
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
-
-if TYPE_CHECKING:
-    from garkcli.methodfile.build import MethodFile
 
 EXTRA = 120
 """Digits of enclosures beyond those that are written: rounding is told by nines and zeros."""
@@ -28,16 +27,23 @@ USUAL = 40
 """More digits than any target writes where none are asked for."""
 
 
-def prepared(method: MethodFile, digits: int | None = None) -> Payload:
-    """What writers get of a method file.
+@doing("numbers and orders")
+def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
+    """What writers get of a method.
 
     Args:
-        method: as it was read.
+        method: as it was read from a file, or the conjugate or the pair of such a method.
         digits: of every number, where they are asked for.
 
     Raises:
         CannotExport: no target writes a method like this.
+        MethodError: it was not read from a file.
     """
+    file = method if method.base is None else method.base
+    if not isinstance(file, MethodFile):
+        raise MethodError(
+            f"{method!r} is no method file", "give what load, loads or from_arrays return"
+        )
     tableau = method.tableau
     if tableau.has_parameters:
         raise CannotExport(
@@ -47,7 +53,9 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
-        name=printable(_name(method)),
+        name=printable(
+            _name(file) if method is file else derived_name(method.derivation, _name(file))
+        ),
         kind=kind_of(tableau),
         tableau=in_points(tableau) or tableau,
         entries=found,
@@ -55,10 +63,11 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
         embedded=embedded,
         dense=None if dense is None else dense.weights,
         tolerance=method.tolerance,
-        structure=method.structure,
-        reference=printable(str(method.reference)),
+        structure=file.structure,
+        reference=printable(str(file.reference)),
         digits=digits,
-        coupling=coupling_of(method),
+        coupling=coupling_of(file) if method is file else None,
+        derivation=method.derivation,
     )
 
 

@@ -114,4 +114,5 @@ def trial_of(payload: Payload) -> Trial:
 def command_of(payload: Payload, problem_file: str) -> str:
     """What prints the same errors, for the head of a program."""
     trial = trial_of(payload)
-    return f"gark converge FILE --problem {problem_file} --steps {trial.step_sizes}"
+    taken = f" --{payload.derivation}" if payload.derivation else ""
+    return f"gark converge FILE{taken} --problem {problem_file} --steps {trial.step_sizes}"

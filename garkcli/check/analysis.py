@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.order.deciding import AnyOrder, order_of
@@ -110,6 +111,7 @@ class Analysis:
         return f"<Analysis {', '.join(orders)}>"
 
 
+@doing("conjugate and pair")
 def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, str]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""

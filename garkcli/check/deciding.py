@@ -16,6 +16,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
+from garkcli.doing import doing
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.defects import is_symplectic
@@ -53,11 +54,15 @@ def analyse(
     inconsistent = inconsistent_blocks(method)
     conditions = simplifying(method, limit)
     conjugated, both, obstacle = conjugate_and_pair(method)
-    conjugate_order = None if conjugated is None else order_of(conjugated, limit)
+    conjugate_order = None
+    if conjugated is not None:
+        with doing("conjugate"):
+            conjugate_order = order_of(conjugated, limit)
     conjugate_inconsistent = inconsistent_blocks(conjugated)
     pair_order, pair_conditions = None, None
     if both is not None and not is_pair_of_itself(method, both):
-        pair_order, pair_conditions = order_of(both, limit), simplifying(both, limit)
+        with doing("pair"):
+            pair_order, pair_conditions = order_of(both, limit), simplifying(both, limit)
     symplectic = is_symplectic(method)
     if isinstance(method, Tableau):
         suggestion = _suggestion(method, order, limit)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from garkcli.check.every_claims import verify_every
 from garkcli.check.every_value import every_value
 from garkcli.check.outcome import Outcome
+from garkcli.doing import doing
 from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.family import loads_family
@@ -15,6 +16,7 @@ MOST_PARAMETERS = 30
 """Free parameters of a file that is checked: with 27 it takes ten seconds, with 35 minutes."""
 
 
+@doing("what holds for every value of the parameters")
 def check_every(
     file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
 ) -> Outcome:

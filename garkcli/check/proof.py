@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from garkcli.check.analysis import conjugate_and_pair, is_pair_of_itself
+from garkcli.doing import doing
 from garkcli.errors import MethodError
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.proof import Proof, prove
@@ -46,6 +47,7 @@ class MethodProof:
         return f"<MethodProof {', '.join(orders)}>"
 
 
+@doing("proof")
 def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
     """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
 

@@ -10,6 +10,7 @@ import click
 
 from garkcli.cli.method_argument import INPUT
 from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted
 
 if TYPE_CHECKING:
@@ -35,14 +36,12 @@ def command(paths: tuple[str, ...], output: Output) -> int:
     """
     from garkcli.bridges.audit import audited
     from garkcli.bridges.sources import source_files
-    from garkcli.page.progress import tracked
     from garkcli.report.audited import FORMATS as RENDERERS
     from garkcli.report.audited import render_text
 
     files = list(source_files(paths, output.note))
     found: list[Audited] = []
-    shows_bar = output.verbosity >= 0 and output.may_show_progress
-    for path in tracked(iter(files), len(files), "reading", shows_bar):
+    for path in counting("files", files, len(files)):
         found += audited([path])
     if not found:
         raise _no_table(paths, files)

@@ -20,6 +20,7 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.project import Project, find_project
+from garkcli.doing import counting
 from garkcli.report.check_formats import FORMATS
 
 if TYPE_CHECKING:
@@ -158,14 +159,12 @@ def _outcomes(
 ) -> list[Outcome]:
     """The outcome of each file that is meant, in order."""
     from garkcli.cli.parallel import check_files
-    from garkcli.page.progress import tracked
 
     paths = files_meant(files, output)
     refuse_settings_of_several(settings, paths)
     jobs = wanted.jobs or os.cpu_count() or 1
     running = check_files(paths, wanted.max_order, wanted.error_constants, jobs, settings)
-    shows_bar = output.verbosity >= 0
-    outcomes = tracked(running, len(paths), "checking", shows_bar)
+    outcomes = counting("files", running, len(paths))
     return [_as_wanted(outcome, wanted) for outcome in outcomes]
 
 

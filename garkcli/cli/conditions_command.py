@@ -19,6 +19,7 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
@@ -74,7 +75,6 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     With --symplectic one condition of each class of those that are equivalent for symplectic
     methods; with FILE for its symplectic pair, unless it is symplectic itself.
     """
-    from garkcli.page.progress import tracked
     from garkcli.report import conditions as report
 
     wanted = Wanted(**options)
@@ -97,7 +97,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     else:
         rows = _table(wanted, output.format)
     rows = _arranged(rows, wanted.sort, wanted.digits)
-    rows = tracked(rows, None, "conditions", output.may_show_progress)
+    rows = counting("conditions", rows)
     pieces = report.render(
         rows, output.format, output.paint, output.width, wanted.document, subject, valued
     )
@@ -196,7 +196,8 @@ def _chosen(file: str, settings: Mapping[str, str], wanted: Wanted) -> Valued:
         method = load(file, settings)
     except HasFreeParameters as error:
         return _for_every_value(error, settings, wanted)
-    return Valued(derived(method.meant, wanted.which), wanted.failing)
+    which = wanted.which or ""
+    return Valued(derived(method.meant, which), wanted.failing, derivation=which)
 
 
 def _for_every_value(
@@ -210,7 +211,8 @@ def _for_every_value(
     sort = wanted.sort == "worst"
     refuse_numbers(family, {"--digits": wanted.digits, "--sort worst": sort})
     tableau = companion(family.tableau, wanted.which)
-    return Valued(tableau, wanted.failing, family.family.parameters)
+    parameters = family.family.parameters
+    return Valued(tableau, wanted.failing, parameters, wanted.which or "")
 
 
 def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:

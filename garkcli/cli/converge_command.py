@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from garkcli.cli.companion import companion, companion_options
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
 from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import (
@@ -20,9 +21,8 @@ from garkcli.cli.options import (
 )
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
 from garkcli.cli.problems import ProblemType, note_changing, problem_options
-from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, stepped_tableau
-from garkcli.cli.streams import say_problem
-from garkcli.errors import UsageProblem
+from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, tell_failure
+from garkcli.errors import GarkError, UsageProblem
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,6 +45,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 
 @click.command("converge", context_settings=CONTEXT)
 @files_argument()
+@companion_options
 @click.option(
     "--problem",
     type=ProblemType(),
@@ -80,14 +81,16 @@ def command(
     Steps are taken with as many digits as the errors need, so that a method of order 12 shows slope
     12 and not rounding; the step map of the oscillator is linear and taken exactly. Without
     --problem it is generic, or its counterpart for separable, semi-separable and Nyström methods:
-    these see every tree, others may show a higher order than the method has. A file with `methods`
-    is tested as its symplectic pair, every other file as it stands.
+    these see every tree, others may show a higher order than the method has.
+
+    The method of FILE steps as it is given, whatever form it has; its symplectic pair with --pair.
 
     Several FILEs, directories (all *.gark.yaml below them) or patterns are compared, in one table
     and one plot. With --work they are compared by what their errors cost.
 
     Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
-    step fails, 2 a file cannot be read, or its method is not for this problem.
+    step fails, 2 a file cannot be read, or its method is not for this problem, 3 one is undecided:
+    no order is seen.
     """
     paths = files_meant(files, output)
     refuse_settings_of_several(settings, paths)
@@ -105,6 +108,7 @@ def command(
 class Asked:
     """What the options say, by their names; None where they were not given."""
 
+    which: str | None
     problem: str | None
     omega: str | None
     split: str | None
@@ -155,6 +159,7 @@ def _wanted(asked: Asked) -> Wanted:
     if asked.steps is not None:
         steps = tuple(positive("--steps", h) for h in asked.steps.split(","))
     return Wanted(
+        asked.which,
         asked.named,
         asked.omega,
         asked.split,
@@ -186,30 +191,27 @@ def _one(
 ) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
-    from garkcli.page.progress import watching
     from garkcli.report import convergence as report
-    from garkcli.stepping.step import StepFailed
 
-    problems = Problems(wanted)
-    method = load(path, settings)
-    tableau = stepped_tableau(method, output, has_momenta=problems.is_hamiltonian)
-    problems.prepare([tableau])
-    if problems.read is not None:
-        note_changing(problems.read, output)
+    name = path
     try:
-        with watching(output.verbosity >= 0) as watch:
-            result = tested(method, tableau, wanted, problems, watch)
-    except StepFailed as error:
-        say_problem(error)
-        return 1
+        problems = Problems(wanted)
+        method = companion(load(path, settings), wanted.which)
+        name = method.name
+        problems.prepare([method.tableau])
+        if problems.read is not None:
+            note_changing(problems.read, output)
+        result = tested(method, wanted, problems)
+    except GarkError as error:
+        return tell_failure(error, name, report.render_failure, output)
     says_all = output.verbosity >= 0
     text = report.render(result, method.name, output.format, output.paint, shown.work, says_all)
     output.write(text)
-    hint_rounding(method, tableau, result, output)
+    hint_rounding(method, result, output)
     if shown.plot is not None:
         figure = _figure(result, method.name, shown)
         save_plot(figure, shown.plot, output)
-    return int(result.verdict == "disagree")
+    return result.exit_code
 
 
 def _figure(result: Convergence, name: str, shown: Shown) -> Figure:

@@ -4,26 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
+from garkcli.cli.companion import companion
 from garkcli.cli.options import Output
-from garkcli.cli.problems import find_problem, is_hamiltonian, is_path, note_changing
-from garkcli.cli.stepping import oscillator, rational, stepped_tableau
+from garkcli.cli.problems import find_problem, is_path, note_changing
+from garkcli.cli.stepping import failure_code, faults_of, oscillator, rational
 from garkcli.cli.streams import say_faults
-from garkcli.errors import Fault, GarkError, MethodFileError
+from garkcli.doing import doing
+from garkcli.errors import GarkError, MethodFileError
 
 if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.convergence.result import Convergence
-    from garkcli.convergence.solver import Watch
-    from garkcli.methodfile.build import MethodFile
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
     from garkcli.report.convergence_data import Entry
+    from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
-
-    Loaded: TypeAlias = tuple[MethodFile, Tableau]
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,7 @@ class Wanted:
     """What to test on, by the names of the options.
 
     Attributes:
+        which: "conjugate" or "pair" where these are to step; None for the methods themselves.
         problem: a name or the path of a problem file, or None for one that sees every tree.
         omega, split, seed, stiffness: of the problems that take them.
         t_end: the final time, or None for that of the problem.
@@ -38,6 +38,7 @@ class Wanted:
         work: whether the cost of the steps is measured.
     """
 
+    which: str | None
     problem: str | None
     omega: str | None
     split: str | None
@@ -110,15 +111,6 @@ class Problems:
             self._name = seeing_problem(tableaux, self._seed)
 
     @property
-    def is_hamiltonian(self) -> bool:
-        """Whether methods are to step positions and momenta: so they are where none is named."""
-        from garkcli.problems.hamiltonian import Hamiltonian
-
-        if self.read is not None:
-            return isinstance(self.read, Hamiltonian)
-        return self._name is None or is_hamiltonian(self._name)
-
-    @property
     def _seed(self) -> int:
         return 1 if self._wanted.seed is None else self._wanted.seed
 
@@ -145,30 +137,19 @@ class Problems:
         return first
 
 
-def tested(
-    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
-) -> Convergence:
+def tested(method: GarkMethod, wanted: Wanted, problems: Problems) -> Convergence:
     """The convergence test of one method.
 
     Raises:
         GarkError: the method is not for the problem, or a step fails.
     """
-    from garkcli.convergence.convergence import converge
+    from garkcli.api.runs import converge
 
-    return converge(
-        tableau,
-        problems.of(tableau),
-        wanted.t_end,
-        wanted.steps,
-        method.tolerance,
-        wanted.work,
-        watch,
-    )
+    problem = problems.of(method.tableau)
+    return converge(method, problem, wanted.t_end, wanted.steps, is_timed=wanted.work)
 
 
-def hint_rounding(
-    method: MethodFile, tableau: Tableau, result: Convergence, output: Output, path: str = ""
-) -> None:
+def hint_rounding(method: GarkMethod, result: Convergence, output: Output, path: str = "") -> None:
     """Where the exact order shows late or not at all because coefficients look rounded: the line
     that is missing.
     """
@@ -178,7 +159,7 @@ def hint_rounding(
     from garkcli.order.certificate import find_order
     from garkcli.order.suggestion import suggest_tolerance
 
-    found = suggest_tolerance(tableau, find_order(tableau))
+    found = suggest_tolerance(method.tableau, find_order(method.tableau))
     if found is not None:
         where = f"{path}: " if path else ""
         output.note(
@@ -196,64 +177,55 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
         UsageProblem: the steps that are wanted do not fit the time.
     """
     from garkcli.methodfile.naming import called
-    from garkcli.page.progress import watching
+    from garkcli.report.convergence_data import Entry
 
     problems = Problems(wanted)
-    methods = [_loaded(path, problems, output) for path in paths]
+    methods = [_loaded(path, wanted) for path in paths]
     paths = [called(path) for path in paths]
-    problems.prepare([found[1] for found in methods if isinstance(found, tuple)])
+    problems.prepare([found.tableau for found in methods if not isinstance(found, Entry)])
     if problems.read is not None:
         note_changing(problems.read, output)
     entries = []
-    with watching(output.verbosity >= 0) as watch:
-        for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):
-            if isinstance(found, tuple):
-                prefixed = _prefixed(watch, f"{k}/{len(paths)}")
-                entries.append(_entry(path, found, wanted, problems, prefixed))
-            else:
+    with doing("methods", len(paths)) as work:
+        for path, found in zip(paths, methods, strict=True):
+            if isinstance(found, Entry):
                 entries.append(found)
+            else:
+                entries.append(_entry(path, found, wanted, problems))
+            work.reach(work.done + 1)
     for path, found, entry in zip(paths, methods, entries, strict=True):
-        if isinstance(found, tuple) and entry.result is not None:
-            hint_rounding(*found, entry.result, output, path)
+        if not isinstance(found, Entry) and entry.result is not None:
+            hint_rounding(found, entry.result, output, path)
     return entries
 
 
-def _loaded(path: str, problems: Problems, output: Output) -> Loaded | Entry:
-    """A method with the tableau that steps, or what its failure leaves."""
+def _loaded(path: str, wanted: Wanted) -> GarkMethod | Entry:
+    """The method that steps, or what its failure leaves."""
     from garkcli.methodfile.load import load
 
     try:
-        method = load(path)
-        tableau = stepped_tableau(method, output, path, problems.is_hamiltonian)
-        return method, tableau
+        return companion(load(path), wanted.which)
     except GarkError as error:
         return _failed(path, path, error)
 
 
-def _prefixed(watch: Watch, prefix: str) -> Watch:
-    return lambda what, done, total: watch(f"{prefix} {what}", done, total)
-
-
-def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch) -> Entry:
+def _entry(path: str, method: GarkMethod, wanted: Wanted, problems: Problems) -> Entry:
     from garkcli.report.convergence_data import Entry
 
-    method, tableau = loaded
     try:
-        result = tested(method, tableau, wanted, problems, watch)
+        with doing(path):
+            result = tested(method, wanted, problems)
     except GarkError as error:
         return _failed(path, method.name, error)
-    return Entry(path, method.name, result, (), int(result.verdict == "disagree"))
+    return Entry(path, method.name, result, (), result.exit_code)
 
 
 def _failed(path: str, name: str, error: GarkError) -> Entry:
-    """Tell an error; a step that fails has exit code 1, everything else 2."""
+    """Tell an error with the name of the file."""
     from garkcli.check.outcome import Outcome
     from garkcli.report.convergence_data import Entry
-    from garkcli.stepping.step import StepFailed
 
-    if isinstance(error, MethodFileError):
-        faults, text = error.faults, error.text
-    else:
-        faults, text = (Fault(error.message, error.help),), ""
+    faults = faults_of(error)
+    text = error.text if isinstance(error, MethodFileError) else ""
     say_faults(Outcome(path, name, faults=faults, text=text))
-    return Entry(path, name, None, faults, 1 if isinstance(error, StepFailed) else 2)
+    return Entry(path, name, None, faults, failure_code(error))

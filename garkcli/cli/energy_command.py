@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.long_runs import Wanted, check_wanted, followed, put_to_work, symplecticity_of
+from garkcli.cli.companion import companion, companion_options, exact_companion
+from garkcli.cli.long_runs import Wanted, check_wanted, followed, problem_of, symplecticity_of
 from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import CONTEXT, Output, common, settings_option
 from garkcli.cli.plotting import plot_option, save_plot
 from garkcli.cli.problems import ProblemType, problem_options
-from garkcli.cli.stepping import given_positive
-from garkcli.cli.streams import say_problem
+from garkcli.cli.stepping import given_positive, tell_failure
+from garkcli.errors import GarkError
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -28,6 +29,7 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
 
 @click.command("energy", context_settings=CONTEXT)
 @file_argument()
+@companion_options
 @click.option(
     "--problem",
     type=ProblemType(),
@@ -73,8 +75,8 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of
     the oscillator is linear: there the energy error has no rounding, and whether it is bounded for
     all time is decided exactly. The other problems are stepped in floats with compensated
-    summation, or with --digits. A file with `methods` is taken as its symplectic pair, every other
-    file as it stands.
+    summation, or with --digits. The method of FILE steps as it is given, its symplectic pair with
+    --pair.
 
     A drift that a slow modulation may explain is undecided, and a longer run proposed.
 
@@ -87,7 +89,6 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     from garkcli.methodfile.load import load
     from garkcli.report import energy as report
     from garkcli.report.energy_text import Report
-    from garkcli.stepping.step import StepFailed
 
     wanted = Wanted(**options)
     check_wanted(wanted)
@@ -96,14 +97,15 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     limit = given_positive("--max-error", wanted.max_error)
     time = given_positive("--t-end", wanted.t_end)
     step = given_positive("--step", wanted.step)
-    method = load(wanted.file, settings)
-    tableau, problem = put_to_work(method, wanted, output)
+    name = wanted.file
     try:
-        run = followed(method, tableau, problem, time, step, wanted, output)
-        steps = symplecticity_of(tableau, method, run, wanted.symplecticity)
-    except StepFailed as error:
-        say_problem(error)
-        return 1
+        method = companion(load(wanted.file, settings), wanted.which)
+        name = method.name
+        problem = problem_of(method.tableau, wanted, output)
+        run = followed(method, problem, time, step, wanted)
+        steps = symplecticity_of(method, run, wanted.symplecticity)
+    except GarkError as error:
+        return tell_failure(error, name, report.render_failure, output)
     claims = _claims(run, wanted.bounded, limit)
     made = Report(method.name, run, steps, claims)
     says_all = output.verbosity >= 0
@@ -132,9 +134,8 @@ def _in_modified(wanted: Wanted, order: int, settings: Mapping[str, str], output
         "--plot": wanted.plot,
     }
     times = wanted.t_end, wanted.step
-    return measure_modified(
-        load(wanted.file, settings), wanted.problem, wanted.seed, times, order, others, output
-    )
+    method = exact_companion(load(wanted.file, settings), wanted.which)
+    return measure_modified(method, wanted.problem, wanted.seed, times, order, others, output)
 
 
 def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:

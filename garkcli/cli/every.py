@@ -10,6 +10,7 @@ from garkcli.cli.options import Output
 from garkcli.cli.rendering import refuse_partitioned, write_tableau
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem
 from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tableau.tableau import Tableau
 
 
@@ -48,7 +49,7 @@ def refuse_numbers(family: EveryFamily, options: Mapping[str, object]) -> None:
 def write_family(
     error: HasFreeParameters,
     settings: Mapping[str, str],
-    which: str | None,
+    which: Derivation | None,
     digits: int | None,
     output: Output,
     is_document: bool,
@@ -80,11 +81,9 @@ def write_family(
             "the embedded weights and the dense output are left out; with "
             f"values there are: --set {name_of_one}=1/2"
         )
-    name = file.name
-    if which is not None:
-        name = f"symplectic {which} of {name}"
+    name = file.name if which is None else derived_name(which, file.name)
     if output.format != "yaml":
-        write_tableau(shown, name, None, output, None, is_document)
+        write_tableau(shown, name, None, output, None, is_document, derivation=which or "")
         return
     output.write(_method_file(shown, name, family))
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.companion import companion_options, exact_companion
 from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import CONTEXT, PATH, Output, digits_option, help_option, settings_option
 from garkcli.errors import UsageProblem
@@ -29,6 +30,7 @@ def _targets(
 
 @click.command("export", context_settings=CONTEXT)
 @file_argument()
+@companion_options
 @click.option(
     "--to",
     "target",
@@ -53,6 +55,7 @@ def _targets(
 @help_option
 def command(
     file: str,
+    which: str | None,
     target: str,
     digits: int | None,
     has_test: bool,
@@ -74,7 +77,7 @@ def command(
     if has_test:
         _check_test(bridge, output)
     place = Output("text", output, 0, "never")
-    payload = prepared(load(file, settings), digits)
+    payload = prepared(exact_companion(load(file, settings), which), digits)
     table = bridge.written(payload)
     beside: Sequence[Written] = ()
     if has_test and output is not None and bridge.test_driver is not None:

@@ -8,6 +8,7 @@ import click
 
 from garkcli.cli.method_argument import INPUT
 from garkcli.cli.options import CONTEXT, PATH, Output, help_option
+from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted, printable
 
 if TYPE_CHECKING:
@@ -82,7 +83,8 @@ def command(
     readers = _readers(source_format)
     paths = list(source_files(sources, output.note))
     left_out: list[FoundTable] = []
-    results = list(collected(paths, readers, is_recognising, left_out.append))
+    sources_read = counting("sources", paths, len(paths))
+    results = list(collected(sources_read, readers, is_recognising, left_out.append))
     if not any(result.method is not None for result in results):
         raise _nothing(sources, paths, results, left_out)
     for table in left_out:

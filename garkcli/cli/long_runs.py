@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from garkcli.cli.options import Output
 from garkcli.cli.plotting import check_plot
 from garkcli.cli.problems import find_problem, is_path, note_changing, unsplit_problem
-from garkcli.cli.stepping import given_positive, oscillator, refuse_misplaced, stepped_tableau
+from garkcli.cli.stepping import given_positive, oscillator, refuse_misplaced
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
     from garkcli.longtime.history import LongRun
     from garkcli.longtime.symplecticity import Symplecticity
-    from garkcli.methodfile.build import MethodFile
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
+    from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
 
 
@@ -28,6 +28,7 @@ class Wanted:
 
     Attributes:
         file: the method.
+        which: "conjugate" or "pair" where that is to step; None for the method itself.
         problem: a name or the path of a problem file.
         omega, split, seed, stiffness: of the problems that take them.
         t_end, step: the time and the step size, as they were written; None for those of the
@@ -41,6 +42,7 @@ class Wanted:
     """
 
     file: str
+    which: str | None
     problem: str
     omega: str | None
     split: str | None
@@ -71,29 +73,22 @@ def check_wanted(wanted: Wanted) -> None:
     check_plot(wanted.plot)
 
 
-def put_to_work(
-    method: MethodFile, wanted: Wanted, output: Output
-) -> tuple[Tableau, Oscillator | Problem]:
-    """The tableau that steps, and the problem in as many terms as it is for."""
-    from garkcli.problems.hamiltonian import Hamiltonian
+def problem_of(tableau: Tableau, wanted: Wanted, output: Output) -> Oscillator | Problem:
+    """The problem in as many terms as the tableau is for."""
     from garkcli.problems.oscillator import terms_of
     from garkcli.stepping.fields import with_joined_terms
     from garkcli.stepping.matching import split_into
 
     if wanted.problem == "oscillator":
-        tableau = stepped_tableau(method, output)
-        return tableau, oscillator(tableau, wanted.omega, wanted.split)
+        return oscillator(tableau, wanted.omega, wanted.split)
     stiffness = given_positive("--stiffness", wanted.stiffness)
     read = unsplit_problem(wanted.problem, stiffness)
     _check_quantities(read, wanted)
-    has_momenta = isinstance(read, Hamiltonian)
-    tableau = stepped_tableau(method, output, has_momenta=has_momenta)
-    tableau = with_joined_terms(tableau)
     if is_path(wanted.problem):
-        problem = split_into(read, terms_of(tableau))
+        problem = split_into(read, terms_of(with_joined_terms(tableau)))
         note_changing(problem, output)
-        return tableau, problem
-    return tableau, find_problem(wanted.problem, tableau, wanted.seed, stiffness)
+        return problem
+    return find_problem(wanted.problem, tableau, wanted.seed, stiffness)
 
 
 def _check_quantities(problem: Problem, wanted: Wanted) -> None:
@@ -118,41 +113,24 @@ def _check_quantities(problem: Problem, wanted: Wanted) -> None:
 
 
 def followed(
-    method: MethodFile,
-    tableau: Tableau,
+    method: GarkMethod,
     problem: Oscillator | Problem,
     time: fmpq | None,
     step: fmpq | None,
     wanted: Wanted,
-    output: Output,
 ) -> LongRun:
-    """The long run, with a bar on a terminal.
+    """The long run.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
     """
-    from garkcli.longtime.history import whole_run
-    from garkcli.longtime.longtime import long_run, usual
-    from garkcli.page.progress import tracked
+    from garkcli.api.runs import long_run
     from garkcli.problems.hamiltonian import FLOAT_DIGITS
 
-    h, t_end = whole_run(step, time, *usual(problem))
-    shows_bar = output.verbosity >= 0
-    return long_run(
-        tableau,
-        problem,
-        t_end,
-        h,
-        wanted.digits or FLOAT_DIGITS,
-        wanted.points,
-        method.tolerance,
-        lambda path, total: tracked(path, total, "steps", shows_bar),
-    )
+    return long_run(method, problem, time, step, wanted.digits or FLOAT_DIGITS, wanted.points)
 
 
-def symplecticity_of(
-    tableau: Tableau, method: MethodFile, run: LongRun, is_measured: bool
-) -> Symplecticity | None:
+def symplecticity_of(method: GarkMethod, run: LongRun, is_measured: bool) -> Symplecticity | None:
     """Of the steps of ``run``: by the coefficients, and measured where that was asked for; None
     where the problem is not Hamiltonian.
     """
@@ -165,6 +143,7 @@ def symplecticity_of(
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.righthandside import RightHandSide
 
+    tableau = method.tableau
     if isinstance(run.problem, RightHandSide):
         return None
     if isinstance(run.problem, Oscillator):

@@ -18,17 +18,17 @@ from garkcli.cli.signals import INTERRUPTED, READER_GONE, Ended, ending
 from garkcli.cli.streams import (
     NoStandardOutput,
     ReaderGone,
+    complain,
     drop,
     flush,
     prepare,
     put,
     say,
-    say_faults,
-    say_problem,
 )
 from garkcli.cli.usage import no_such_command, usage_text
-from garkcli.errors import GarkError, MethodFileError, UsageProblem, counted
+from garkcli.errors import GarkError, UsageProblem, counted
 from garkcli.files import noting_inputs
+from garkcli.page.progress import watching
 from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
@@ -148,6 +148,7 @@ def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read wh
     if context.invoked_subcommand is None:
         say(context.get_help())
         return 2
+    context.with_resource(watching(f"gark {context.invoked_subcommand}"))
     return 0
 
 
@@ -155,7 +156,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the command line and exit.
 
     Exit codes: 0 all is well, 1 a claim fails, 2 usage or input, or there is no place for the
-    report, 3 our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads the report.
+    report, 3 undecided, or our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads
+    the report.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     prepare()
@@ -191,7 +193,7 @@ def _exit_code(arguments: list[str]) -> int:
         say(usage_text(error))
         return 2
     except GarkError as error:
-        _complain(error)
+        complain(error)
         return 2
     except OSError as error:
         say(f"gark: the report cannot be written: {error.strerror or error}")
@@ -238,13 +240,3 @@ def _own_up(error: Exception, with_traceback: bool) -> None:
     what = f"{type(error).__name__}: {error}".splitlines()[0]
     say(f"gark: internal fault: {what[:200]}")
     say(f"please report it, with the command and the file, to {REPORT_TO}")
-
-
-def _complain(error: GarkError) -> None:
-    """Say what is wrong with a file or an option, and the cure."""
-    if isinstance(error, MethodFileError):
-        from garkcli.check.outcome import Outcome
-
-        say_faults(Outcome(error.source, error.source, faults=error.faults, text=error.text))
-        return
-    say_problem(error)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.companion import companion, companion_options
+from garkcli.cli.companion import companion_options, exact_companion
 from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
@@ -18,13 +18,12 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.problems import ProblemType, find_hamiltonian, seed_option
-from garkcli.cli.stepping import refuse_misplaced, stepped_tableau
+from garkcli.cli.stepping import refuse_misplaced
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.backward.formulas import ModifiedFormula
-    from garkcli.methodfile.build import MethodFile
-    from garkcli.tableau.tableau import Tableau
+    from garkcli.tableau.garkmethod import GarkMethod
 
 
 @click.command("modified", context_settings=CONTEXT)
@@ -72,7 +71,7 @@ def command(
     the best coordinates.
 
     With --problem the modified Hamiltonian itself, of a method that is not symplectic the modified
-    equation. There a file with `methods` is taken as its symplectic pair.
+    equation.
     """
     from garkcli.backward.forest import possible_order
     from garkcli.backward.summary import backward_analysis
@@ -82,15 +81,12 @@ def command(
     from garkcli.report.modified_data import ModifiedReport
 
     check_document(document, output.format)
-    method = load(file, settings)
-    tableau = _chosen(method, which)
+    method = exact_companion(load(file, settings), which)
+    tableau = method.tableau
     formula = None
     if problem is not None:
         refuse_misplaced(problem, seed, None, {})
-        if which is None:
-            tableau = stepped_tableau(method, output)
-            which = "pair" if tableau is not method.tableau else None
-        formula = _formula(method, tableau, problem, seed, order)
+        formula = _formula(method, problem, seed, order)
     elif seed is not None:
         raise UsageProblem("--seed is for the problem", "give --problem too")
     if formula is not None:
@@ -98,7 +94,7 @@ def command(
         order = possible_order(tableau, order)
     found = backward_analysis(tableau, order, method.tolerance)
     report = ModifiedReport(
-        called(file), method.name, found, which or "", digits, equation, formula
+        called(file), method.name, found, method.derivation, digits, equation, formula
     )
     is_long = output.verbosity >= 0
     format, paint = output.format, output.paint
@@ -106,9 +102,7 @@ def command(
     return 0
 
 
-def _formula(
-    method: MethodFile, tableau: Tableau, problem: str, seed: int | None, order: int
-) -> ModifiedFormula:
+def _formula(method: GarkMethod, problem: str, seed: int | None, order: int) -> ModifiedFormula:
     """The formula on the problem of --problem.
 
     Raises:
@@ -121,19 +115,5 @@ def _formula(
             "--problem: a formula has exact coefficients, and those of the file are rounded",
             "give exact coefficients, without tolerance",
         )
-    solved = find_hamiltonian(problem, tableau, seed)
-    return modified_formula(tableau, solved, order).expanded()
-
-
-def _chosen(method: MethodFile, which: str | None) -> Tableau:
-    """The tableau that is meant.
-
-    Raises:
-        UsageProblem: the pair or the conjugate of rounded coefficients.
-    """
-    if which is not None and method.tolerance is not None:
-        raise UsageProblem(
-            f"--{which}: rounding goes on into the coefficients of it",
-            "give exact coefficients, without tolerance",
-        )
-    return companion(method.tableau, which)
+    solved = find_hamiltonian(problem, method.tableau, seed)
+    return modified_formula(method.tableau, solved, order).expanded()

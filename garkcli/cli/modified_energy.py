@@ -6,14 +6,13 @@ from collections.abc import Mapping
 
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_hamiltonian
-from garkcli.cli.stepping import given_positive, stepped_tableau
-from garkcli.cli.streams import say_problem
-from garkcli.errors import UsageProblem
-from garkcli.methodfile.build import MethodFile
+from garkcli.cli.stepping import given_positive, tell_failure
+from garkcli.errors import GarkError, UsageProblem
+from garkcli.tableau.garkmethod import GarkMethod
 
 
 def measure_modified(
-    method: MethodFile,
+    method: GarkMethod,
     problem: str,
     seed: int | None,
     times: tuple[str | None, str | None],
@@ -35,10 +34,8 @@ def measure_modified(
     Raises:
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
-    from garkcli.backward.energy import modified_run
-    from garkcli.page.progress import tracked
-    from garkcli.report.modified_energy import ModifiedEnergyReport, render
-    from garkcli.stepping.step import StepFailed
+    from garkcli.api.modified import modified_run
+    from garkcli.report.modified_energy import ModifiedEnergyReport, render, render_failure
 
     for option, value in others.items():
         if value:
@@ -50,21 +47,11 @@ def measure_modified(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
             "give exact coefficients, without tolerance",
         )
-    tableau = stepped_tableau(method, output)
-    solved = find_hamiltonian(problem, tableau, seed)
-    shows_bar = output.verbosity >= 0
     try:
-        run = modified_run(
-            tableau,
-            solved,
-            order,
-            t_end,
-            longest,
-            lambda path, total: tracked(path, total, "steps", shows_bar),
-        )
-    except StepFailed as error:
-        say_problem(error)
-        return 1
+        solved = find_hamiltonian(problem, method.tableau, seed)
+        run = modified_run(method, solved, order, t_end, longest)
+    except GarkError as error:
+        return tell_failure(error, method.name, render_failure, output)
     made = ModifiedEnergyReport(method.name, run)
     output.write(render(made, output.format, output.paint))
     return 1 if run.is_refuted else 0

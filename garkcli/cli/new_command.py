@@ -10,6 +10,7 @@ import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.cli.streams import is_terminal
+from garkcli.doing import hush
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -176,6 +177,7 @@ def _asked(name: str | None) -> Answers:
     """
     if not is_terminal(sys.stdin):
         raise UsageProblem("a new method needs --tableau or --family", EXAMPLE)
+    hush()
     if name is None:
         name = click.prompt("name", default="a new method")
     kind = click.prompt(

@@ -9,7 +9,8 @@ from typing import Any, TypeVar
 import click
 
 from garkcli.cli.method_argument import notes
-from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
+from garkcli.cli.streams import put, safe_pieces, say, wants_colour
+from garkcli.doing import hush
 from garkcli.errors import UsageProblem
 from garkcli.files import note_input
 from garkcli.page.paint import Paint
@@ -130,15 +131,21 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
                 chosen.note(note)
             return function(output=chosen, **rest)
 
-        run.__doc__ = function.__doc__
-        run.__name__ = function.__name__
-        decorated: Any = run
-        decorated.__click_params__ = getattr(function, "__click_params__", [])
+        decorated = wrapping(function, run)
         for option in reversed(_common_options(formats)):
             decorated = option(decorated)
-        return decorated  # type: ignore[no-any-return]
+        return decorated
 
     return decorate
+
+
+def wrapping(function: F, run: Callable[..., Any]) -> F:
+    """``run`` in the place of ``function``, with its name, its help and its options."""
+    made: Any = run
+    made.__doc__ = function.__doc__
+    made.__name__ = function.__name__
+    made.__click_params__ = getattr(function, "__click_params__", [])
+    return made  # type: ignore[no-any-return]
 
 
 def _common_options(formats: Sequence[str]) -> list[Callable[[Any], Any]]:
@@ -175,6 +182,8 @@ class Output:
         self.path = path
         self.verbosity = verbosity
         self._color = color
+        if verbosity < 0:
+            hush()
         self.check_place()
 
     def check_place(self) -> None:
@@ -219,13 +228,6 @@ class Output:
         from garkcli.page.writing import write_whole
 
         write_whole(self.path, safe_pieces(pieces, format, coloured))
-
-    @property
-    def may_show_progress(self) -> bool:
-        """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the
-        terminal.
-        """
-        return self.verbosity >= 0 and (self.path is not None or not is_terminal(sys.stdout))
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""

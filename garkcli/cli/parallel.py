@@ -12,6 +12,7 @@ from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import in_order
+from garkcli.doing import doing
 from garkcli.errors import Fault
 from garkcli.files import is_stream
 from garkcli.methodfile.load import NO_SETTINGS
@@ -42,7 +43,8 @@ def check_files(
 def _checked(check: Work, path: str) -> Outcome:
     """The outcome of one file, also where the program has a fault."""
     try:
-        return check(path)
+        with doing(path):
+            return check(path)
     except Exception as error:
         if "--debug" in sys.argv:
             raise

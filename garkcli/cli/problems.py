@@ -98,13 +98,6 @@ def problem_options(function: F) -> F:
     return function
 
 
-def is_hamiltonian(name: str) -> bool:
-    """Whether a built-in problem is."""
-    from garkcli.problems.builtin import built_in
-
-    return built_in(name).is_hamiltonian
-
-
 def unsplit_problem(name_or_path: str, stiffness: fmpq | None) -> Problem:
     """The problem called so in one term, or as a file has it.
 

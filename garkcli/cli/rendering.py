@@ -8,6 +8,7 @@ from garkcli.cli.options import Output, check_document
 from garkcli.errors import UsageProblem
 from garkcli.page.plain import printable
 from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.garkmethod import Derivation
 from garkcli.tableau.pointwise import Entries, entries, in_points
 from garkcli.tableau.tableau import Tableau
 
@@ -23,6 +24,7 @@ def write_tableau(
     tolerance: fmpq | None,
     is_document: bool = False,
     further: Further = NOTHING,
+    derivation: Derivation = "",
 ) -> None:
     """Write a tableau as text, YAML, JSON or LaTeX.
 
@@ -36,6 +38,7 @@ def write_tableau(
             read them.
         is_document: whether LaTeX gets a preamble.
         further: its embedded weights and its dense output.
+        derivation: whether it is the conjugate or the pair of what a file gives.
 
     Raises:
         UsageProblem: no preamble belongs to the format, or no method file says the tableau.
@@ -48,7 +51,7 @@ def write_tableau(
     if output.format == "json":
         from garkcli.report import tableau_json
 
-        output.write(tableau_json.render(tableau, found, name))
+        output.write(tableau_json.render(tableau, found, name, derivation))
         return
     if tolerance is not None:
         from garkcli.report.tableau_text import readable

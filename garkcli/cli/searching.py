@@ -15,10 +15,10 @@ from garkcli.design.design import CLAIMS
 from garkcli.design.search.run import MOST, Result, Task, Timed, results
 from garkcli.design.search.search import Proof, Search
 from garkcli.design.search.told import TOLERANCE, Method
+from garkcli.doing import doing
 from garkcli.errors import NotDecided, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.methodfile.search_file import FileSearch
-from garkcli.page.progress import watching
 from garkcli.page.writing import write_whole
 from garkcli.report import search_data, search_text
 
@@ -50,7 +50,7 @@ def search(family: FamilyFile, wanted: Wanted, starts: int, output: Output) -> i
         raise UsageProblem("a search is for an order", cure)
     asked = FileSearch.of(family, order, wanted.whose)
     looking = asked.search
-    result, ended = _searched(asked, wanted, starts, output)
+    result, ended = _searched(asked, wanted, starts)
     files = _written(family, looking, result, wanted)
     as_json = output.format == "json"
     render = search_data.render if as_json else search_text.render
@@ -61,9 +61,7 @@ def search(family: FamilyFile, wanted: Wanted, starts: int, output: Output) -> i
     return 0 if result.methods else 3
 
 
-def _searched(
-    asked: FileSearch, wanted: Wanted, starts: int, output: Output
-) -> tuple[Result, int | None]:
+def _searched(asked: FileSearch, wanted: Wanted, starts: int) -> tuple[Result, int | None]:
     """The result, and the exit code where an interrupt or a lost worker ends the search; where the
     time does, it is that of what was found.
     """
@@ -71,12 +69,12 @@ def _searched(
     place = wanted.jobs or 1, wanted.scheduler or ""
     looking = asked.search
     result, ended = Result(), None
-    with watching(output.may_show_progress) as show:
+    with doing("starts", starts) as work:
         try:
             with until(wanted.moment), hired(asked.do, _lost, *place) as workers:
                 for result in results(looking, starts, seed, most, workers):
-                    what = f"starts, {len(result.methods)} methods found"
-                    show(what, result.starts, starts)
+                    work.what = f"{len(result.methods)} methods found, starts"
+                    work.reach(result.starts)
         except KeyboardInterrupt:
             result.ending, ended = "interrupt", INTERRUPTED
         except NotDecided:

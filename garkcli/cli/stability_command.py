@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.companion import companion_options, exact_companion
 from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import (
     CONTEXT,
@@ -26,12 +27,13 @@ if TYPE_CHECKING:
 
     from flint import fmpq
 
-    from garkcli.methodfile.build import MethodFile
     from garkcli.report.stability_data import StabilityReport
+    from garkcli.tableau.garkmethod import GarkMethod
 
 
 @click.command("stability", context_settings=CONTEXT)
 @files_argument()
+@companion_options
 @click.option(
     "--slow",
     metavar="A",
@@ -51,6 +53,7 @@ if TYPE_CHECKING:
 @common(["text", "json", "latex"])
 def command(
     files: tuple[str, ...],
+    which: str | None,
     slow: str | None,
     fast: str | None,
     ratio: tuple[str, ...],
@@ -76,17 +79,18 @@ def command(
     refuse_settings_of_several(settings, paths)
     for file in paths:
         try:
-            method = load(file, settings)
+            source = load(file, settings)
+            method = exact_companion(source, which)
         except HasFreeParameters as error:
             if len(paths) > 1:
                 raise
-            wants_numbers = {"--slow": slow, "--ratio": ratio, "--plot": plot}
+            wants_numbers = {f"--{which}": which, "--slow": slow, "--ratio": ratio, "--plot": plot}
             return _for_every_value(error, settings, wants_numbers, output)
         if slow is None or fast is None:
-            reports.append(_whole_report(method.source, method, digits, ratios))
+            reports.append(_whole_report(source.source, method, digits, ratios))
         else:
             reports.append(
-                _springs_report(method.source, method, digits, slow, fast, plot is not None)
+                _springs_report(source.source, method, digits, slow, fast, plot is not None)
             )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
@@ -145,7 +149,7 @@ def _ratio(text: str) -> fmpq:
 
 
 def _whole_report(
-    file: str, method: MethodFile, digits: int, ratios: Sequence[fmpq]
+    file: str, method: GarkMethod, digits: int, ratios: Sequence[fmpq]
 ) -> StabilityReport:
     from garkcli.report.stability_data import StabilityReport
     from garkcli.stability.summary import stability, stability_of_rounded
@@ -156,11 +160,11 @@ def _whole_report(
         found = stability(method.tableau, ratios=ratios)
     else:
         found = stability_of_rounded(method.tableau, method.tolerance)
-    return StabilityReport(file, method.name, found, digits=digits)
+    return StabilityReport(file, method.name, found, digits=digits, derivation=method.derivation)
 
 
 def _springs_report(
-    file: str, method: MethodFile, digits: int, slow: str, fast: str, with_plane: bool
+    file: str, method: GarkMethod, digits: int, slow: str, fast: str, with_plane: bool
 ) -> StabilityReport:
     """The two springs that the options ask for."""
     from garkcli.cli.stepping import term_of
@@ -178,7 +182,9 @@ def _springs_report(
     split = springs(tableau, term_of(tableau, fast))
     low, high = _strengths(slow)
     nothing = Stability(tableau, (), None, None)
-    report = StabilityReport(file, method.name, nothing, digits=digits)
+    report = StabilityReport(
+        file, method.name, nothing, digits=digits, derivation=method.derivation
+    )
     if ".." in slow:
         interval = slow_interval(tableau, split, low, high)
         stable, report = interval.stable, replace(report, slow=interval)

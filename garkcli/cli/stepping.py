@@ -1,46 +1,60 @@
-"""What the commands share that put a method to work: which tableau steps, and the numbers of their
-options.
+"""What the commands share that put a method to work: the problem and the numbers of their options,
+and what they do with a run that fails.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.cli.streams import complain
+from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.methodfile.build import MethodFile
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.report.fault_json import Failure
     from garkcli.tableau.tableau import Tableau
 
 DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
 
 
-def stepped_tableau(
-    method: MethodFile, output: Output, path: str = "", has_momenta: bool = True
-) -> Tableau:
-    """The tableau that steps: the symplectic pair of ``methods`` where the problem has positions
-    and momenta, else what the file gives.
+def tell_failure(
+    error: GarkError, name: str, render: Callable[[Failure, str], str], output: Output
+) -> int:
+    """Tell people why a run has no result, and programs in the report; and return the exit code: a
+    step that fails has 1, everything else 2.
 
-    A note on the latter names ``path``, where several files are at work.
+    Args:
+        error: what has failed.
+        name: of the method.
+        render: from a failure and a format to the report.
+        output: where the report goes.
     """
-    from garkcli.errors import ZeroWeight
-    from garkcli.tableau.forms import pair
+    from garkcli.report.fault_json import Failure
 
-    is_diagonal = method.form == "methods" and not method.tableau.is_partitioned
-    if not (is_diagonal and has_momenta):
-        return method.tableau
-    try:
-        return pair(method.tableau)
-    except ZeroWeight as error:
-        where = f"{path}: " if path else ""
-        output.note(f"{where}no symplectic pair ({error.message}): tested as a GARK method")
-        return method.tableau
+    complain(error)
+    report = render(Failure(name, faults_of(error)), output.format)
+    if report:
+        output.write(report)
+    return failure_code(error)
+
+
+def faults_of(error: GarkError) -> tuple[Fault, ...]:
+    """What is wrong: the faults of a file, or one fault."""
+    if isinstance(error, MethodFileError):
+        return error.faults
+    return (Fault(error.message, error.help),)
+
+
+def failure_code(error: GarkError) -> int:
+    """The exit code of a run that has failed."""
+    from garkcli.stepping.step import StepFailed
+
+    return 1 if isinstance(error, StepFailed) else 2
 
 
 def refuse_misplaced(

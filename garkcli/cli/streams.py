@@ -8,9 +8,11 @@ import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from garkcli.errors import GarkError
+from garkcli.doing import hush
+from garkcli.errors import GarkError, MethodFileError
 from garkcli.page.plain import printable
 from garkcli.page.plaintext import HANDLER, plain_text
+from garkcli.page.progress import aside
 from garkcli.page.safety import JSON, XML, YAML, escaped, without_commands, written_out
 
 if TYPE_CHECKING:
@@ -70,6 +72,8 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
     if sys.stdout is None:
         raise NoStandardOutput
     text = safe(text, format, coloured)
+    if is_terminal(sys.stdout):
+        hush()
     try:
         width = TERMINAL if format == "text" else None
         sys.stdout.write(_for(sys.stdout.encoding, text, format, width))
@@ -94,11 +98,12 @@ def flush() -> None:
 def say(text: str, coloured: bool = False) -> None:
     """Write a line to standard error, which is never a reason to stop."""
     text = safe(text, "text", coloured)
-    try:
-        sys.stderr.write(_for(sys.stderr.encoding, text, "text") + "\n")
-        sys.stderr.flush()
-    except OSError:
-        drop(sys.stderr)
+    with aside():
+        try:
+            sys.stderr.write(_for(sys.stderr.encoding, text, "text") + "\n")
+            sys.stderr.flush()
+        except OSError:
+            drop(sys.stderr)
 
 
 def say_problem(error: GarkError) -> None:
@@ -106,6 +111,16 @@ def say_problem(error: GarkError) -> None:
     say(f"gark: {printable(error.message)}")
     if error.help:
         say(f"help: {printable(error.help)}")
+
+
+def complain(error: GarkError) -> None:
+    """Say what is wrong with a file, an option or a run, and the cure."""
+    if isinstance(error, MethodFileError):
+        from garkcli.check.outcome import Outcome
+
+        say_faults(Outcome(error.source, error.source, faults=error.faults, text=error.text))
+        return
+    say_problem(error)
 
 
 def say_faults(outcome: Outcome) -> None:

@@ -9,6 +9,7 @@ import click
 
 from garkcli.cli.method_argument import INPUT, catalogue_option
 from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.doing import doing
 
 if TYPE_CHECKING:
     from garkcli.report.sweep import SweepReport
@@ -78,7 +79,6 @@ def command(
     see docs/sweep.md. Each criterion is decided exactly, as gark check and gark stability do. The
     rows are written one by one: a sweep that is ended at any moment goes on with --resume.
     """
-    from garkcli.page.progress import watching
     from garkcli.report.sweep import SweepReport, refuse_parquet, write_parquet
     from garkcli.sweep.load import load_plan
     from garkcli.sweep.run import sweep
@@ -91,9 +91,10 @@ def command(
         refuse_parquet(parquet)
     path = rows if rows is not None else str(Path(spec).with_suffix(".jsonl"))
     with RowStore(path, resume) as store:
-        with watching(output.may_show_progress) as show:
+        with doing("methods") as work:
             for last in sweep(plan, store, jobs, scheduler):
-                show("methods", last.before + last.done, last.total)
+                work.total = last.total
+                work.reach(last.before + last.done)
         report = SweepReport(spec, plan, store.rows, top)
     _tell(last, path, output)
     output.write(_rendered(report, output))

@@ -14,6 +14,7 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common, document_option
 from garkcli.cli.streams import is_terminal, say
 from garkcli.cli.tree_lists import counts_of, draw_sheet, rows_of
 from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.doing import counting, hush
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -145,7 +146,6 @@ def _count(query: Query, output: Output) -> None:
 
 def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
     """A row for each tree."""
-    from garkcli.page.progress import tracked
     from garkcli.report import trees as report
 
     totals = None
@@ -155,7 +155,7 @@ def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
         kept = [report.kept(query, by_root) for _, by_root in totals]
         count_all = sum(map(sum, kept))
     _refuse_millions(count_all, wanted.yes)
-    rows = tracked(rows_of(query, orders), count_all, "trees", output.may_show_progress)
+    rows = counting("trees", rows_of(query, orders), count_all)
     pieces = report.render(query, rows, totals, output.format, output.paint, wanted.document)
     output.write(pieces)
 
@@ -170,6 +170,7 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
         return
     if is_terminal(sys.stdin) and is_terminal(sys.stderr):
         say(f"{lines} trees: list them all? [y/N]")
+        hush()
         if sys.stdin.readline().strip().lower() in {"y", "yes"}:
             return
     raise UsageProblem(f"{lines} trees", "--yes lists them, --count counts them")
@@ -177,7 +178,6 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
 
 def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     """A row for each class of equivalent conditions of symplectic methods."""
-    from garkcli.page.progress import tracked
     from garkcli.report import symplectic as report
     from garkcli.report.symplectic_subject import subject_of_kind
 
@@ -196,7 +196,7 @@ def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     else:
         lines = subject.independent
         _refuse_millions(lines, wanted.yes)
-        classes = tracked(subject.classes(), lines, "trees", output.may_show_progress)
+        classes = counting("trees", subject.classes(), lines)
         pieces = report.render_classes(
             subject, classes, format, paint, wanted.members, wanted.document
         )

@@ -14,6 +14,7 @@ from garkcli.comparison.grid import Grid
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.met import Met, conditions_met
 from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
+from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder
@@ -140,6 +141,7 @@ class Comparison:
         return html
 
 
+@doing("differences")
 def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
     """Hold two methods against each other.
 

@@ -8,6 +8,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from garkcli.convergence.reference import reference
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.problems.mass import enclosed
 from garkcli.problems.problem import Problem, unknowns
@@ -24,6 +25,7 @@ the solution.
 _BITS = 4 * _DIGITS
 
 
+@doing("invariants along the solution")
 def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
     that it is over.

@@ -23,7 +23,7 @@ from garkcli.convergence.result import (
     observed_order,
     stiff_order,
 )
-from garkcli.convergence.solver import Solver, Watch
+from garkcli.convergence.solver import Solver
 from garkcli.errors import UsageProblem
 from garkcli.order import deciding
 from garkcli.order.simplifying import simplifying
@@ -43,7 +43,7 @@ def converge(
     steps: Sequence[fmpq] | None = None,
     tolerance: fmpq | None = None,
     is_timed: bool = False,
-    watch: Watch | None = None,
+    order: int | None = None,
 ) -> Convergence:
     """Test the convergence of ``tableau`` on ``problem``.
 
@@ -57,7 +57,8 @@ def converge(
             ``garkcli.convergence.ladder``.
         tolerance: of rounded coefficients; slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well.
-        watch: is told how far each run is.
+        order: of the tableau, where it is known by more than its coefficients, as that of the pair
+            of rounded ones.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, a step does not divide
@@ -71,8 +72,10 @@ def converge(
     (4.0, 'agree')
     """
     problem, t_end = _problem_and_time(tableau, problem, t_end, steps)
-    predicted = order_of(_with_time(tableau, problem), tolerance)
-    solver = _solver(tableau, problem, t_end, tolerance, predicted, watch)
+    timed = _with_time(tableau, problem)
+    if order is None or timed is not tableau:
+        order = order_of(timed, tolerance)
+    solver = _solver(tableau, problem, t_end, tolerance, order)
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     stiff = _stiffness(solver, tableau, rows, tolerance)
@@ -88,13 +91,14 @@ def converge(
         _with_times(solver, rows) if is_timed else tuple(rows),
         plateau,
         observed,
-        predicted,
+        order,
         solver.visible,
         short_time,
         short_order,
         is_exact or _has_settled(fitted),
         steps is not None,
         stiff,
+        all(row.error.is_zero() for row in rows) and solver.rests(),
     )
 
 
@@ -207,7 +211,6 @@ def _solver(
     t_end: fmpq,
     tolerance: fmpq | None,
     predicted: int,
-    watch: Watch | None,
 ) -> Solver:
     if isinstance(problem, Oscillator):
         from garkcli.convergence.linear_solver import linear_solver
@@ -221,7 +224,7 @@ def _solver(
     seen = visible_tableau(bound.tableau, bound.fields)
     order = max(order_of(seen, tolerance), predicted)
     visible = Visible(order, problem.is_generic, visible_trees(bound.fields))
-    return SteppedSolver(bound, t_end, visible, tolerance, watch)
+    return SteppedSolver(bound, t_end, visible, tolerance)
 
 
 def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:

@@ -114,6 +114,10 @@ class LinearSolver:
         at_start = arb(fmpq(3, 2))
         return at_start + abs(q) + abs(p / omega)
 
+    def rests(self) -> bool:
+        """Never at a rational time: sines and cosines are not rational there."""
+        return False
+
     def rounding(self) -> arb:
         """About the error that the rounding of the coefficients makes."""
         time = arb(self.t_end / self.unit)

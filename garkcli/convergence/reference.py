@@ -7,12 +7,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from math import ceil, log10
+from math import ceil, inf, log10
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.convergence.solver import Watch
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -32,7 +32,7 @@ MAX_TRIED = 10_000
 """Steps from which on a step that fails is the fault of the problem."""
 MAX_STEPS = 1_000_000
 """Most steps of a reference solution."""
-_CALLS = 200  # of a watch in one run
+_PIECES = 200  # of a run, after each of which it is said how far it is
 _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6  # part of a change that its later run is wrong by at least
@@ -40,22 +40,21 @@ _FAR = 0.01  # part of the solution by which runs differ that have found none
 # of the number of steps, from one run to the next
 _LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8
 _REFINED = 64  # times the first number of steps with which they should have
+_APART = 8  # times as many steps, between which it is seen how fast the error falls
 
 
-def run(
-    made: Integrator, h: fmpq, count: int, watch: Watch | None = None, what: str = ""
-) -> Stepper:
-    """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
+def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
+    """The state after ``count`` steps of size ``h``; ``what`` it is done for.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
     """
     state = Stepper(made, h)
-    each = count if watch is None else max(1, count // _CALLS)
-    while state.done < count:
-        state.advance(min(each, count - state.done))
-        if watch is not None:
-            watch(what, state.done, count)
+    each = max(1, count // _PIECES)
+    with doing(what, count) as work:
+        while state.done < count:
+            state.advance(min(each, count - state.done))
+            work.reach(state.done)
     return state
 
 
@@ -78,7 +77,7 @@ class Reference:
     y: tuple[arb, ...] = ()
     steps: int = 0
 
-    def to(self, digits: int, watch: Watch | None = None) -> tuple[arb, ...]:
+    def to(self, digits: int) -> tuple[arb, ...]:
         """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the
         solution.
 
@@ -94,7 +93,7 @@ class Reference:
             first = 2 * self.steps // 3
             if not first:
                 first = ceil(4 * to_float(self.t_end))
-            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first), watch)
+            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first))
             self.digits = digits
         return self.y
 
@@ -125,17 +124,16 @@ def _kept(problem: Problem, t_end: fmpq) -> Reference:
     return Reference(problem, t_end)
 
 
-def _solved(
-    problem: Problem, t_end: fmpq, digits: int, steps: int, watch: Watch | None
-) -> tuple[tuple[arb, ...], int]:
+def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tuple[arb, ...], int]:
     """The solution by more and more steps of one method, from ``steps`` on, until the last change
     says that the error is small; and how many steps these were.
 
     Raises:
         UsageProblem: none is found; see ``Reference.to``.
     """
-    runs = _Runs(problem, t_end, digits, watch)
+    runs = _Runs(problem, t_end, digits)
     fewer, before = 0, None
+    changes: list[tuple[int, _Change]] = []
     enough = max(MAX_TRIED // 2, _REFINED * steps)
     while True:
         y = runs.end(steps)
@@ -155,6 +153,14 @@ def _solved(
                 "choose an earlier final time: it comes near a singularity, "
                 "or depends on its start too much",
             )
+        changes.append((fewer, change))
+        if fewer > enough and _needed(changes) > log10(MAX_STEPS):
+            raise UsageProblem(
+                f"the solution at t = {t_end} is not found to {digits} digits: "
+                "shorter steps hardly reduce its error",
+                "the problem is not smooth on the way, as sqrt(t) is not at t = 0: "
+                "start or end elsewhere",
+            )
         before, fewer = y, steps
         steps = ceil(steps * change.factor)
 
@@ -167,11 +173,29 @@ class _Change:
         is_small: whether the error that is left is as small as it has to be.
         is_far: whether it is so large that the runs have nothing to do with each other.
         factor: how many times more steps are likely to be enough.
+        decades: by how many powers of ten it is larger than the error may be.
     """
 
     is_small: bool
     is_far: bool
     factor: float
+    decades: float = 0.0
+
+
+def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
+    """How many decades of steps the error needs if it goes on to fall as it has fallen, whatever
+    the order of the method says; 0 where nobody can tell.
+
+    Args:
+        changes: what more steps have changed, with the fewer ones, in ascending order.
+    """
+    steps, last = changes[-1]
+    earlier = [x for x in changes if _APART * x[0] <= steps and not x[1].is_far]
+    if not earlier:
+        return 0.0
+    fewer, first = earlier[-1]
+    rate = (first.decades - last.decades) / log10(steps / fewer)
+    return log10(steps) + last.decades / rate if rate > 0 else inf
 
 
 class _Runs:
@@ -181,14 +205,13 @@ class _Runs:
     are, which damp what is off the smooth solution.
     """
 
-    def __init__(self, problem: Problem, t_end: fmpq, digits: int, watch: Watch | None) -> None:
+    def __init__(self, problem: Problem, t_end: fmpq, digits: int) -> None:
         from garkcli.families.registry import diagonal_method
         from garkcli.tableau.forms import gark
 
         self.problem = problem
         self.t_end = t_end
         self.digits = digits
-        self.watch = watch
         self.stages = min(_STAGES, max(6, 2 * digits // 5))
         spare = _SPARE
         family = "gauss"
@@ -215,7 +238,7 @@ class _Runs:
         h = self.t_end / steps
         what = f"reference solution, {self.digits} digits"
         try:
-            return run(self.integrator, h, steps, self.watch, what).y
+            return run(self.integrator, h, steps, what).y
         except StepFailed as failure:
             if steps > MAX_TRIED:
                 raise _no_solution(self.t_end, failure) from None
@@ -241,10 +264,11 @@ class _Runs:
             if left <= goal:  # both are 0 where the solution rests at 0
                 return _Change(True, False, 1.0)
             is_far = bool(change > _FAR * size)
+            decades = float(((change / goal).log() / arb(10).log()).mid())
             excess = float((change * ratio ** (2 * s) / goal).mid())
         factor = 1.1 * excess ** (1 / s) if excess > 0 else _LEAST_FACTOR
         factor = min(max(factor, _LEAST_FACTOR), _LARGEST_FACTOR)
-        return _Change(False, is_far, factor)
+        return _Change(False, is_far, factor, decades)
 
 
 def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:

@@ -13,6 +13,7 @@ from garkcli.upward import found
 if TYPE_CHECKING:
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
+    from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
 """Of observed and visible order; undecided where there is no order to be seen, reduced where steps
@@ -132,6 +133,9 @@ class Convergence:
         are_given: whether the step sizes were asked for: then it is these that have to show the
             order.
         stiff: where no step size resolves the problem.
+        is_at_rest: whether there are no errors because nothing moves: the solution ends where it
+            starts.
+        method: what stepped, where it is known by more than its tableau.
     """
 
     problem: Oscillator | Problem
@@ -146,6 +150,8 @@ class Convergence:
     has_settled: bool = True
     are_given: bool = False
     stiff: Stiffness | None = None
+    is_at_rest: bool = False
+    method: GarkMethod | None = None
 
     @property
     def visible_order(self) -> int:
@@ -163,16 +169,23 @@ class Convergence:
         return all(row.error.is_zero() for row in self.rows)
 
     @property
+    def exit_code(self) -> int:
+        """Of ``gark converge``: 0 the order that is to be seen is seen, or the problem is too stiff
+        for it, 1 another one is, 3 none is.
+        """
+        return {"agree": 0, "reduced": 0, "disagree": 1, "undecided": 3}[self.verdict]
+
+    @property
     def verdict(self) -> Verdict:
         """Whether the order is the visible one, or at least that where the problem may hide some
         trees.
 
-        Undecided where there is no order to be seen, or where the rounding of the coefficients
-        comes before the slopes have settled. Reduced where the steps are too large for a stiff
-        problem to show it, unless tiny ones show another one.
+        Undecided where there is no order to be seen, also because there are no errors, or where the
+        rounding of the coefficients comes before the slopes have settled. Reduced where the steps
+        are too large for a stiff problem to show it, unless tiny ones show another one.
         """
         if self.observed_order is None:
-            return "agree" if self.is_exact else "undecided"
+            return "undecided"
         if self.stiff is not None:
             return self._stiff_verdict(self.observed_order)
         if self.short_order is None:

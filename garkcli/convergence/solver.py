@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 from flint import arb, fmpq
 
@@ -13,9 +12,6 @@ from garkcli.errors import UsageProblem
 if TYPE_CHECKING:
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
-
-Watch: TypeAlias = Callable[[str, int, int], None]
-"""Is told what is being computed, how many steps of it are done, and of how many."""
 
 
 class NoUniqueStep(UsageProblem):
@@ -79,6 +75,10 @@ class Solver(Protocol):
 
     def size(self) -> arb:
         """How large the solution is: the sum of its numbers at the start and at the end."""
+        ...
+
+    def rests(self) -> bool:
+        """Whether the solution ends where it starts, as far as floats can tell."""
         ...
 
     def rounding(self) -> arb:

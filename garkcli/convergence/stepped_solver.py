@@ -17,7 +17,6 @@ from flint import arb, ctx, fmpq
 from garkcli.convergence.ladder import ROWS
 from garkcli.convergence.reference import Reference, magnitude, reference, run
 from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
-from garkcli.convergence.solver import Watch
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
@@ -51,7 +50,6 @@ class SteppedSolver:
         t_end: when errors are taken.
         visible: what the problem sees; its order tells how many digits to begin with.
         tolerance: of rounded coefficients; None for exact ones.
-        watch: is told how far each run is.
         integrators: the method with so many digits.
     """
 
@@ -59,7 +57,6 @@ class SteppedSolver:
     t_end: fmpq
     visible: Visible
     tolerance: fmpq | None = None
-    watch: Watch | None = None
     integrators: dict[int, Integrator] = field(default_factory=dict)
     reference: Reference = field(init=False)
 
@@ -111,8 +108,15 @@ class SteppedSolver:
 
     def size(self) -> arb:
         """The sum of the sizes of all numbers at the start and at the end."""
-        end = self.reference.to(FLOAT_DIGITS + _SPARE, self.watch)
+        end = self.reference.to(FLOAT_DIGITS + _SPARE)
         return magnitude(end, self.problem)
+
+    def rests(self) -> bool:
+        """Whether no number at the end differs from that at the start."""
+        end = self.reference.to(FLOAT_DIGITS + _SPARE)
+        least = self.size() * FLOAT_PRECISION
+        pairs = zip(end, self.problem.initial, strict=True)
+        return not any(abs(now - arb(then)) > least for now, then in pairs)
 
     def row(self, h: fmpq, before: Row | None) -> Row:
         """The errors of steps of size ``h``, with digits enough for them; see ``Solver.row``.
@@ -122,7 +126,7 @@ class SteppedSolver:
         steps = whole_steps(self.t_end, h)
         digits = self._digits(h, before)
         while True:
-            state = run(self._integrator(digits), h, steps, self.watch, f"h = {h}")
+            state = run(self._integrator(digits), h, steps, f"h = {h}")
             error = self._distance(state.y, digits)
             shown = arb(10) ** (_SPARE - 1 - digits) * self._amplified(h)
             if error > self.size() * shown:
@@ -167,7 +171,7 @@ class SteppedSolver:
 
     def _distance(self, y: Sequence[Any], digits: int) -> arb:
         """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the middle of its ball."""
-        exact = self.reference.to(self._digits_of_reference(digits), self.watch)
+        exact = self.reference.to(self._digits_of_reference(digits))
         with ctx.workprec(self._integrator(digits).bits + _GUARD):
             total = arb(0)
             for a, b in zip(y, exact, strict=True):

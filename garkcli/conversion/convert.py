@@ -10,6 +10,7 @@ from garkcli.conversion.padding import padded
 from garkcli.conversion.registry import TARGETS, target
 from garkcli.conversion.sheet import CannotConvert, Sheet
 from garkcli.conversion.target import Target
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
@@ -18,7 +19,7 @@ from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import can_spell_out, write_method
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
 KEPT = ("description", "reference")
 """What a file says of its method whatever form it has."""
@@ -43,6 +44,7 @@ class Converted:
         return f"<Converted {self.method!r}>"
 
 
+@doing("other form")
 def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = None) -> Converted:
     """The same method in another form.
 
@@ -85,7 +87,7 @@ def _written(method: GarkMethod, goal: Target, sheet: Sheet) -> str:
     source = method.source if isinstance(method, MethodFile) else ""
     name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
-        name = f"{goal.name} of {name}"
+        name = derived_name(goal.name, name)
     further = Further(sheet.embedded, sheet.dense)
     return write_method(sheet.tableau, name, method.tolerance, further)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Generic, cast
 
 from garkcli.crew.work import Item, Outcome
 from garkcli.deadline import seconds_left
+from garkcli.doing import telling
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import begin, start_method, without_handlers
 from garkcli.exact.pickling import register
@@ -182,6 +183,7 @@ def _serve(
     register()
     for other in not_its_own:
         other.close()
-    with suppress(EOFError, OSError):
+    # the terminal is that of the process that hired this one
+    with telling(None), suppress(EOFError, OSError):
         while True:
             connection.send(work(connection.recv()))

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
 from garkcli.longtime.fit import ROUNDING, Line, drift_of
@@ -59,6 +60,7 @@ class _Errors:
     blew_up: bool
 
 
+@doing("energy of the oscillator")
 def oscillator_run(
     tableau: Tableau,
     problem: Oscillator,
@@ -115,10 +117,7 @@ def _history(
     """
     import numpy as np
 
-    done = len(errors.values) - 1
-    moved = abs(line.slope) * done
-    is_bounded = fate.fate == "elliptic" or moved <= excused
-    verdict = _verdict(errors, is_bounded)
+    verdict = _verdict(errors, fate, line, excused)
     drift, uncertainty = None, None
     if not errors.blew_up:
         drift = line.slope / h
@@ -140,6 +139,7 @@ def _history(
         verdict=verdict,
         shape=_shape(verdict, line),
         errors=tuple(kept_errors.tolist()),
+        doubt="rounding" if verdict == "undecided" else None,
     )
 
 
@@ -159,18 +159,25 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
     return _Errors(values, is_exact, blew_up=len(values) <= count)
 
 
-def _verdict(errors: _Errors, is_bounded: bool) -> Verdict:
-    """What the step map and the errors say; ``is_bounded`` of those that have not blown up."""
+def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Verdict:
+    """What the step map and the errors say. A drift that is seen, and is no more than the
+    ``excused`` that rounded coefficients can cause, is undecided.
+    """
     if errors.is_exact:
         return "exact"
     if errors.blew_up:
         return "unstable"
-    return "bounded" if is_bounded else "drifts"
+    if fate.fate == "elliptic":
+        return "bounded"
+    moved = abs(line.slope) * (len(errors.values) - 1)
+    if moved > excused or not excused:
+        return "drifts"
+    return "undecided" if abs(line.slope) > line.uncertainty else "bounded"
 
 
 def _shape(verdict: Verdict, line: Line) -> Shape:
     """Of a drift: a line where its slope can be told from 0."""
-    if verdict != "drifts":
+    if verdict not in ("drifts", "undecided"):
         return "none"
     return "line" if abs(line.slope) > line.uncertainty else "curve"
 

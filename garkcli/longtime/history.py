@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import fmpq
 
@@ -17,6 +17,9 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.stepping.linear import whole_steps
 from garkcli.upward import found
 
+if TYPE_CHECKING:
+    from garkcli.tableau.garkmethod import GarkMethod
+
 MAX_STEPS = 10_000_000
 """Most steps of a run."""
 SERIES = 2000
@@ -26,7 +29,15 @@ BLOW_UP = 1e30
 
 Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
 """Conserved exactly; no error above round-off; no drift to be told; a drift; blown up or escaped;
-too short to judge.
+left open, for the reason that a ``Doubt`` is.
+"""
+Doubt: TypeAlias = Literal[
+    "steps", "turns", "rest", "value", "round-off", "modulation", "level", "symplectic", "rounding"
+]
+"""Why a verdict is undecided: there are too few steps; coordinates hardly turn back; nothing moves;
+the quantity has no value at some step; rounding may be as large as the quantity; a slow modulation
+may be the slope; a single move to another level; a rise or fall throughout, which for a symplectic
+method is usually a slow oscillation; a drift that the rounding of the coefficients may cause.
 """
 State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
 """A time, and (q, p) then, shape (2d,)."""
@@ -52,6 +63,10 @@ class InvariantHistory:
         errors: I(t) − I(0), with its sign, at the times of the run.
         longer: a time that would decide what is undecided; None where there is no such time within
             ``MAX_STEPS``, or nothing undecided.
+        doubt: why it is undecided; None where it is decided.
+        no_value_at: the first time at which I has no value, or one beyond 1e150; None where it has
+            one throughout.
+            Errors are nan from there on.
     """
 
     name: str
@@ -66,6 +81,8 @@ class InvariantHistory:
     shape: Shape
     errors: tuple[float, ...]
     longer: fmpq | None = None
+    doubt: Doubt | None = None
+    no_value_at: fmpq | None = None
 
     def __repr__(self) -> str:
         return f"<InvariantHistory {self.name}: {self.verdict}>"
@@ -90,6 +107,7 @@ class LongRun:
         escaped: the time after which the orbit leaves for ever, with a large error of the energy;
             None where it does not.
         stability: of the step map of the oscillator, else None.
+        method: what stepped, where it is known by more than its tableau.
     """
 
     problem: Oscillator | Problem
@@ -103,6 +121,7 @@ class LongRun:
     turns: int = 0
     escaped: fmpq | None = None
     stability: Stability | None = None
+    method: GarkMethod | None = None
 
     @property
     def energy(self) -> InvariantHistory | None:

@@ -8,17 +8,19 @@ digits.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from garkcli.doing import counting, doing
 from garkcli.exact.display import to_float
 from garkcli.longtime.energy import oscillator_run
 from garkcli.longtime.history import (
     MAX_STEPS,
     SERIES,
+    Doubt,
     InvariantHistory,
     LongRun,
     Verdict,
@@ -27,6 +29,7 @@ from garkcli.longtime.history import (
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
 from garkcli.longtime.rounding import energy_rate, invariant_rate, power_of_ten, unit_round_off
+from garkcli.longtime.symplecticity import is_proved
 from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
@@ -39,13 +42,12 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 
-Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
-"""Passes on a number of things, one a step, and may count them."""
 _SPARE = 15  # more digits with which the first steps are done too
 _TURNS = 8  # times that some coordinate has to turn back: four oscillations
 _LARGE = 0.1  # part of the energy that is no oscillation however short the run
 _LONGER = 4  # how many times as long a run is proposed at least where this one decides nothing
 _MARGIN = 2  # and how many times as long as would just do
+_LEFT_TO_TIME = ("steps", "turns", "modulation", "level", "symplectic")  # what a longer run decides
 
 
 def usual(problem: Oscillator | Problem) -> tuple[fmpq, fmpq]:
@@ -65,7 +67,6 @@ def long_run(
     digits: int = FLOAT_DIGITS,
     points: int = SERIES,
     tolerance: fmpq | None = None,
-    watch: Watch = lambda path, _: path,
 ) -> LongRun:
     """Step ``problem`` with ``tableau`` to the time ``t_end``; what becomes of the energy and of
     the other invariants?
@@ -77,8 +78,7 @@ def long_run(
         step: h.
         digits: of the steps; floats up to ``FLOAT_DIGITS``. Those of the oscillator are exact.
         points: about how many times are kept.
-        tolerance: of rounded coefficients; a drift that they can cause is none of the method's.
-        watch: is given the states and their number; not for the oscillator.
+        tolerance: of rounded coefficients; a drift that they can cause is undecided.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, the step does not divide the
@@ -102,7 +102,7 @@ def long_run(
     measure = Measure(problem, method.digits)
     record = Record(measure, count, points)
     path = trajectory(method, step, count)
-    record.take(watch(path, count + 1))
+    record.take(counting("steps", path, count + 1))
     h = to_float(step)
     if isinstance(problem, Hamiltonian):
         powers = record.exchange.powers(h)
@@ -110,18 +110,43 @@ def long_run(
     else:
         states = [(number * h, y) for number, y in record.states.items()]
         rate = invariant_rate(tableau, tolerance, problem, states)
-    return _judged(record, bound, rate, step, t_end)
+    evidence = _Evidence(tableau, problem, tolerance, rate * record.done * h)
+    return _judged(record, bound, evidence, step, t_end)
 
 
-def _judged(record: Record, bound: Binding, rate: float, step: fmpq, t_end: fmpq) -> LongRun:
-    """What has become of the invariants; ``rate`` is the energy per unit of time that rounded
-    coefficients can cause.
+@dataclass(frozen=True)
+class _Evidence:
+    """What is known of a method besides its run.
+
+    Attributes:
+        tableau: the method.
+        problem: what it steps.
+        tolerance: of rounded coefficients.
+        excused: the error of the energy that these can cause in all.
     """
+
+    tableau: Tableau
+    problem: Problem
+    tolerance: fmpq | None
+    excused: float
+
+    @cached_property
+    def is_symplectic(self) -> bool:
+        """Whether its steps are symplectic by its coefficients."""
+        problem = self.problem
+        if not isinstance(problem, Hamiltonian):
+            return False
+        return is_proved(self.tableau, problem, self.tolerance)
+
+
+def _judged(
+    record: Record, bound: Binding, evidence: _Evidence, step: fmpq, t_end: fmpq
+) -> LongRun:
+    """What has become of the invariants."""
     h = to_float(step)
     digits = record.measure.digits
     noise = _noise(record, bound, step, digits)
-    excused = rate * record.done * h
-    judge = _Judge(record, step, excused)
+    judge = _Judge(record, step, evidence)
     histories = [judge.history(k, float(x)) for k, x in enumerate(noise)]
     states = []
     for number, y in sorted(record.states.items()):
@@ -145,19 +170,17 @@ def _judged(record: Record, bound: Binding, rate: float, step: fmpq, t_end: fmpq
     )
 
 
+@doing("round-off")
 def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     """What the errors are good to at the end, as powers of ten: each step rounds each summand of an
     invariant once, to leading order; and no less than what is found on the first steps.
     """
     import numpy as np
 
-    states = list(record.states.values())
-    is_at_rest = all(y == states[0] for y in states)
-    is_exact = is_at_rest and not record.largest.any()
-    if record.blew_up or is_exact:
+    if record.blew_up or not record.has_moved:
         return np.zeros(len(record.largest))
-    by_state = [record.measure.sizes(y) for y in states]
-    sizes = np.max(by_state, axis=0)
+    by_state = [record.measure.sizes(y) for y in record.states.values()]
+    sizes = np.nanmax(by_state, axis=0)
     roundings = 1 + record.done
     derived = unit_round_off(digits) * sizes * roundings
 
@@ -166,12 +189,22 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     finer_measure = Measure(bound.problem, finer.digits)
     path = trajectory(finer, step, compared)
     exact = finer_measure.errors(path)
-    found = np.abs(record.first - exact).max(axis=0)
+    record.lose(0, exact)
+    found = np.nan_to_num(np.abs(record.first - exact)).max(axis=0)
     # rounding errors of all steps are taken to add up like those of the first
     times_as_many = record.done / max(compared, 1)
     expected = found * (1 + times_as_many)
     noise = np.maximum(derived, expected)
     return np.array([power_of_ten(float(x)) for x in noise])
+
+
+@dataclass(frozen=True)
+class _Finding:
+    """What has become of one invariant: a verdict, with the trend or the doubt that it rests on."""
+
+    verdict: Verdict
+    shape: Shape = "none"
+    doubt: Doubt | None = None
 
 
 @dataclass(frozen=True)
@@ -181,12 +214,12 @@ class _Judge:
     Attributes:
         record: of the run.
         step: h.
-        excused: the error of the energy that rounded coefficients can cause in all.
+        evidence: what is known of the method besides.
     """
 
     record: Record
     step: fmpq
-    excused: float
+    evidence: _Evidence
 
     @property
     def escape(self) -> int | None:
@@ -204,23 +237,25 @@ class _Judge:
 
     def history(self, k: int, noise: float) -> InvariantHistory:
         """Of the invariant ``k``, whose errors are good to ``noise``."""
+        import numpy as np
+
         record, h = self.record, to_float(self.step)
         # the bound is one of the energy; other invariants are taken to change in proportion
         share = 1.0 if k == 0 else self._size(k) / self._size(0)
-        excused = self.excused * share
+        excused = self.evidence.excused * share
         trend = None
-        if not record.blew_up and record.count >= LEAST:
-            trend = record.trends.of(k, noise + excused)
-        verdict, shape = self._verdict(k, noise, trend)
+        if not record.blew_up and record.count >= LEAST and k not in record.lost:
+            trend = record.trends.of(k, noise)
+        finding = self._finding(k, noise, excused, trend)
         drift, uncertainty, slope = None, None, 0.0
-        if trend and verdict != "unstable":
+        if trend and finding.verdict != "unstable":
             slope = trend.slope
             drift = slope / h
             uncertainty = trend.uncertainty / h
         errors = record.kept_errors[:, k]
         left = errors - slope * record.kept_numbers
-        height = float(left.max() - left.min())
-        longer = self._longer(trend) if verdict == "undecided" else None
+        height = float(np.nanmax(left) - np.nanmin(left))
+        lost = record.lost.get(k)
         return InvariantHistory(
             name=record.measure.names[k],
             initial=record.measure.initial[k],
@@ -230,32 +265,46 @@ class _Judge:
             amplitude=height / 2,
             round_off=noise,
             coefficients=excused,
-            verdict=verdict,
-            shape=shape,
+            verdict=finding.verdict,
+            shape=finding.shape,
             errors=tuple(errors.tolist()),
-            longer=longer,
+            longer=self._longer(trend, finding.doubt),
+            doubt=finding.doubt,
+            no_value_at=None if lost is None else lost * self.step,
         )
 
-    def _verdict(self, k: int, noise: float, trend: Trend | None) -> tuple[Verdict, Shape]:
+    def _finding(self, k: int, noise: float, excused: float, trend: Trend | None) -> _Finding:
         record = self.record
         if record.blew_up or self.escape is not None:
-            return "unstable", "none"
+            return _Finding("unstable")
+        if not record.has_moved:
+            return _undecided("rest")
+        if k in record.lost:
+            return _undecided("value")
         if record.largest[k] <= noise:
-            return "round-off", "none"
+            is_told = noise < _LARGE * self._size(k)
+            return _Finding("round-off") if is_told else _undecided("round-off")
         if trend is None:
-            return "undecided", "none"
+            return _undecided("steps")
         # an error of that size leaves no doubt about the shortness of the run
         error = float(record.largest[0])
         is_large = error >= _LARGE * record.measure.scale
         is_short = record.excursions.turns < _TURNS
         if is_short and not is_large:
-            return "undecided", "none"
+            return _undecided("turns")
         if trend.finding == "none":
-            return "bounded", "none"
-        is_gone = trend.move >= _LARGE * self._size(k)
-        if trend.finding == "drift" or is_gone:
-            return "drifts", trend.shape
-        return "undecided", trend.shape
+            return _Finding("bounded")
+        if not self._drifts(k, trend):
+            return _undecided("modulation" if trend.shape == "line" else "level", trend.shape)
+        if excused and not self._drifts(k, record.trends.of(k, noise + excused)):
+            return _undecided("rounding", trend.shape)
+        if self.evidence.is_symplectic and record.largest[k] < _LARGE * self._size(k):
+            return _undecided("symplectic", trend.shape)
+        return _Finding("drifts", trend.shape)
+
+    def _drifts(self, k: int, trend: Trend) -> bool:
+        """Whether a trend is a drift: no modulation explains it, or the quantity is gone."""
+        return trend.finding == "drift" or trend.move >= _LARGE * self._size(k)
 
     def _size(self, k: int) -> float:
         """Of the summands of an invariant at the start; 1 where all are zero."""
@@ -263,8 +312,10 @@ class _Judge:
         sizes = self.record.measure.sizes(start)
         return float(sizes[k]) or 1.0
 
-    def _longer(self, trend: Trend | None) -> fmpq | None:
-        """A time that would decide; None if that is too many steps."""
+    def _longer(self, trend: Trend | None, doubt: Doubt | None) -> fmpq | None:
+        """A time that would decide; None if that is too many steps, or no time would."""
+        if doubt not in _LEFT_TO_TIME:
+            return None
         record = self.record
         turns = record.excursions.turns
         needed = _LONGER
@@ -272,9 +323,13 @@ class _Judge:
             needed = -(-_MARGIN * LEAST // record.count)  # rounded up
         elif turns < _TURNS:
             needed = -(-_MARGIN * _TURNS // max(turns, 1))
-        elif trend.shape == "line":
+        elif doubt == "modulation":
             # what drifts grows with time, and what modulates does not
             ratio = abs(trend.slope) / trend.uncertainty
             needed = int(_MARGIN * CERTAIN / ratio)
         count = max(_LONGER, needed) * record.count
         return count * self.step if count <= MAX_STEPS else None
+
+
+def _undecided(doubt: Doubt, shape: Shape = "none") -> _Finding:
+    return _Finding("undecided", shape, doubt)

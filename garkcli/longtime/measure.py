@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from itertools import islice
-from math import ceil, inf
+from math import ceil, inf, isfinite, nan
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
@@ -52,31 +51,28 @@ class Measure:
             return [number(x) for x in problem.initial]
 
         start: list[Any] = self._precisely(initial_state)
-        summands: list[Any] = []
-        self._lengths = []
-        for _, expression in problem.quantities:
-            own = _summands(expression)
-            summands += own
-            self._lengths.append(len(own))
         arguments = unknowns(problem)
-        self._summands = function(tuple(summands), arguments, False)
+        expressions = [expression for _, expression in problem.quantities]
+        # each for itself, for states at which one of them has no value
+        self._alone = self._precisely(
+            lambda: [function((x,), arguments, bool(self._bits)) for x in expressions]
+        )
+        self._summands = [function(_summands(x), arguments, False) for x in expressions]
         terms_of = function(_first_terms(problem), arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
             initial = map(to_float, problem.initial)
             terms = terms_of(*initial)
-            self.sizes([float(x) for x in start])
         except (ArithmeticError, ValueError):
-            raise UsageProblem(
-                f"the energy or an invariant of {problem.name} has no value at the start",
-                "give other initial values",
-            ) from None
+            raise self._no_value(problem) from None
+        if not all(isfinite(x) for x in self.sizes(start)):
+            raise self._no_value(problem)
         self.initial = tuple(float(x) for x in self._first)
         self.scale = sum(map(abs, terms)) or 1.0
 
     def errors(self, states: Iterable[Sequence[Any]]) -> Floats:
-        """I(y) − I(y_0) of each state y, shape (states, invariants); infinite where y is outside
-        the domain.
+        """I(y) − I(y_0) of each state y, shape (states, invariants); nan where I has no value, and
+        infinite where it is too large for a float.
         """
         import numpy as np
 
@@ -92,20 +88,20 @@ class Measure:
             return np.array(rows)
 
     def sizes(self, y: Sequence[Any]) -> Floats:
-        """The sums of the sizes of the summands of each invariant at the state y, in floats.
-
-        Raises:
-            ArithmeticError, ValueError: y is outside of the domain.
+        """The sums of the sizes of the summands of each invariant at the state y, in floats; nan
+        where one has no value.
         """
         import numpy as np
 
-        arguments = map(float, y)
-        values = iter(self._summands(*arguments))
-        sizes = []
-        for length in self._lengths:
-            own = islice(values, length)
-            sizes.append(sum(abs(x) for x in own))
-        return np.array(sizes)
+        at = [float(x) for x in y]
+        return np.array([sum(map(abs, _values_of(own, at))) for own in self._summands])
+
+    @staticmethod
+    def _no_value(problem: Problem) -> UsageProblem:
+        return UsageProblem(
+            f"the energy or an invariant of {problem.name} has no value at the start",
+            "give other initial values",
+        )
 
     def _differences(self, y: Sequence[Any]) -> list[Any]:
         pairs = zip(self._values_of(y), self._first, strict=True)
@@ -115,13 +111,23 @@ class Measure:
         try:
             return self._function(*y)
         except (ArithmeticError, ValueError):
-            return [inf] * len(self.names)
+            return [sum(_values_of(alone, y)) for alone in self._alone]
 
     def _precisely(self, compute: Callable[[], Any]) -> Any:
         if not self._bits:
             return compute()
         with ctx.workprec(self._bits):
             return compute()
+
+
+def _values_of(expressions: Callable[..., list[Any]], y: Sequence[Any]) -> list[Any]:
+    """Expressions at the state y; one number that is none where one of them has no value."""
+    try:
+        return expressions(*y)
+    except OverflowError:
+        return [inf]
+    except (ArithmeticError, ValueError):
+        return [nan]
 
 
 def _first_terms(problem: Problem) -> tuple[Any, ...]:

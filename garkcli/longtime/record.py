@@ -23,6 +23,8 @@ COMPARED = 128
 # how many times the energy the energy error is when the failure of a step is called a blow-up
 _BLOWN = 1000
 _CHUNK = 8192  # steps measured at a time
+_TOO_LARGE = 1e150  # whose square is no float; sums of squares are kept
+_MOVES = 2.0**-40  # part of the largest number at the start that is a move
 _PARTS = 4  # equal parts of a run at whose ends the state is kept
 
 
@@ -43,7 +45,10 @@ class Record:
         done: the last step measured.
         excursions: how often coordinates turn back, and how far they go.
         exchange: of energy, along the trajectory.
-        blew_up: whether the steps ended there because the energy error has passed all bounds.
+        blew_up: whether the steps ended there because the first quantity has passed all bounds.
+        has_moved: whether a state differs from the start by more than rounding.
+        lost: the first step at which an invariant has no value, or one too large for squares of
+            it, by the number of the invariant; its errors are nan from there on, and count no more.
     """
 
     def __init__(self, measure: Measure, count: int, points: int) -> None:
@@ -58,6 +63,8 @@ class Record:
         self.states: dict[int, tuple[Any, ...]] = {}
         self.done = -1
         self.blew_up = False
+        self.has_moved = False
+        self.lost: dict[int, int] = {}
         self._span = 1  # steps of which the extremes are kept
         if count >= points:
             spans = max((points - 2) // (2 * signals), 1)
@@ -66,6 +73,7 @@ class Record:
         self._wanted = {count * part // _PARTS for part in parts}
         self._numbers: list[int] = []
         self._errors: list[Floats] = []
+        self._start: Floats = np.zeros(0)
         self._last: Floats = np.zeros((0, 0))
         self.excursions = Excursions()
         self.exchange = Exchange()
@@ -114,20 +122,24 @@ class Record:
             return
         start = self.done + 1
         errors = self.measure.errors(states)
-        most = BLOW_UP * self.measure.scale
-        is_inside = np.abs(errors) <= most  # and no nan
-        outside = np.flatnonzero(~is_inside.all(axis=1))
+        # an invariant may have no value somewhere; an energy without one has passed all bounds
+        has_passed = np.abs(errors[:, 0]) > BLOW_UP * self.measure.scale
+        if self.measure.has_energy:
+            has_passed |= np.isnan(errors[:, 0])
+        outside = np.flatnonzero(has_passed)
         if outside.size:
             self.blew_up = True
             errors = errors[: outside[0]]
         count = len(errors)
         if not count:
             return
+        self.lose(start, errors)
         if start == 0:
             compared = errors[: COMPARED + 1]
             self.first = compared.copy()
-        self.trends.add(start, errors)
-        largest = np.abs(errors).max(axis=0)
+        known = np.nan_to_num(errors, nan=0.0)
+        self.trends.add(start, known)
+        largest = np.abs(known).max(axis=0)
         np.maximum(self.largest, largest, out=self.largest)
         self.done += count
         chosen = self._chosen(errors, start)
@@ -139,7 +151,26 @@ class Record:
         inside = states[:count]
         self._watch(np.array(inside, dtype=np.float64))
 
+    def lose(self, start: int, errors: Floats) -> None:
+        """Note which invariants have no value from some step on; what comes after it is nan too.
+
+        Args:
+            start: the number of the first step.
+            errors: of the steps from there on, shape (m, invariants); these are changed.
+        """
+        import numpy as np
+
+        for k, own in enumerate(errors.T):
+            missing = np.flatnonzero(~(np.abs(own) < _TOO_LARGE))
+            if missing.size:
+                number = start + int(missing[0])
+                self.lost[k] = min(number, self.lost.get(k, number))
+            if k in self.lost:
+                own[max(0, self.lost[k] - start) :] = np.nan
+
     def _chosen(self, errors: Floats, start: int) -> list[int]:
+        import numpy as np
+
         if self._span == 1:
             return list(range(len(errors)))
         chosen: set[int] = set()
@@ -147,7 +178,7 @@ class Record:
             if start <= number <= self.done:
                 chosen.add(number - start)
         spans = -(-len(errors) // self._span)  # rounded up
-        for signal in errors.T:
+        for signal in np.nan_to_num(errors, nan=0.0).T:
             chosen.update(extremes(signal, 2 * spans).tolist())
         return sorted(chosen)
 
@@ -160,6 +191,10 @@ class Record:
             first -= len(self._last)
             states = np.concatenate([self._last, states])
         self._last = states[-2:]
+        if self._start.size == 0:
+            self._start = states[0]
+        moves = np.abs(states - self._start).max()
+        self.has_moved |= bool(moves > _MOVES * np.abs(self._start).max())
         if self.measure.has_energy:
             self.exchange.add(states)
         else:

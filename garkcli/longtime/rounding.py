@@ -7,7 +7,8 @@ Both are derived in docs/energy.md.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import ceil, log10
+from contextlib import suppress
+from math import ceil, isinf, log10
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
@@ -34,15 +35,15 @@ def unit_round_off(digits: int) -> float:
 
 
 def power_of_ten(x: float) -> float:
-    """The least power of ten that is not below ``x``; 0 for 0.
+    """The least power of ten that is not below ``x``; 0 for 0, and infinite for infinity.
 
     A bound on rounding errors is worth its power of ten only, and says the same on every machine.
 
     >>> power_of_ten(2.3e-13)
     1e-12
     """
-    if x <= 0:
-        return 0.0
+    if x <= 0 or isinf(x):
+        return max(x, 0.0)
     exponent = ceil(log10(x))
     return float(f"1e{exponent}")
 
@@ -123,7 +124,7 @@ def invariant_rate(
         tableau: with the coefficients as printed.
         tolerance: what each coefficient is good to; None for exact ones.
         problem: with an invariant.
-        states: times, and y then.
+        states: times, and y then; those at which I has no slope do not count.
     """
     if tolerance is None:
         return 0.0
@@ -138,8 +139,9 @@ def invariant_rate(
     rates = function(tuple(moved), arguments, False)
     largest = 0.0
     for time, y_then in states:
-        found = rates(*map(float, y_then), time)
-        largest = max(largest, sum(map(abs, found)))
+        with suppress(ArithmeticError, ValueError):
+            found = rates(*map(float, y_then), time)
+            largest = max(largest, sum(map(abs, found)))
     stages = max(len(row) for row in entries(tableau).b)
     return _HIGHER * to_float(tolerance) * stages * largest
 

@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.doing import doing
 from garkcli.longtime.history import State
 from garkcli.order.defects import is_symplectic
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
@@ -66,6 +67,7 @@ class Symplecticity:
     defects: tuple[Defect, ...] = ()
 
 
+@doing("symplecticity of steps")
 def symplecticity_defects(
     tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]
 ) -> tuple[Defect, ...]:
@@ -162,6 +164,7 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
     return is_symplectic(meant(tableau, tolerance))
 
 
+@doing("symplecticity")
 def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
     """Whether the steps of ``tableau`` on ``problem``, as ``symplecticity_defects`` takes them, are
     symplectic by coefficients.

@@ -19,7 +19,8 @@ The uncertainty of the slope has two parts, see docs/energy.md:
 A slope of less than its uncertainty is none, one of ten times as much is a drift, and what lies
 between is undecided. A trend of another shape than a line is a drift too when the averages over the
 eighths keep rising, or falling, by more than the signal oscillates there. A single move to
-another level is undecided: it may be the first of many, or the last.
+another level is undecided: it may be the first of many, or the last. What is known of the method
+besides is weighed in ``garkcli.longtime.longtime``.
 """
 
 from __future__ import annotations

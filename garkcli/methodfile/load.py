@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
@@ -37,7 +38,8 @@ def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
     Raises:
         MethodFileError: every fault of the file, with positions.
     """
-    return loads(*read_method_text(path), settings)
+    with doing(f"reading {path}"):
+        return loads(*read_method_text(path), settings)
 
 
 def read_method_text(path: str) -> tuple[str, str]:

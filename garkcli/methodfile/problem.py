@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.methodfile.file_kind import PROBLEM_FILE
 from garkcli.methodfile.problem_reader import ProblemReader
 from garkcli.methodfile.reading import read_text
@@ -29,7 +30,8 @@ def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
     Raises:
         MethodFileError: every fault of the file, with positions.
     """
-    return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
+    with doing(f"reading {path}"):
+        return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
 
 
 def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = None) -> Problem:

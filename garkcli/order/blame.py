@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
@@ -73,6 +74,7 @@ def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
     return blame_of(tableau, Missed(order, claimed))
 
 
+@doing("what is to blame")
 def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     """Look at all conditions of the first failing order of a method, its conjugate or their pair.
 

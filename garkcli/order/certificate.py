@@ -18,6 +18,7 @@ from typing import TypeAlias, cast
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number, coordinates
 from garkcli.exact.linear_map import LinearMap
@@ -98,6 +99,7 @@ class Forest:
     branches: tuple[Tree, ...]
 
 
+@doing("order")
 def find_order(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> Order:

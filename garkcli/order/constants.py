@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, ctx
 
+from garkcli.doing import doing
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
 from garkcli.order.conditions import coupling_graph
@@ -98,6 +99,7 @@ def estimate_constants(
     return _constants(difference, order, 0, exact)
 
 
+@doing("error constants")
 def _constants(tableau: Tableau, order: int, share: int, most_exact: int) -> ErrorConstants | None:
     """The norms of (b_lᵀ 𝒜^[u] − share/γ(u)) / σ(u)."""
     if count_conditions(tableau, order) <= most_exact:

@@ -16,6 +16,7 @@ from typing import Literal, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.display import decimal, to_ball
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
@@ -87,6 +88,7 @@ class RoundedOrder:
         return bound
 
 
+@doing("order within the tolerance")
 def find_order_within(rounded: RoundedTableau, limit: int = DEFAULT_LIMIT) -> RoundedOrder:
     """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within the rounding.
 

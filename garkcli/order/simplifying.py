@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from garkcli.doing import doing
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.defects import defects_of
 from garkcli.tableau.tableau import Edge, Tableau
@@ -112,6 +113,7 @@ def _existing(table: Table) -> list[int]:
     return [number for row in table for number in row if number is not None]
 
 
+@doing("B, C and D")
 def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
     """B, C and D of a tableau; each search stops at ``limit``.
 

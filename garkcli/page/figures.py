@@ -1,7 +1,8 @@
 """Positive numbers of any size as short text: only digits that are certain.
 
 What is measured comes as a ball, whose radius is what rounding leaves open. Digits within the
-radius hang on the processor, so they are not shown; of a ball that holds 0 only a bound is.
+radius hang on the processor, so they are not shown; of a ball that holds 0 only a bound is, and
+of one that is not finite nothing: there is no value, or rounding leaves every value open.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ from garkcli.page.asciiplot import log10 as decades_of
 
 _DIGITS_PER_BIT = log10(2)
 _ALL = 15  # digits of a float
+UNKNOWN = "unknown"
+"""What stands for a ball that is not finite."""
 
 
 def rounded(ball: Any, digits: int = 4) -> str:
@@ -22,8 +25,12 @@ def rounded(ball: Any, digits: int = 4) -> str:
 
     >>> rounded(arb(1) / 3), rounded(arb(1, 0.004)), rounded(arb(0, 3e-15)), rounded(arb(0))
     ('0.3333', '1.00', '< 1e-14', '0')
+    >>> rounded(arb(-1).sqrt())
+    'unknown'
     """
     ball = arb(ball)
+    if not ball.is_finite():
+        return UNKNOWN
     if ball.is_zero():
         return "0"
     if ball.contains(0):
@@ -42,6 +49,8 @@ def scientific(ball: Any, digits: int = 3) -> str:
     '1e1'
     """
     ball = arb(ball)
+    if not ball.is_finite():
+        return UNKNOWN
     if ball.is_zero():
         return "0"
     if ball.contains(0):
@@ -60,12 +69,13 @@ def scientific(ball: Any, digits: int = 3) -> str:
 
 
 def for_programs(ball: Any, digits: int = 6) -> str:
-    """The same as a number that every program reads: a bound is the power of ten that it is.
+    """The same as a number that every program reads: a bound is the power of ten that it is, and
+    what is not finite is empty.
 
-    >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15))
-    ('6.66667e-1', '1e-14')
+    >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15)), for_programs(arb(-1).sqrt())
+    ('6.66667e-1', '1e-14', '')
     """
-    return scientific(ball, digits).removeprefix("< ")
+    return scientific(ball, digits).removeprefix("< ") if arb(ball).is_finite() else ""
 
 
 def bound(ball: Any) -> int:

@@ -1,119 +1,264 @@
-"""A progress bar on stderr, on a terminal, for work that lasts longer than half a second."""
+"""What takes long, in one line on stderr, on a terminal, once a command has worked for two seconds.
+
+The line says what is being done, how much of it, and for how long the command has worked. It is
+wiped out before anything else is written there, and at the end.
+
+Exact arithmetic may stay within one call of a library for minutes, and no thread of Python runs
+meanwhile. So a process of its own draws the line; where the system cannot fork, the command itself
+does whenever something begins or ends.
+"""
 
 from __future__ import annotations
 
 import os
+import select
+import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from time import monotonic
-from typing import TYPE_CHECKING, TypeVar
+from typing import NoReturn, Protocol
 
-if TYPE_CHECKING:
-    from rich.progress import Progress, TaskID
+from garkcli import doing
+from garkcli.doing import Work
+from garkcli.page.plain import printable
+from garkcli.page.plaintext import plain_text
 
-T = TypeVar("T")
-PATIENCE = 0.5
-"""Seconds of work before a bar appears."""
-_EVERY = 64
-
-
-def _is_watched() -> bool:
-    """Whether somebody sees standard error; a terminal that cannot move its cursor shows no bar."""
-    return sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
-
-
-def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = True) -> Iterator[T]:
-    """The same items; a bar counts them once they have taken longer than ``PATIENCE``.
-
-    Args:
-        items: what is worked through.
-        total: how many there will be; None where nobody knows.
-        what: the word beside the bar.
-        wanted: False for a report that goes to the same terminal as the bar, or for ``--quiet``.
-    """
-    if not wanted or not _is_watched():
-        yield from items
-        return
-    start, iterator = monotonic(), iter(items)
-    for done, item in enumerate(iterator, start=1):
-        yield item
-        if monotonic() - start > PATIENCE:
-            yield from _with_bar(iterator, total, done, what)
-            return
-
-
-def _with_bar(items: Iterator[T], total: int | None, done: int, what: str) -> Iterator[T]:
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-
-    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=total, completed=done)
-        pending = 0
-        for item in items:
-            yield item
-            pending += 1
-            if pending == _EVERY or total is None or total < 1000:
-                progress.advance(task, pending)
-                pending = 0
+PATIENCE = 2.0
+"""Seconds of work before the line appears."""
+EVERY = 0.25
+"""Seconds from one line to the next."""
+WIPED = "\r\x1b[2K"
+_ASIDE, _END = b"\0", b"\1"  # texts have no such signs
+_STDERR = 2
+_USUAL = 80  # columns
 
 
 @contextmanager
-def watching(wanted: bool = True) -> Iterator[Callable[[str, int, int], None]]:
-    """A function to be told what is being done, how much of it is, and of how much: it shows that
-    as one bar.
+def watching(what: str) -> Iterator[None]:
+    """Show what is being done meanwhile: what ``garkcli.doing`` is told, and before that ``what``.
 
-    The bar appears once all of it has taken longer than ``PATIENCE``, and goes away at the end.
+    A terminal that cannot move its cursor shows nothing.
+    """
+    is_watched = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+    if not is_watched:
+        yield
+        return
+    line = Line(what, _pen())
+    try:
+        with doing.telling(line):
+            yield
+    finally:
+        line.hush()
+
+
+def _pen() -> Draws:
+    """A process that draws where there can be one."""
+    if hasattr(os, "fork"):
+        with suppress(OSError):
+            return Process()
+    return Pen(_put)
+
+
+@contextmanager
+def aside() -> Iterator[None]:
+    """Make room for something else on the terminal meanwhile."""
+    line = doing.listener()
+    if not isinstance(line, Line):
+        yield
+        return
+    line.make_room()
+    yield
+    line.tell()
+
+
+class Draws(Protocol):
+    """Draws the line."""
+
+    def draw(self, text: str) -> None:
+        """Show this from now on, once it is time."""
+        ...
+
+    def wipe(self) -> None:
+        """Take the line away until there is something to be drawn."""
+        ...
+
+    def end(self) -> None:
+        """Take the line away for good."""
+        ...
+
+
+class Line:
+    """What is being done, outermost first.
 
     Args:
-        wanted: False for ``--quiet``.
+        what: is said where nothing else is.
+        pen: draws it.
     """
-    if not wanted or not _is_watched():
-        yield lambda *_: None
-        return
-    bar = _Bar()
-    try:
-        yield bar.show
-    finally:
-        bar.close()
+
+    def __init__(self, what: str, pen: Draws) -> None:
+        self.pen = pen
+        self._what = what
+        self._stack: list[Work] = []
+        self._next = 0.0
+        self._is_hushed = False
+        self.tell()
+
+    def begin(self, work: Work) -> None:
+        """Take note of what is being done from now on."""
+        self._stack.append(work)
+        self.tell()
+
+    def changed(self) -> None:
+        """Take note of how far it is, now and then."""
+        if monotonic() >= self._next:
+            self.tell()
+
+    def end(self, work: Work) -> None:
+        """Take note of what is done; generators may end in another order than they began."""
+        self._stack.remove(work)
+        self.tell()
+
+    def hush(self) -> None:
+        """Show nothing more."""
+        if not self._is_hushed:
+            self._is_hushed = True
+            self.pen.end()
+
+    def make_room(self) -> None:
+        """Take the line away until the pen is told something again."""
+        if not self._is_hushed:
+            self.pen.wipe()
+
+    @property
+    def text(self) -> str:
+        """What is being done."""
+        return ": ".join(map(str, self._stack)) or self._what
+
+    def tell(self) -> None:
+        """Tell the pen what is being done now."""
+        if not self._is_hushed:
+            self._next = monotonic() + EVERY
+            self.pen.draw(self.text)
 
 
-class _Bar:
-    """One bar for a sequence of things that are done step by step."""
+class Pen:
+    """Draws the line every ``EVERY`` seconds, from ``PATIENCE`` on.
+
+    Args:
+        put: writes to the terminal.
+    """
+
+    def __init__(self, put: Callable[[str], None]) -> None:
+        self._put = put
+        self._start = monotonic()
+        self._due = self._start + PATIENCE
+        self._is_shown = False
+
+    @property
+    def wait(self) -> float:
+        """Seconds until there is something to be drawn."""
+        return max(0.0, self._due - monotonic())
+
+    def draw(self, text: str) -> None:
+        """Write the line over the one before, if it is time."""
+        if self.wait:
+            return
+        now = monotonic()
+        told = f"{text}, {int(now - self._start)} s"
+        plain = plain_text(printable(told), sys.stderr.encoding or "ascii")
+        # a line that the terminal breaks could not be wiped out
+        self._put(f"{WIPED}{plain[: _columns() - 1]}")
+        self._is_shown = True
+        self._due = now + EVERY
+
+    def wipe(self) -> None:
+        """Take the line away until it is drawn anew."""
+        if self._is_shown:
+            self._put(WIPED)
+            self._is_shown = False
+
+    def end(self) -> None:
+        """Take the line away for good."""
+        self.wipe()
+
+
+class Process:
+    """A process that draws the line with a ``Pen``, whatever this one is at."""
 
     def __init__(self) -> None:
-        self.start = monotonic()
-        self.progress: Progress | None = None
-        self.task: TaskID | None = None
+        commands, self._commands = os.pipe()
+        self._answers, answers = os.pipe()
+        parent = os.getpid()
+        self._process = os.fork()
+        if self._process == 0:
+            _draw_for(parent, commands, answers)
+        os.close(commands)
+        os.close(answers)
 
-    def show(self, what: str, done: int, total: int) -> None:
-        """How far ``what`` is now."""
-        if self.progress is None:
-            if monotonic() - self.start < PATIENCE:
-                return
-            from rich.console import Console
-            from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+    def draw(self, text: str) -> None:
+        """Show this from now on, once it is time."""
+        self._send(printable(text).encode("utf-8", "replace"))
 
-            columns = (
-                TextColumn("{task.description}"),
-                BarColumn(),
-                MofNCompleteColumn(),
-                TextColumn("steps"),
-            )
-            self.progress = Progress(*columns, console=Console(stderr=True), transient=True)
-            self.task = self.progress.add_task(what, total=total)
-            self.progress.start()
-        assert self.task is not None
-        self.progress.update(self.task, description=what, completed=done, total=total)
+    def wipe(self) -> None:
+        """Take the line away until there is something to be drawn, and wait until it is gone."""
+        if self._send(_ASIDE):
+            os.read(self._answers, 1)
 
-    def close(self) -> None:
-        """Take the bar away."""
-        if self.progress is not None:
-            self.progress.stop()
+    def end(self) -> None:
+        """Take the line away, and end the process."""
+        self._send(_END)
+        os.close(self._commands)
+        os.close(self._answers)
+        os.waitpid(self._process, 0)
+
+    def _send(self, message: bytes) -> bool:
+        """Whether the process is there to read it."""
+        with suppress(OSError):
+            os.write(self._commands, message + b"\n")
+            return True
+        return False
+
+
+def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
+    """What the process does, until it is told to end or its parent is gone."""
+    try:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # that is for the parent
+        pen = Pen(_put_at_once)
+        text, rest = "", b""
+        while os.getppid() == parent:
+            ready, _, _ = select.select([commands], [], [], pen.wait or EVERY)
+            if ready:
+                *messages, rest = (rest + os.read(commands, 65536)).split(b"\n")
+                for message in messages:
+                    if message == _END:
+                        pen.end()
+                        os._exit(0)
+                    if message == _ASIDE:
+                        pen.wipe()
+                        os.write(answers, message)
+                    text = "" if message == _ASIDE else message.decode()
+            if text:
+                pen.draw(text)
+    finally:
+        # whatever has happened, the rest of the program is for the parent
+        os._exit(0)
+
+
+def _columns() -> int:
+    """Of the terminal of stderr."""
+    with suppress(OSError):
+        # 0 where the terminal does not know
+        return os.get_terminal_size(_STDERR).columns or _USUAL
+    return _USUAL
+
+
+def _put(text: str) -> None:
+    """Write to the terminal; one that is gone is no reason to stop."""
+    with suppress(OSError):
+        sys.stderr.write(text)
+        sys.stderr.flush()
+
+
+def _put_at_once(text: str) -> None:
+    os.write(_STDERR, text.encode(sys.stderr.encoding or "ascii", "replace"))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, get_args
+
+from garkcli.tableau.garkmethod import Derivation
 
 Schema: TypeAlias = dict[str, Any]
 
@@ -28,6 +30,9 @@ SIZE: Schema = {
     "minimum": 0,
     "description": "A float; null beyond the range of floats.",
 }
+
+DERIVATION: Schema = {"enum": [*get_args(Derivation)]}
+"""Whether a method is the conjugate or the pair of the one that a file gives; empty for itself."""
 
 
 def nullable(schema: Schema) -> Schema:

@@ -89,6 +89,6 @@ def _words(history: InvariantHistory) -> str:
         "exact": "conserved exactly",
         "round-off": "not above round-off",
         "unstable": "blown up",
-        "undecided": "too short to judge",
+        "undecided": "not decided",
     }
     return words.get(history.verdict, history.verdict)

@@ -9,6 +9,7 @@ semi-separable and separable cases).
 
 from __future__ import annotations
 
+from garkcli.doing import doing
 from garkcli.errors import NoLegendreTransform
 from garkcli.problems.expr import Expr, Place
 from garkcli.problems.inversion import by_solving
@@ -16,6 +17,7 @@ from garkcli.problems.mass import Lagrangian, coupled, differentiated, inverse_o
 from garkcli.problems.vectorfield import symbols
 
 
+@doing("Legendre transform")
 def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Expr:
     """The Hamiltonian of a Lagrangian, sympy expressions both.
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from garkcli.doing import doing
 from garkcli.properties.reduction import is_plainly_irreducible, reduced
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.tableau import Tableau
 
 
+@doing("smallest method")
 def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
     """The smallest method with further weights: a stage that any row of weights needs stays.
 

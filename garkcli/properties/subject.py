@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import StageGraph, stage_graph
@@ -48,7 +49,8 @@ class Subject:
     def verdict(self, key: str) -> Verdict:
         """What is true of a property; each is decided once."""
         if key not in self._verdicts:
-            self._verdicts[key] = find(key).decide(self)
+            with doing(key.replace("-", " ")):
+                self._verdicts[key] = find(key).decide(self)
         return self._verdicts[key]
 
     @cached_property

@@ -25,6 +25,7 @@ from garkcli.report.convergence import (
 )
 from garkcli.report.convergence_data import Entry, csv_of_several
 from garkcli.report.costs import Tested, costs_of, curve
+from garkcli.tableau.garkmethod import word_for
 
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 _INDENT = 2
@@ -191,7 +192,8 @@ def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
     """A line a method: observed, visible and predicted order, and whether they agree; then what
     there is to say about it.
     """
-    rows = [["order", "observed", "on this problem", "of the method"]]
+    stepped = next((entry.result.method for _, entry in named if entry.result), None)
+    rows = [["order", "observed", "on this problem", f"of the {word_for(stepped)}"]]
     endings = [""]
     said: list[str] = []
     for letter, entry in named:

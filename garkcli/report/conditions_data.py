@@ -60,11 +60,13 @@ class Valued:
         method: its tableau, with its rounding where it is rounded.
         only_failing: whether conditions that hold are counted but not shown.
         parameters: the free ones, of which values are rational functions.
+        derivation: whether the method is the conjugate or the pair of what a file gives.
     """
 
     method: AnyTableau
     only_failing: bool = False
     parameters: tuple[str, ...] = ()
+    derivation: str = ""
 
     @property
     def tableau(self) -> Tableau:

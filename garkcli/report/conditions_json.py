@@ -10,6 +10,7 @@ from garkcli.order.conditions import Condition
 from garkcli.page.json_text import to_json
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import (
+    DERIVATION,
     FLAG,
     NUMERAL,
     POSITION,
@@ -88,6 +89,10 @@ def _tolerance(scope: _Scope) -> str | None:
     return decimal(scope.valued.tolerance)
 
 
+def _derivation(scope: _Scope) -> str:
+    return "" if scope.valued is None else scope.valued.derivation
+
+
 def _names(scope: _Scope) -> list[str]:
     return [] if scope.valued is None else scope.valued.names
 
@@ -109,6 +114,7 @@ def _members(row: ConditionRow) -> list[str] | None:
 
 _ABOUT: Field[_Scope] = schema_named(SCHEMA)
 _OF_METHOD: tuple[Field[_Scope], ...] = (
+    Field("derivation", DERIVATION, _derivation),
     Field("colours", array(TEXT), _names),
     Field("tolerance", nullable(TEXT), _tolerance),
 )

@@ -13,7 +13,9 @@ from garkcli.page.figures import rounded, scientific
 from garkcli.page.paint import Paint, aligned, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.convergence_data import csv_of, invariant_names
-from garkcli.report.problem_text import describe
+from garkcli.report.fault_json import Failure
+from garkcli.report.problem_text import describe, driving
+from garkcli.tableau.garkmethod import word_for
 
 WIDTH = 80
 """Columns of a terminal."""
@@ -57,10 +59,22 @@ def render(
     return "\n".join(lines) + "\n"
 
 
+def render_failure(failure: Failure, format: str) -> str:
+    """A test that has no result, for programs: its errors, or a table without rows. People are told
+    elsewhere.
+    """
+    if format == "json":
+        from garkcli.report.convergence_json import json_of_failure
+
+        return json_of_failure(failure)
+    return "h,h_exact,error,slope\n" if format == "csv" else ""
+
+
 def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
     about = f"{describe(result.problem)}; to t = {result.t_end}"
     lines = [paint("strong", line) for line in wrap(name, WIDTH)]
     lines += indented(wrapped(about))
+    lines += indented(driving(result.problem, result.method))
     for block in _tables(result):
         lines.append("")
         lines += indented(block)
@@ -155,7 +169,7 @@ def _orders(result: Convergence, paint: Paint) -> list[str]:
     last = verdict(result, paint)
     if result.hides_failure:
         return [f"{head}: {last}", f"          {hidden(result)}"]
-    tail = f"of the method {predicted(result)}: "
+    tail = f"of the {word_for(result.method)} {predicted(result)}: "
     unpainted = verdict(result, Paint())
     whole = f"{head}, {tail}{unpainted}"
     if len(whole) > WIDTH:
@@ -187,7 +201,7 @@ def hidden(result: Convergence) -> str:
     """Whose order the visible one is not."""
     order = result.predicted_order
     failing = f"its failing trees of order {order + 1}"
-    return f"the method has order {order}: {failing} are not seen here"
+    return f"the {word_for(result.method)} has order {order}: {failing} are not seen here"
 
 
 def verdict(result: Convergence, paint: Paint) -> str:
@@ -209,13 +223,18 @@ def remarks(result: Convergence) -> list[str]:
         )
     if result.stiff is not None:
         said.append(_of_stiffness(result, result.stiff))
-    if result.is_exact:
-        said.append("the method makes no error on this problem")
+    if result.is_at_rest:
+        said.append("the solution does not move, so that no method makes an error: start elsewhere")
+    elif result.is_exact:
+        word = word_for(result.method)
+        said.append(
+            f"the {word} makes no error on this problem, which shows no order: take another"
+        )
     elif result.short_time is not None:
         said.append(_of_short_time(result))
     elif not result.has_settled:
         said.append("the rounding of the coefficients comes before the slopes have settled")
-    if len(result.rows) == 1 and result.verdict == "undecided":
+    if len(result.rows) == 1 and not result.is_exact:
         said.append("one step size shows no order")
     return said
 

@@ -31,7 +31,8 @@ class Entry:
         name: of the method, or the path again.
         result: None where there is none.
         faults: why there is none.
-        exit_code: 0 no disagreement, 1 it disagrees or a step fails, 2 it cannot be tested.
+        exit_code: 0 no disagreement, 1 it disagrees or a step fails, 2 it cannot be tested, 3 it is
+            undecided.
     """
 
     file: str

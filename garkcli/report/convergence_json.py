@@ -13,6 +13,7 @@ from garkcli.page.figures import for_programs
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
     COUNT,
+    DERIVATION,
     EXACT,
     FLAG,
     NUMBER,
@@ -26,8 +27,9 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report.convergence_data import DIGITS, SLOPE_DIGITS, Entry, invariant_names
-from garkcli.report.fault_json import FAULT
+from garkcli.report.fault_json import FAULT, Failure, failure_form
 from garkcli.report.problem_json import NAME, TERMS, Stepped
+from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/converge/1"
 SCHEMA_OF_SEVERAL = "gark/converge-comparison/1"
@@ -39,6 +41,11 @@ def json_of(result: Convergence, name: str, with_work: bool) -> str:
     return form.text(_Test(result, name, with_work))
 
 
+def json_of_failure(failure: Failure) -> str:
+    """A test that has no result, as JSON."""
+    return _FAILURE.text(failure)
+
+
 def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as JSON."""
     tried = [_Tried(entry, with_work) for entry in entries]
@@ -48,7 +55,7 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
 def converge_report_schema() -> Schema:
     """The JSON Schema of these reports, of one method or of several."""
     alone = (form.schema for form in _REPORTS.values())
-    schema = one_of(*alone, _COMPARISON.schema)
+    schema = one_of(*alone, _FAILURE.schema, _COMPARISON.schema)
     return published("report of gark converge", schema)
 
 
@@ -87,8 +94,8 @@ class _Step(NamedTuple):
         return dict(zip(self.names, self.row.invariant_errors, strict=True))
 
     @property
-    def in_numbers(self) -> dict[str, float]:
-        """The same in floats."""
+    def in_numbers(self) -> dict[str, float | None]:
+        """The same in floats; None where one is unknown."""
         return {name: _number(error) for name, error in self.errors.items()}
 
     @property
@@ -99,14 +106,14 @@ class _Step(NamedTuple):
             measured = {"energy": self.row.energy_error, **measured}
         below = []
         for name, x in measured.items():
-            if x.contains(0) and not x.is_zero():
+            if x.is_finite() and x.contains(0) and not x.is_zero():
                 below.append(name)
         return below or None
 
 
-def _number(ball: arb) -> float:
+def _number(ball: arb) -> float | None:
     digits = for_programs(ball, DIGITS)
-    return float(digits)
+    return float(digits) if digits else None
 
 
 def _energy_error(step: _Step) -> float | None:
@@ -217,6 +224,7 @@ _REPORTS: dict[type[Stepped], Record[_Test]] = {
         schema_named(SCHEMA),
         *inside(lambda x: x.result, inside(_problem, [NAME])),
         Field("name", TEXT, lambda x: x.name),
+        Field("derivation", DERIVATION, lambda x: derivation_of(x.result.method)),
         *inside(lambda x: x.result, (*inside(_problem, terms), *_RESULT)),
         Field("steps", _STEPS, _steps),
         Field("note", TEXT, lambda x: x.result.visible.trees),
@@ -224,6 +232,7 @@ _REPORTS: dict[type[Stepped], Record[_Test]] = {
     for kind, terms in TERMS.items()
 }
 """By the kind of the problem."""
+_FAILURE = failure_form(SCHEMA)
 _HEAD: tuple[Field[_Tried], ...] = (
     Field("file", TEXT, lambda x: x.entry.file),
     Field("ok", FLAG, lambda x: x.entry.exit_code == 0),

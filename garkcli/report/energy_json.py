@@ -7,13 +7,14 @@ from typing import NamedTuple, get_args
 from flint import fmpq
 
 from garkcli.exact.display import to_decimal, to_float
-from garkcli.longtime.history import InvariantHistory, LongRun, Verdict
+from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Verdict
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import Shape
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
     COUNT,
+    DERIVATION,
     EXACT,
     FLAG,
     NUMBER,
@@ -26,7 +27,9 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report.energy_text import Claim, Report
+from garkcli.report.fault_json import Failure, failure_form
 from garkcli.report.problem_json import NAME, TERMS, Stepped
+from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/energy/1"
 
@@ -37,10 +40,15 @@ def json_of(report: Report) -> str:
     return form.text(report)
 
 
+def json_of_failure(failure: Failure) -> str:
+    """A run that has no result, as JSON."""
+    return _FAILURE.text(failure)
+
+
 def energy_report_schema() -> Schema:
     """The JSON Schema of these reports."""
     forms = (form.schema for form in _REPORTS.values())
-    return published("report of gark energy", one_of(*forms))
+    return published("report of gark energy", one_of(*forms, _FAILURE.schema))
 
 
 class _Quantity(NamedTuple):
@@ -121,6 +129,8 @@ _QUANTITY: Record[_Quantity] = Record(
     Field("verdict", _VERDICT, lambda x: x.history.verdict),
     Field("trend", _TREND, lambda x: x.history.shape),
     Field("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
+    Field("doubt", {"enum": [*get_args(Doubt), None]}, lambda x: x.history.doubt),
+    Field("no_value_at", SIZE, lambda x: _float(x.history.no_value_at)),
 )
 _RUN: tuple[Field[LongRun], ...] = (
     Field("step", SIZE, lambda x: to_float(x.step)),
@@ -155,6 +165,7 @@ _REPORTS: dict[type[Stepped], Record[Report]] = {
         schema_named(SCHEMA),
         *inside(lambda x: x.run, inside(_problem, [NAME, *terms])),
         Field("name", TEXT, lambda x: x.name),
+        Field("derivation", DERIVATION, lambda x: derivation_of(x.run.method)),
         *inside(lambda x: x.run, _RUN),
         _SYMPLECTIC.or_null("symplectic", _measured),
         _CLAIM.every("claims", lambda x: x.claims),
@@ -162,3 +173,4 @@ _REPORTS: dict[type[Stepped], Record[Report]] = {
     for kind, terms in TERMS.items()
 }
 """By the kind of the problem."""
+_FAILURE = failure_form(SCHEMA)

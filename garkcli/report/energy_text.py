@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.longtime.history import InvariantHistory, LongRun
@@ -14,7 +15,8 @@ from garkcli.page.bandplot import terminal_band
 from garkcli.page.figures import measured
 from garkcli.page.paint import Paint, counted, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.problem_text import describe
+from garkcli.report.problem_text import describe, driving
+from garkcli.tableau.garkmethod import GarkMethod, word_for
 
 FATES = {
     "elliptic": "the energy error is bounded for all time",
@@ -69,6 +71,7 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     lines = [paint("strong", report.name)]
     lines += indented(_wrapped(describe(run.problem)))
     steps = f"step {run.step} to t = {run.t_end}: {_steps(run)}"
+    lines += indented(driving(run.problem, run.method))
     lines += indented(_wrapped(steps))
     lines.append("")
     for history in run.invariants:
@@ -77,7 +80,7 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     if report.symplecticity is None:
         lines.pop()
     else:
-        lines += _symplectic(report.symplecticity, run.stability, paint)
+        lines += _symplectic(report.symplecticity, run.stability, run.method, paint)
     if report.claims:
         lines.append("")
     for claim in report.claims:
@@ -86,7 +89,10 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     # noise is different on every machine, and nothing to look at
     if is_long and first.max_error > first.round_off:
         label = "H(t) − H(0)" if run.energy else f"error of {first.name}"
-        plot = terminal_band(run.times, first.errors, label)
+        # an invariant may have lost its value on the way
+        points = [(t, x) for t, x in zip(run.times, first.errors, strict=True) if isfinite(x)]
+        times, errors = zip(*points, strict=True)
+        plot = terminal_band(times, errors, label)
         lines.append("")
         lines += indented(plot.splitlines())
     return lines
@@ -117,7 +123,7 @@ def _history(history: InvariantHistory, run: LongRun, paint: Paint) -> list[str]
     names = [x.name for x in run.invariants]
     width = max(15, *map(len, names)) + 2
     word, reason = _verdict(history, run)
-    paragraphs = [f"{word}{reason}", *_cure(history)]
+    paragraphs = [f"{word}{reason}", *_cure(history, run)]
     rows = _numbers(history, run)
     rows.append(("  verdict", "; ".join(paragraphs)))
     lines = []
@@ -136,10 +142,10 @@ def _numbers(history: InvariantHistory, run: LongRun) -> list[tuple[str, str]]:
     """The value at the start, and what of the errors says something, each with its label."""
     verdict, round_off = history.verdict, history.round_off
     rows = [(history.name, f"{history.initial:.6g} at the start")]
-    if verdict == "exact":
+    if verdict == "exact" or history.doubt in ("rest", "value"):
         return rows
     rows.append(("  largest error", measured(history.max_error, round_off)))
-    if verdict in ("round-off", "unstable"):
+    if verdict in ("round-off", "unstable") or history.doubt == "round-off":
         return rows
     oscillation = measured(history.amplitude, round_off, 3)
     rows.append(("  oscillation", f"± {oscillation}"))
@@ -163,7 +169,7 @@ def _drift(history: InvariantHistory, run: LongRun) -> str:
         rate = measured(drift, uncertainty, 3)
         total = measured(in_all, uncertain_in_all, 3)
         return f"{rate} per unit of time, {total} in all"
-    if not is_seen and history.verdict == "drifts":
+    if not is_seen and (history.verdict == "drifts" or history.doubt in ("symplectic", "rounding")):
         return "not at one rate in this run"
     if is_seen:
         rate = f"{drift:.2e} ± {uncertainty:.0e}"
@@ -186,13 +192,11 @@ def _verdict(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
         case "undecided":
             return "undecided", f": {_undecided(history, run)}"
         case "bounded":
-            return "bounded", _bounded(history, run)
+            return "bounded", _bounded(run)
     return "DRIFTS", f": {_reason(history, run)}"
 
 
 def _round_off(history: InvariantHistory, run: LongRun) -> str:
-    if not history.round_off:
-        return " at all"
     text = f" above round-off, at most {history.round_off:.0e} here"
     if run.digits and run.digits <= 100:
         text += f"; --digits {2 * run.digits} shows more"
@@ -208,31 +212,55 @@ def _unstable(history: InvariantHistory, run: LongRun) -> str:
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> str:
-    if run.steps < LEAST:
-        return f"fewer than {LEAST} steps"
-    if history.shape == "line":
-        slope = f"the slope is {_times(history)} times its uncertainty"
-        return f"{slope}; a slow modulation may do that"
-    if history.shape == "none":
-        return f"the motion turns back {counted(run.turns, 'time')} only"
+    """Why."""
+    match history.doubt:
+        case "steps":
+            return f"fewer than {LEAST} steps"
+        case "turns":
+            return f"the motion turns back {counted(run.turns, 'time')} only"
+        case "rest":
+            return "the solution does not move"
+        case "value":
+            return f"it has no value at t = {history.no_value_at}"
+        case "round-off":
+            return "rounding may be as large as it is"
+        case "modulation":
+            slope = f"the slope is {_times(history)} times its uncertainty"
+            return f"{slope}; a slow modulation may do that"
+        case "symplectic":
+            direction = _direction(history)
+            return (
+                f"it {direction} throughout; for a symplectic method that is usually a slow "
+                "oscillation"
+            )
+        case "rounding":
+            return "drifts; rounding of the coefficients may be the cause"
     return "it moves to another level; that may happen once, or again and again"
 
 
-def _cure(history: InvariantHistory) -> list[str]:
+def _cure(history: InvariantHistory, run: LongRun) -> list[str]:
     """What decides an undecided run."""
-    if history.verdict != "undecided":
-        return []
+    match history.doubt:
+        case None:
+            return []
+        case "rest":
+            return ["start elsewhere"]
+        case "value":
+            return ["choose an invariant that has one all along, or an earlier --t-end"]
+        case "round-off":
+            return [f"--digits {2 * (run.digits or FLOAT_DIGITS)} can tell"]
+        case "rounding":
+            return ["coefficients with more digits can tell"]
     if history.longer is None:
         return ["a larger step, for a longer time, can tell"]
+    if history.doubt == "symplectic":
+        return [f"try --t-end {history.longer}"]
     return [f"--t-end {history.longer} can tell"]
 
 
-def _bounded(history: InvariantHistory, run: LongRun) -> str:
+def _bounded(run: LongRun) -> str:
     if run.stability is not None and run.stability.fate == "elliptic":
         return " for all time: det R(h) = 1 and |tr R(h)| < 2, decided exactly"
-    in_all = (history.uncertainty or 0.0) * run.end
-    if history.coefficients > in_all / 2:
-        return ": no drift beyond what the rounding of the coefficients can cause"
     return ": no drift beyond its uncertainty"
 
 
@@ -246,9 +274,15 @@ def _reason(history: InvariantHistory, run: LongRun) -> str:
         return f"the slope is {times} times its uncertainty"
     if history.shape == "curve":
         # the fitted slope of what is no line may be nothing but rounding
-        verb = "rises" if history.errors[-1] > 0 else "falls"
-        return f"it {verb} all along, by more than it oscillates"
+        return f"it {_direction(history)} all along, by more than it oscillates"
     return "it moves to another level and stays there"
+
+
+def _direction(history: InvariantHistory) -> str:
+    """Where a trend goes: by its slope, or by its end where no line fits it."""
+    drift = history.drift or 0.0
+    went = drift if history.shape == "line" else history.errors[-1]
+    return "rises" if went > 0 else "falls"
 
 
 def _times(history: InvariantHistory) -> str:
@@ -267,17 +301,21 @@ def _determinant(stability: Stability) -> str:
     return to_decimal(difference, 4)
 
 
-def _symplectic(found: Symplecticity, stability: Stability | None, paint: Paint) -> list[str]:
+def _symplectic(
+    found: Symplecticity, stability: Stability | None, method: GarkMethod | None, paint: Paint
+) -> list[str]:
+    whose = word_for(method)
+    coefficients = "its coefficients" if whose == "method" else f"the coefficients of the {whose}"
     is_refuted = any(x.is_seen for x in found.defects)
     if stability is not None and not stability.is_symplectic:
         is_refuted = True
     if found.is_proved:
         yes = paint("good", "yes")
-        word = f"{yes}, by its coefficients"
+        word = f"{yes}, by {coefficients}"
     elif is_refuted:
         word = paint("strong", "no")
     else:
-        word = "not proved by its coefficients"
+        word = f"not proved by {coefficients}"
         if stability is None and not found.defects:
             word += "; --symplecticity measures"
     texts = []

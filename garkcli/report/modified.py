@@ -22,7 +22,6 @@ _TREE = 30  # columns of a tree beside its numbers
 _DIGITS = 10
 _UNDECIDED = "not decided"
 _FORMLESS = "no Hamiltonian problem has its form"
-_DERIVED = {"pair": "the symplectic pair", "conjugate": "the symplectic conjugate"}
 
 
 def render(
@@ -75,13 +74,8 @@ def text_of(report: ModifiedReport, paint: Paint, is_long: bool = True) -> list[
 
 def _head(report: ModifiedReport) -> list[str]:
     """What the report is about."""
-    equation = report.found.equation
-    parts = []
-    if report.derivation:
-        parts.append(_DERIVED[report.derivation])
-    parts.append(counted(len(report.names), "colour"))
-    parts.append(f"trees of up to {counted_vertices(equation.max_order)}")
-    lines = ["; ".join(parts)]
+    vertices = counted_vertices(report.found.equation.max_order)
+    lines = [f"{counted(len(report.names), 'colour')}; trees of up to {vertices}"]
     numbers = [str(l) for l, _ in enumerate(report.names, start=1)]
     if list(report.names) != numbers:
         pairs = map(" ".join, zip(numbers, report.names, strict=True))

@@ -14,6 +14,7 @@ from garkcli.exact.field import Number
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import (
     COUNT,
+    DERIVATION,
     FLAG,
     NUMERAL,
     POSITION,
@@ -194,7 +195,7 @@ _REPORT: Record[ModifiedReport] = Record(
     schema_named(SCHEMA),
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),
-    Field("derivation", {"enum": ["", "pair", "conjugate"]}, lambda x: x.derivation),
+    Field("derivation", DERIVATION, lambda x: x.derivation),
     Field("tolerance", nullable(TEXT), _tolerance),
     Field("colours", array(TEXT), lambda x: list(x.names)),
     Field("max_order", POSITION, lambda x: x.found.equation.max_order),

@@ -14,8 +14,21 @@ from garkcli.exact.display import to_float
 from garkcli.page.figures import scientific
 from garkcli.page.paint import Paint, folded, indented
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import COUNT, EXACT, FLAG, POSITION, TEXT, Schema, nullable, published
-from garkcli.report.problem_text import describe
+from garkcli.page.schema import (
+    COUNT,
+    DERIVATION,
+    EXACT,
+    FLAG,
+    POSITION,
+    TEXT,
+    Schema,
+    nullable,
+    one_of,
+    published,
+)
+from garkcli.report.fault_json import Failure, failure_form
+from garkcli.report.problem_text import describe, driving
+from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/modified-energy/1"
 _WIDTH = 80
@@ -41,12 +54,22 @@ def render(report: ModifiedEnergyReport, format: str, paint: Paint) -> str:
     return "\n".join(text_of(report, paint)) + "\n"
 
 
+def render_failure(failure: Failure, format: str) -> str:
+    """A measurement that has no result, for programs: its errors, or a table without rows. People
+    are told elsewhere.
+    """
+    if format == "json":
+        return _FAILURE.text(failure)
+    return "h\n" if format == "csv" else ""
+
+
 def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     """The lines of the report."""
     run = report.run
     problem = describe(run.problem)
     lines = [paint("strong", report.name)]
     lines += indented(folded(problem, _WIDTH - 2, "  "))
+    lines += indented(driving(run.problem, run.method))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
     lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
     rows = run.energies[0].rows
@@ -141,7 +164,8 @@ def to_float_error(row: Row) -> float:
 
 def modified_energy_schema() -> Schema:
     """The JSON Schema of these reports, as plain data."""
-    return published("report of gark energy --modified", _REPORT.schema)
+    schema = one_of(_REPORT.schema, _FAILURE.schema)
+    return published("report of gark energy --modified", schema)
 
 
 _NUMBER_OR_NULL: Schema = nullable(_NUMBER)
@@ -160,9 +184,11 @@ _ENERGY: Record[ModifiedEnergy] = Record(
     Field("verdict", _VERDICT, lambda x: x.verdict),
     _ROW.every("rows", lambda x: x.rows),
 )
+_FAILURE = failure_form(SCHEMA)
 _REPORT: Record[ModifiedEnergyReport] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
+    Field("derivation", DERIVATION, lambda x: derivation_of(x.run.method)),
     Field("problem", TEXT, lambda x: x.run.problem.name),
     Field("t_end", EXACT, lambda x: str(x.run.t_end)),
     Field("max_order", POSITION, lambda x: x.run.max_order),

@@ -8,6 +8,7 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
+from garkcli.tableau.garkmethod import GarkMethod
 
 _LONGEST = 80
 """Characters of the terms that are still shown; longer ones are counted."""
@@ -21,6 +22,17 @@ def describe(problem: Oscillator | Problem) -> str:
         return _described_fields(problem)
     energies = [_energy(k, v) for k, v in problem.shares]
     return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
+
+
+def driving(problem: Oscillator | Problem, method: GarkMethod | None) -> list[str]:
+    """What the colours of a method do with the terms of a Hamiltonian, where its file does not say
+    it by a partition: no line, or one.
+    """
+    if method is None or isinstance(problem, RightHandSide):
+        return []
+    if method.tableau.is_partitioned or method.tableau.size == 1:
+        return []
+    return ["colour l steps the whole vector field of H{l}"]
 
 
 def _numbered(energies: Sequence[str]) -> str:

@@ -89,13 +89,18 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
     )
 
 
+def _called(name: str, method: GarkMethod | None) -> str:
+    """What the caller says, or what the value knows."""
+    return name or (method.name if method is not None else "")
+
+
 def _method(method: GarkMethod, format: str, _: str) -> str:
     from garkcli.page import tableau_latex
     from garkcli.report import tableau_json, tableau_text
 
     tableau, entries = method.tableau, method.entries
     if format == "json":
-        return tableau_json.render(tableau, entries, method.name)
+        return tableau_json.render(tableau, entries, method.name, method.derivation)
     if format == "latex":
         return tableau_latex.render(tableau, entries, method.name, False)
     return tableau_text.render(tableau, entries, method.name, _PLAIN, WIDTH)
@@ -122,14 +127,14 @@ def _stability(found: Stability, format: str, name: str) -> str:
 def _convergence(result: Convergence, format: str, name: str) -> str:
     from garkcli.report.convergence import render as written
 
-    return written(result, name, format, _PLAIN)
+    return written(result, _called(name, result.method), format, _PLAIN)
 
 
 def _long_run(run: LongRun, format: str, name: str) -> str:
     from garkcli.report.energy import render as written
     from garkcli.report.energy_text import Report
 
-    return written(Report(name, run, None), format, _PLAIN)
+    return written(Report(_called(name, run.method), run, None), format, _PLAIN)
 
 
 def _comparison(found: Comparison, format: str, _: str) -> str:
@@ -154,7 +159,7 @@ def _modified_run(run: ModifiedRun, format: str, name: str) -> str:
     from garkcli.report.modified_energy import ModifiedEnergyReport
     from garkcli.report.modified_energy import render as written
 
-    return written(ModifiedEnergyReport(name, run), format, _PLAIN)
+    return written(ModifiedEnergyReport(_called(name, run.method), run), format, _PLAIN)
 
 
 def _design(design: Design, format: str, name: str, minimum: Minimum | None = None) -> str:

@@ -13,6 +13,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.stability.slow_interval import SlowInterval
 from garkcli.stability.summary import Stability
 from garkcli.stability.two_frequencies import TwoFrequencies
+from garkcli.tableau.garkmethod import Derivation
 
 if TYPE_CHECKING:
     from garkcli.stability.springs_plane import SpringsPlane
@@ -30,6 +31,7 @@ class StabilityReport:
         digits: decimals of algebraic numbers.
         plane: both frequencies in floats, for a picture.
         slow: the two-frequency problem for an interval of slow frequencies.
+        derivation: whether the method is the pair or the conjugate of what the file gives.
     """
 
     file: str
@@ -39,6 +41,7 @@ class StabilityReport:
     digits: int = 12
     plane: SpringsPlane | None = None
     slow: SlowInterval | None = None
+    derivation: Derivation = ""
 
 
 def factors(p: Polynomial) -> list[tuple[Polynomial, int]]:

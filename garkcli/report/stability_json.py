@@ -7,7 +7,7 @@ from itertools import product
 
 from garkcli.exact.display import decimal
 from garkcli.page.record import Field, Record, inside, schema_named
-from garkcli.page.schema import FLAG, TEXT, Schema, array, nullable, one_of, published
+from garkcli.page.schema import DERIVATION, FLAG, TEXT, Schema, array, nullable, one_of, published
 from garkcli.report.stability_data import StabilityReport
 from garkcli.report.stability_fields import (
     FRACTION,
@@ -95,6 +95,7 @@ def _head(kind: str) -> tuple[Field[StabilityReport], ...]:
     return (
         Field("file", TEXT, lambda x: x.file),
         Field("name", TEXT, lambda x: x.name),
+        Field("derivation", DERIVATION, lambda x: x.derivation),
         Field("kind", {"const": kind}, lambda _: kind),
         Field("tolerance", nullable(TEXT), _tolerance),
     )

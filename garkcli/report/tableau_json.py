@@ -13,17 +13,28 @@ from garkcli.exact.display import to_float
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text
 from garkcli.page.record import Field, Record, inside, schema_named
-from garkcli.page.schema import FLAG, NUMBER, NUMERAL, TEXT, Schema, array, nullable, published
+from garkcli.page.schema import (
+    DERIVATION,
+    FLAG,
+    NUMBER,
+    NUMERAL,
+    TEXT,
+    Schema,
+    array,
+    nullable,
+    published,
+)
 from garkcli.report.check_json import COLOUR, colours_data
+from garkcli.tableau.garkmethod import Derivation
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
 SCHEMA = "gark/tableau/1"
 
 
-def render(tableau: Tableau, entries: Entries, name: str) -> str:
+def render(tableau: Tableau, entries: Entries, name: str, derivation: Derivation = "") -> str:
     """The tableau as JSON text."""
-    return REPORT.text(_Shown(tableau, entries, name))
+    return REPORT.text(_Shown(tableau, entries, name, derivation))
 
 
 def as_data(tableau: Tableau, entries: Entries, name: str) -> dict[str, Any]:
@@ -42,6 +53,7 @@ class _Shown(NamedTuple):
     tableau: Tableau
     entries: Entries
     name: str
+    derivation: Derivation = ""
 
 
 def _float(cell: Cell | Parametric) -> float | None:
@@ -88,6 +100,7 @@ _FLOATS: Record[Entries] = Record(*_entry_fields(NUMBER, lambda _, x: _float(x))
 REPORT: Record[_Shown] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
+    Field("derivation", DERIVATION, lambda x: x.derivation),
     Field("exact", FLAG, lambda x: x.entries.is_exact),
     Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),
     *inside(lambda x: x.entries, _EXACT),

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, where
 from garkcli.exact.field import ZERO, Number
@@ -74,6 +75,7 @@ class SlowInterval:
         return f"<SlowInterval {self.low} to {self.high}: stable in {parts}>"
 
 
+@doing("two springs")
 def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) -> SlowInterval:
     """The fast frequencies that are stable for all slow ones of [low, high].
 

@@ -8,6 +8,7 @@ from itertools import product, starmap
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
@@ -125,6 +126,7 @@ class Stability:
         return html
 
 
+@doing("stability")
 def stability(
     tableau: Tableau, problem: Oscillator | None = None, ratios: Sequence[fmpq] = ()
 ) -> Stability:
@@ -154,6 +156,7 @@ def stability(
     )
 
 
+@doing("stability")
 def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
     """What holds for all methods within a tolerance, where that is decided.
 

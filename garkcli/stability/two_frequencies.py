@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval
 from garkcli.exact.characteristic import reciprocal_characteristic
@@ -115,6 +116,7 @@ def _slow_terms(terms: int, fast: int, with_force: set[int]) -> list[int]:
     return later or others
 
 
+@doing("two springs")
 def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFrequencies:
     """The exact intervals of the fast frequency for one slow one.
 

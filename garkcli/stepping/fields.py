@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
@@ -148,6 +149,7 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
                 )
 
 
+@doing("what the problem sees")
 def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     """The tableau whose trees are those that the problem can see: its order is the one to be
     observed.

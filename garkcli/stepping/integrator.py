@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.doing import doing
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.problem import Problem
@@ -106,6 +107,7 @@ class Binding:
     problem: Problem
     fields: Fields
 
+    @doing("program of a step")
     def at(self, digits: int = FLOAT_DIGITS) -> Integrator:
         """The steps with numbers of ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
         digits = max(digits, FLOAT_DIGITS)
@@ -147,6 +149,7 @@ class Binding:
         return f"<Binding {self.problem.name}: {self.tableau!r}>"
 
 
+@doing("method for the problem")
 def bind(tableau: Tableau, problem: Problem) -> Binding:
     """Make ``tableau`` and ``problem`` for each other, to step with any number of digits.
 

@@ -33,15 +33,13 @@ class StepFailed(GarkError):
     """The stage equations of a step were not solved."""
 
     def __init__(self, number: int, h: fmpq, residual: float) -> None:
-        if isfinite(residual):
-            what = "the stage equations were not solved"
-            cure = "choose a smaller step size"
-        else:
+        what = "the stage equations were not solved"
+        if not isfinite(residual):
             what = "the numbers leave the vector fields"
-            cure = (
-                "choose a smaller step size, or an earlier final time: the solution may end there"
-            )
-        super().__init__(f"step {number} of size {h}: {what} (residual {residual:.1e})", cure)
+        super().__init__(
+            f"step {number} of size {h}: {what} (residual {residual:.1e})",
+            "choose a smaller step size, or an earlier final time: the solution may end there",
+        )
         self.number = number
         self.h = h
         self.residual = residual

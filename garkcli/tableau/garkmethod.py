@@ -20,6 +20,26 @@ if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
 
 Derivation: TypeAlias = Literal["", "conjugate", "pair"]
+"""What a method was made as from another one; empty for a method as it was given."""
+
+
+def derived_name(derivation: str, name: str) -> str:
+    """What the conjugate or the pair of the method called ``name`` is called.
+
+    >>> derived_name("pair", "Heun 2(1)")
+    'symplectic pair of Heun 2(1)'
+    """
+    return f"symplectic {derivation} of {name}" if name else ""
+
+
+def derivation_of(method: GarkMethod | None) -> Derivation:
+    """What a method was made as; empty where only its tableau is known."""
+    return "" if method is None else method.derivation
+
+
+def word_for(method: GarkMethod | None) -> str:
+    """What it is in a sentence: the method, the conjugate or the pair."""
+    return derivation_of(method) or "method"
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from flint import arb, arb_mat, ctx
 
+from garkcli.doing import doing
 from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
@@ -97,6 +98,7 @@ class Entries:
         return replace(changed, is_exact=False, digits=digits)
 
 
+@doing("entries")
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
     """All entries: exact where every colour's nodes are rational or quadratic, enclosures
     otherwise.
@@ -231,6 +233,7 @@ def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
     return embed
 
 
+@doing("entries")
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
     """All entries as enclosures narrower than 10^(−digits)."""
     precision = ctx.prec

@@ -5,9 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
-from flint import arb_mat, ctx
+from flint import arb, arb_mat, ctx
 
 from garkcli.tableau.polynomial_space import PolynomialSpace
+
+_BITS_OF_A_STAGE = 16
 
 
 def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
@@ -31,11 +33,18 @@ def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
 
 
 @lru_cache(maxsize=32)
-def _powers_of_nodes(space: PolynomialSpace, _: int) -> arb_mat:
-    roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
-    nodes = sorted((root.real for root, _ in roots), key=float)
+def _powers_of_nodes(space: PolynomialSpace, bits: int) -> arb_mat:
+    # isolating the roots takes long, and hardly longer with the bits that the inverse needs
+    nodes = _nodes(space, max(bits, _BITS_OF_A_STAGE * space.stages))
     exponents = range(space.stages)
     return arb_mat([[node**k for k in exponents] for node in nodes])
+
+
+@lru_cache(maxsize=32)
+def _nodes(space: PolynomialSpace, bits: int) -> list[arb]:
+    with ctx.workprec(bits):
+        roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
+        return sorted((root.real for root, _ in roots), key=float)
 
 
 @lru_cache(maxsize=32)

@@ -12,6 +12,7 @@ from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured, rounded
 from garkcli.page.plain import printable
 from garkcli.report.convergence import order_text, predicted, remarks
+from garkcli.tableau.garkmethod import word_for
 from garkcli.webpage.pictures.convergence import svg_of as errors_svg
 from garkcli.webpage.pictures.energy import svg_of as energy_svg
 from garkcli.webpage.pictures.picture import NotDrawn
@@ -28,7 +29,8 @@ def convergence_html(result: Convergence) -> str:
         heads.append("energy error")
     rows = [_step(row) for row in result.rows]
     observed = order_text(result.observed_order)
-    said = f"observed order {observed}, order of the method {predicted(result)}: {result.verdict}"
+    whose = word_for(result.method)
+    said = f"observed order {observed}, order of the {whose} {predicted(result)}: {result.verdict}"
     name = getattr(result.problem, "name", "oscillator")
     table = _table(f"{name}, to t = {result.t_end}", heads, rows)
     texts = _texts([said, *remarks(result)])

@@ -12,6 +12,7 @@ from importlib.resources import files
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from garkcli.doing import doing
 from garkcli.errors import counted, printable
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
 from garkcli.webpage.pictures import STYLE
@@ -68,7 +69,8 @@ def _method(method: Reported, number: int) -> Content:
 def _sections(method: Reported) -> Iterator[tuple[Section, Content]]:
     """The sections that have something to say, with what their templates are given."""
     for section in SECTIONS:
-        content = section.content(method)
+        with doing(f"{method.outcome.name}: {section.title}"):
+            content = section.content(method)
         if content is not None:
             yield section, content
 

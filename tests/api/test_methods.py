@@ -97,7 +97,7 @@ def test_a_conjugate_goes_back() -> None:
     """The conjugate of the conjugate is the method itself."""
     back = conjugate(conjugate(ROUNDED))
     assert back is ROUNDED
-    assert conjugate(ROUNDED).name == f"conjugate of {ROUNDED.name}"
+    assert conjugate(ROUNDED).name == f"symplectic conjugate of {ROUNDED.name}"
     assert isinstance(conjugate(ROUNDED.tableau), Tableau)
 
 

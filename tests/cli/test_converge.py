@@ -8,7 +8,9 @@ import json
 from pathlib import Path
 
 import pytest
+from jsonschema import Draft7Validator
 
+from garkcli.glossary.faults import UNKNOWN
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
@@ -203,6 +205,96 @@ def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) 
     assert run.err.count(said) == 1
 
 
+LOGISTIC = "{variables: [y], rhs: {y: y*(1 - y)}, initial: {y: %s}}"
+
+
+@pytest.mark.parametrize("method", ["gauss-2", "rk4", "forward-euler"])
+def test_nothing_seen_confirms_nothing(method: str) -> None:
+    """On an equilibrium no method makes an error, whatever its order is: undecided, exit code 3, also
+    where it is one of several. A start beside it has an order to be seen.
+    """
+    rest = ("--problem", "-")
+    run = gark("converge", method, *rest, stdin=LOGISTIC % 1)
+    assert run.code == 3
+    assert ": undecided" in run.out
+    assert "the solution does not move, so that no method makes an error" in " ".join(
+        run.out.split()
+    )
+    both = gark("converge", method, "heun", *rest, stdin=LOGISTIC % 1)
+    assert both.code == 3
+    assert "agree" not in both.out
+    assert gark("converge", method, *rest, stdin=LOGISTIC % "1/2").code == 0
+
+
+def test_no_error_confirms_nothing() -> None:
+    """A polynomial that the method solves exactly: the order that it has is not the one it shows."""
+    fall = "{variables: [x, v], rhs: {x: v, v: -1}, initial: {x: 0, v: 1}}"
+    run = gark("converge", "heun", "--problem", "-", stdin=fall)
+    assert run.code == 3
+    assert "the method makes no error on this problem, which shows no order" in " ".join(
+        run.out.split()
+    )
+    report = json.loads(
+        gark("converge", "heun", "--problem", "-", "--format", "json", stdin=fall).out
+    )
+    assert (report["verdict"], report["agrees"]) == ("undecided", False)
+
+
+def test_one_step_size_is_undecided() -> None:
+    """It shows no order, and has the exit code of what is not decided."""
+    run = gark("converge", "rk4", "--problem", "pendulum", "--steps", "1/8")
+    assert run.code == 3
+    assert "one step size shows no order" in run.out
+
+
+IMPLICIT = "ark: {A: [[[1]]], b: [[1]]}"
+POLE = "{variables: [y], rhs: {y: y**2}, initial: {y: 1}, t_end: 2}"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "problem", "code"),
+    [
+        (("converge", "--steps", "1000000", "--t-end", "1000000", "--problem", "generic"), "", 1),
+        (("converge", "--problem", "-"), POLE, 1),
+        (("converge", "--problem", "generic-rhs", "--pair"), "", 2),
+        (("energy", "--problem", "kepler", "--step", "1/2"), "", 1),
+        (("energy", "--problem", "kepler", "--t-end", "1e9"), "", 2),
+        (("energy", "--problem", "pendulum", "--modified"), "", 2),
+    ],
+)
+def test_a_run_that_fails_is_a_report(
+    arguments: tuple[str, ...], problem: str, code: int, tmp_path: Path
+) -> None:
+    """JSON says what has failed, by its schema; CSV has no rows. People are told on stderr, and the
+    exit code is that of the failure.
+    """
+    path = tmp_path / "euler.yaml"
+    path.write_text(IMPLICIT, encoding="utf-8")
+    command, *options = arguments
+    name = "modified-energy" if "--modified" in options else command
+    run = gark(command, str(path), *options, "--format", "json", stdin=problem)
+    assert run.code == code
+    report = json.loads(run.out)
+    schema = json.loads(gark("schema", "--report", name).out)
+    assert not list(Draft7Validator(schema).iter_errors(report))
+    (error,) = report["errors"]
+    assert error["code"] != UNKNOWN
+    assert f"gark: {error['message']}\nhelp: {error['help']}" in run.err
+    table = gark(command, str(path), *options, "--format", "csv", stdin=problem)
+    assert (table.code, list(csv.DictReader(io.StringIO(table.out)))) == (code, [])
+    assert gark(command, str(path), *options, stdin=problem).out == ""
+
+
+def test_a_file_that_is_no_method_is_a_report() -> None:
+    """With its faults and their places, as in a comparison."""
+    for command in ("converge", "energy"):
+        run = gark(command, INVALID, "--format", "json")
+        assert run.code == 2
+        errors = json.loads(run.out)["errors"]
+        assert len(errors) > 1
+        assert all(error["line"] for error in errors)
+
+
 def test_rounded_coefficients_are_hinted_at(tmp_path: Path) -> None:
     """Gauss 2 in 13 digits has order 1 or 2 and shows 4, over a short time what it is: then the line
     that is missing is said; with it the order is 4.
@@ -235,3 +327,23 @@ def test_quiet_reports_have_no_plot() -> None:
     worked = gark("converge", VERLET, *steps, "--work", "-q").out
     assert "evaluations" in worked
     assert "┤" not in worked
+
+
+def test_an_invariant_without_a_value(tmp_path: Path) -> None:
+    """One that has no value at the end is unknown there in every format, and stops no test."""
+    problem = tmp_path / "turning.yaml"
+    problem.write_text(
+        "variables: [x]\nhamiltonian: px**2/2 + x**2/2\ninitial: {x: 3/10, px: 1}\nt_end: 4\n"
+        "invariants: {I: log(px)}\n"
+    )
+    arguments = ("converge", "rk4", "--problem", str(problem))
+    shown = gark(*arguments)
+    assert shown.code == 0
+    assert "I error" in shown.out
+    assert " unknown " in shown.out
+    report = json.loads(gark(*arguments, "--format", "json").out)
+    schema = json.loads(gark("schema", "--report", "converge").out)
+    assert not list(Draft7Validator(schema).iter_errors(report))
+    assert {step["invariant_errors"]["I"] for step in report["steps"]} == {None}
+    rows = list(csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out)))
+    assert {row["I_error"] for row in rows} == {""}

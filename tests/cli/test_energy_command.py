@@ -175,12 +175,45 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
 
 
 def test_problem_at_rest(tmp_path: Path) -> None:
-    """Where nothing moves there is no error at all, and more digits are not offered."""
+    """Where nothing moves nothing is seen: undecided, and no claim holds."""
     path = tmp_path / "rest.yaml"
     path.write_text(
         'variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n'
     )
     run = gark("energy", RECTANGULAR, "--problem", str(path), "--t-end", "100", "--step", "1/10")
     assert run.code == 0
-    assert "no error at all" in run.out
-    assert "--digits" not in run.out
+    assert "undecided: the solution does not move; start elsewhere" in run.out
+    claimed = ("--problem", str(path), "--t-end", "100", "--step", "1/10", "--bounded")
+    assert gark("energy", RECTANGULAR, *claimed).code == 1
+
+
+@pytest.mark.parametrize("method", ["rk4", "rounded"])
+@pytest.mark.parametrize(
+    ("field", "invariant"),
+    [
+        ("rhs: {x: px, px: -x}", "log(px)"),
+        ("rhs: {x: px, px: -x}", "sqrt(px)"),
+        ("hamiltonian: px**2/2 + x**2/2", "exp(exp(20*x))"),
+    ],
+)
+def test_an_invariant_that_ends_first(
+    tmp_path: Path, method: str, field: str, invariant: str
+) -> None:
+    """An invariant has no value from some time on, or none in floats: every format says so, also
+    where the rounding of coefficients is weighed, and the plot shows what came before.
+    """
+    problem, rounded = tmp_path / "turning.yaml", tmp_path / "rounded.gark.yaml"
+    problem.write_text(
+        f"variables: [x{', px' if 'rhs' in field else ''}]\n{field}\n"
+        f'initial: {{x: 1/10, px: 1}}\ninvariants: {{I: "{invariant}"}}\n'
+    )
+    rounded.write_text("{A: [[0, 0], [1, 0]], b: [0.5, 0.5], tolerance: 1e-6}")
+    file = str(rounded) if method == "rounded" else method
+    arguments = ("energy", file, "--problem", str(problem), "--step", "1/10", "--t-end", "20")
+    shown = gark(*arguments)
+    assert shown.code == 0
+    assert "undecided: it has no value at t = " in shown.out
+    assert "┤" in shown.out
+    *_, found = json.loads(gark(*arguments, "--format", "json").out)["quantities"]
+    assert (found["verdict"], found["doubt"]) == ("undecided", "value")
+    assert gark(*arguments, "--format", "csv").code == 0

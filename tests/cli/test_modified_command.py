@@ -153,9 +153,14 @@ def test_the_formula_of_a_method_that_is_not_symplectic(tmp_path: Path) -> None:
 
 
 def test_a_problem_file_and_the_pair() -> None:
-    """A problem file works as a built-in problem does; methods are taken as their pair."""
-    text = gark("modified", COLLOCATION, "--problem", "problems/kepler.yaml", "-n", "2").out
-    assert "  the symplectic pair; 4 colours" in text
+    """A problem file works as a built-in problem does."""
+    text = gark(
+        "modified", COLLOCATION, "--pair", "--problem", "problems/kepler.yaml", "-n", "2"
+    ).out
+    assert text.startswith(
+        "symplectic pair of Gauss 2 and Lobatto IIIA 3, coupled by collocation\n"
+    )
+    assert "  4 colours; trees of up to 2 vertices" in text
     assert "H       px^2/2 + py^2/2 - 1/sqrt(x^2 + y^2)" in text
 
 
@@ -163,7 +168,7 @@ def test_a_problem_sees_fewer_trees_than_the_pair_has() -> None:
     """Four colours have too many trees of seven vertices, the pendulum sees few of them: the formula
     goes further than the orders are looked for.
     """
-    text = gark("modified", COLLOCATION, *PENDULUM, "-n", "7").out
+    text = gark("modified", COLLOCATION, "--pair", *PENDULUM, "-n", "7").out
     assert "trees of up to 5 vertices" in text
     assert "modified Hamiltonian, up to h^6, of" in text
     assert "    h^6 " in text

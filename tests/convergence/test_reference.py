@@ -7,9 +7,12 @@ from flint import arb, ctx, fmpq
 
 from garkcli.convergence import reference as module
 from garkcli.convergence.reference import Reference, magnitude, reference
+from garkcli.doing import telling
 from garkcli.errors import UsageProblem
+from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
 from garkcli.stepping.step import StepFailed
+from tests.listener import Listener
 
 
 def test_period_of_kepler() -> None:
@@ -68,13 +71,15 @@ def test_all_splits_share_one_solution() -> None:
     assert two.digits == 30
 
 
-def test_watch_is_told() -> None:
-    """What is computed, and how far it is: the last word on a run is that it is done."""
-    said: list[tuple[str, int, int]] = []
-    Reference(hamiltonian("pendulum", 1), fmpq(1)).to(18, lambda *x: said.append(x))
-    assert {what for what, _, _ in said} == {"reference solution, 18 digits"}
-    assert said[-1][1] == said[-1][2]
-    assert all(0 < done <= total for _, done, total in said)
+def test_how_far_it_is_can_be_seen() -> None:
+    """What is computed is told, with the number of steps; in the end all of them are done."""
+    who = Listener()
+    with telling(who):
+        Reference(hamiltonian("pendulum", 1), fmpq(1)).to(18)
+    steps = [work for work in who.told if work.total is not None]
+    assert {work.what for work in steps} == {"reference solution, 18 digits"}
+    assert steps
+    assert all(work.done == work.total for work in steps)
 
 
 @pytest.mark.parametrize("digits", [16, 21])
@@ -108,6 +113,16 @@ def test_a_solution_that_ends_is_told_when() -> None:
     ) as told:
         Reference(problem.unsplit(), fmpq(2)).to(16)
     assert "final time before 0.75" in (told.value.help or "")
+
+
+def test_what_is_not_smooth_is_seen_by_its_error() -> None:
+    """At t = 0 sqrt(t) has no derivative: the error falls like the power 3/2 of the step, and far
+    fewer steps than are allowed tell that these would not do.
+    """
+    problem = loads_problem("{variables: [y], rhs: {y: sqrt(t)*y}, initial: {y: 1}, t_end: 1}")
+    with telling(listener := Listener()), pytest.raises(UsageProblem, match="hardly reduce"):
+        Reference(problem, fmpq(1)).to(21)
+    assert max(work.total or 0 for work in listener.told) < module.MAX_STEPS // 50
 
 
 def test_search_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -69,7 +69,7 @@ class _File:
 @cache
 def _files() -> tuple[_File, ...]:
     """The files that make errors."""
-    words = (*(f"{name}(" for name in ERRORS), ".fault(", ".error(")
+    words = (*(f"{name}(" for name in ERRORS), ".fault(", ".error(", "super().__init__(f")
     found = []
     for path in _paths():
         text = path.read_text(encoding="utf-8")

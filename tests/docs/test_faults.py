@@ -42,7 +42,8 @@ JOINED = {
 """Messages that are joined of the keys that stand together."""
 NO_MESSAGES = {
     *("MethodFileError", "HasFreeParameters"),  # have faults, with messages
-    *("StepFailed", "Unreadable", "TooLarge"),  # are caught where they are made
+    "StepFailed",  # makes its message of what it is given
+    *("Unreadable", "TooLarge"),  # are caught where they are made
 }
 
 

@@ -56,7 +56,7 @@ REPORTS = {
     ],
     "energy": [
         ["energy", METHOD, "--t-end", "100"],
-        ["energy", METHOD, "--t-end", "1", "--modified"],
+        ["energy", METHOD, "--pair", "--t-end", "1", "--modified"],
         ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--bounded"],
         ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--symplecticity"],
     ],

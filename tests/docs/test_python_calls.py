@@ -127,7 +127,7 @@ def test_claims_are_those_that_are_written(tmp_path: Path) -> None:
     with pytest.raises(MethodError, match="no text"):
         garkcli.with_claims(method.conjugate)  # type: ignore[arg-type]
     with pytest.raises(MethodError, match="no method file"):
-        garkcli.export(method.conjugate, "csv")  # type: ignore[arg-type]
+        garkcli.export(method.tableau, "csv")
 
 
 def test_trees_are_those_that_are_listed() -> None:

@@ -79,7 +79,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         (VERLET, "-n", "3", "--problem", "pendulum"),
         (VERLET, "-n", "3", "--digits", "5"),
     ],
-    "modified-energy": [("energy", COLLOCATION, "--modified", "--t-end", "1")],
+    "modified-energy": [("energy", COLLOCATION, "--pair", "--modified", "--t-end", "1")],
     "design-search": [("design", FAMILY, "--order", "3", "--search", "4")],
     "design": [
         (FAMILY,),

@@ -19,6 +19,7 @@ from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.families.registry import diagonal_method
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
+from garkcli.tableau import vandermonde
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
 from garkcli.tableau.meant import meant
@@ -357,3 +358,15 @@ def test_many_stages_need_more_precision() -> None:
     for row, c in zip(A, found.c[0], strict=True):
         total = sum((x for x in row if isinstance(x, arb)), arb(0))
         assert total.overlaps(arb(c))
+
+
+def test_nodes_are_isolated_once() -> None:
+    """Entries of many stages need more precision than they are printed with; the roots, which take
+    longest, are found once with enough of it.
+    """
+    tableau = gark([diagonal_method("gauss", 40)], {})
+    vandermonde._nodes.cache_clear()
+    vandermonde._powers_of_nodes.cache_clear()
+    numeric_entries(tableau)
+    assert vandermonde._powers_of_nodes.cache_info().misses > 1
+    assert vandermonde._nodes.cache_info().misses == 1

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from garkcli import from_arrays, load, loads
+from garkcli import convert, from_arrays, load, loads
 from garkcli.webpage.pictures import STYLE, Picture, compared_pictures, pictures
 from garkcli.webpage.pictures.contours import Point, outlines
 from garkcli.webpage.pictures.drawing import colour, shortened
@@ -40,7 +40,7 @@ def of_rk4() -> dict[str, Picture]:
 
 
 @pytest.fixture(scope="module")
-def of_pair() -> dict[str, Picture]:
+def of_coupled() -> dict[str, Picture]:
     """The pictures of the paper's collocation example."""
     method = load("methods/collocation.gark.yaml")
     return by_name(pictures(method))
@@ -109,11 +109,13 @@ def test_marks_are_round_and_few(low: float, width: float, most: int) -> None:
     assert all(low - around <= x.at <= low + width + around for x in marks)
 
 
-def test_pictures_stand_in_a_page(of_rk4: dict[str, Picture], of_pair: dict[str, Picture]) -> None:
+def test_pictures_stand_in_a_page(
+    of_rk4: dict[str, Picture], of_coupled: dict[str, Picture]
+) -> None:
     """Well-formed, small, named for a screen reader, without ids, addresses or fixed letters, in
     colours that the page may set.
     """
-    drawn = [x for x in (*of_rk4.values(), *of_pair.values()) if x.svg]
+    drawn = [x for x in (*of_rk4.values(), *of_coupled.values()) if x.svg]
     names = [x.name for x in drawn]
     assert names == [
         "region",
@@ -214,12 +216,20 @@ def test_dots_of_the_convergence_picture_have_the_slope(of_rk4: dict[str, Pictur
     assert "Observed order 4.00, proved order 4" in of_rk4["convergence"].note
 
 
-def test_the_pair_is_put_to_work(of_pair: dict[str, Picture]) -> None:
-    """A file of ``methods`` steps as its symplectic pair, whose energy does not drift."""
-    assert "the symplectic pair" in of_pair["convergence"].note
-    assert "the symplectic pair" in of_pair["energy"].note
-    assert "no drift" in of_pair["energy"].note
-    assert "its drift" not in of_pair["energy"].svg
+def test_what_is_put_to_work_does_not_depend_on_the_file(of_coupled: dict[str, Picture]) -> None:
+    """Diagonal methods and their transfer rule step as the method that they make, which is not
+    symplectic; its pair steps where the pair is given, and its energy does not drift.
+    """
+    assert "Numerical: the method on" in of_coupled["convergence"].note
+    assert "Numerical: the method on" in of_coupled["energy"].note
+    coupled = load("methods/collocation.gark.yaml")
+    spelled_out = by_name(pictures(convert(coupled, "gark").method))
+    assert spelled_out["energy"].svg == of_coupled["energy"].svg
+    found = by_name(pictures(coupled.pair))
+    assert "Numerical: the pair on" in found["convergence"].note
+    assert "Numerical: the pair on" in found["energy"].note
+    assert "no drift" in found["energy"].note
+    assert "its drift" not in found["energy"].svg
 
 
 def test_a_drift_is_drawn(of_rk4: dict[str, Picture]) -> None:

@@ -14,6 +14,7 @@ from garkcli.exact.display import decimal
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import (
     COUNT,
+    DERIVATION,
     FLAG,
     NUMERAL,
     POSITION,
@@ -98,6 +99,7 @@ _REPORT: Record[Payload] = Record(
     schema_named(SCHEMA),
     Field("written_by", TEXT, lambda x: f"gark {x.version}"),
     Field("name", TEXT, lambda x: x.name),
+    Field("derivation", DERIVATION, lambda x: x.derivation),
     Field("kind", TEXT, lambda x: x.kind),
     Field("structure", TEXT, lambda x: x.structure),
     Field("problems", TEXT, problem_class),

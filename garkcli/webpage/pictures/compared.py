@@ -8,31 +8,32 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.convergence.convergence import converge
+from garkcli.api.runs import converge
 from garkcli.convergence.default_problem import in_common, seeing_problem
 from garkcli.errors import GarkError
 from garkcli.plots.slopes import Curve
 from garkcli.report.costs import curve
 from garkcli.stability.linear import stability_function
 from garkcli.stability.summary import directions
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.webpage.pictures import region
 from garkcli.webpage.pictures.convergence import curve_of, draw_curve, frame_of, step_marks
 from garkcli.webpage.pictures.drawing import COLOURS
+from garkcli.webpage.pictures.large import is_large
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import decade_marks
-from garkcli.webpage.pictures.subject import Subject
 
 MOST = len(COLOURS)
 """Methods in one picture; more could not be told apart."""
 _TITLE = "Convergence"
-Draw: TypeAlias = Callable[[Sequence[Subject]], Picture]
+Draw: TypeAlias = Callable[[Sequence[GarkMethod]], Picture]
 
 
-def compared(subjects: Sequence[Subject]) -> list[Picture]:
+def compared(methods: Sequence[GarkMethod]) -> list[Picture]:
     """The pictures of several methods, the first of them where they are many; those that cannot be
     drawn of two of them at least are left out.
     """
-    chosen = subjects[:MOST]
+    chosen = methods[:MOST]
     found = []
     draws: Sequence[Draw] = (_regions, _errors)
     for draw in draws:
@@ -41,27 +42,27 @@ def compared(subjects: Sequence[Subject]) -> list[Picture]:
         except (NotDrawn, GarkError):
             # the parts of the methods tell why
             continue
-        if len(subjects) > MOST:
+        if len(methods) > MOST:
             first = f"{picture.note} Of the first {MOST} methods."
             picture = replace(picture, note=first)
         found.append(picture)
     return found
 
 
-def _regions(subjects: Sequence[Subject]) -> Picture:
+def _regions(methods: Sequence[GarkMethod]) -> Picture:
     """The regions of all colours alike."""
     names = []
     functions = []
     without = []
-    for subject in subjects:
-        tableau = subject.method.tableau
+    for method in methods:
+        tableau = method.tableau
         found = directions(tableau)
         if not found:
-            without.append(subject.method.name)
+            without.append(method.name)
             continue
         _, alike = found[0]
         R = stability_function(tableau, alike)
-        names.append(subject.method.name)
+        names.append(method.name)
         functions.append(R)
     if len(names) < 2:
         raise NotDrawn("")
@@ -72,21 +73,20 @@ def _regions(subjects: Sequence[Subject]) -> Picture:
     return picture
 
 
-def _errors(subjects: Sequence[Subject]) -> Picture:
+def _errors(methods: Sequence[GarkMethod]) -> Picture:
     """The errors on the problem that sees the most trees of all of them."""
-    small = [x for x in subjects if not x.is_large]
+    small = [x for x in methods if not is_large(x)]
     if len(small) < 2:
         raise NotDrawn("")
-    tableaus = [x.stepped for x in small]
+    tableaus = [x.tableau for x in small]
     name = seeing_problem(tableaus)
     problems = in_common(name, tableaus, 1)
     curves: list[Curve] = []
     sizes: set[fmpq] = set()
-    for subject, problem in zip(small, problems, strict=True):
-        tolerance = subject.method.tolerance
-        result = converge(subject.stepped, problem, tolerance=tolerance)
+    for method, problem in zip(small, problems, strict=True):
+        result = converge(method, problem)
         points = curve(result, "h")
-        drawn = curve_of(points, subject.method.name)
+        drawn = curve_of(points, method.name)
         if drawn is not None:
             curves.append(drawn)
             sizes.update(row.h for row in result.rows)

@@ -8,18 +8,19 @@ from typing import Any
 
 from flint import arb, fmpq
 
-from garkcli.convergence.convergence import converge
+from garkcli.api.runs import converge
 from garkcli.convergence.result import Convergence
 from garkcli.page.asciiplot import log10
 from garkcli.plots.slopes import Curve, place_line
 from garkcli.report.convergence import order_text, predicted
 from garkcli.report.convergence_data import problem_name
 from garkcli.report.costs import curve
+from garkcli.tableau.garkmethod import GarkMethod, word_for
 from garkcli.webpage.pictures.drawing import Frame
 from garkcli.webpage.pictures.elements import Point
+from garkcli.webpage.pictures.large import is_large
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import Mark, decade_marks
-from garkcli.webpage.pictures.subject import Subject
 
 _HEIGHT = 240
 _TITLE = "Convergence"
@@ -27,20 +28,19 @@ _MOST_LABELS = 6
 _RADIUS = 3
 
 
-def draw(subject: Subject) -> Picture:
+def draw(method: GarkMethod) -> Picture:
     """The convergence test of one method, on the problem that sees every tree of it.
 
     Raises:
         NotDrawn: it is large, makes no error, or is for no such problem.
     """
-    if subject.is_large:
+    if is_large(method):
         raise NotDrawn(
             "The method has too many stages to be tested for a picture; gark converge does it."
         )
-    method = subject.method
-    result = converge(subject.stepped, tolerance=method.tolerance)
+    result = converge(method)
     svg = svg_of(result)
-    note = _note(subject, result)
+    note = _note(result)
     return Picture("convergence", _TITLE, _description(result), svg, note)
 
 
@@ -139,12 +139,11 @@ def _description(result: Convergence) -> str:
     )
 
 
-def _note(subject: Subject, result: Convergence) -> str:
+def _note(result: Convergence) -> str:
     observed = order_text(result.observed_order)
     name = problem_name(result)
-    which = "the symplectic pair" if subject.is_stepped_as_pair else "the method"
     text = (
-        f"Numerical: {which} on the problem {name} to t = {result.t_end}. "
+        f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
         f"Observed order {observed}, proved order {predicted(result)}: {_VERDICTS[result.verdict]}."
     )
     if result.plateau:

@@ -15,11 +15,11 @@ from garkcli.stability.damping import ImexPair, imex_pair
 from garkcli.stability.fraction import stability_fraction
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.summary import directions
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.webpage.pictures.drawing import Frame, colour
 from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.region import draw_region, finished, frame_of
-from garkcli.webpage.pictures.subject import Subject
 
 _COLUMNS = 60
 _ROWS = 60
@@ -30,13 +30,13 @@ _ABOVE_ONE = 1.001
 _TITLE = "Implicit-explicit pair"
 
 
-def draw(subject: Subject) -> Picture:
+def draw(method: GarkMethod) -> Picture:
     """The region of one method, each square decided at its centre.
 
     Raises:
         NotDrawn: it is no such pair, or a large one; or its coefficients are rounded.
     """
-    pair, explicit = _pair(subject)
+    pair, explicit = _pair(method)
     window = window_of([explicit], is_symmetric=False)
     frame = frame_of(window)
     edges = np.linspace(window.left, window.right, _COLUMNS + 1)
@@ -63,9 +63,8 @@ def draw(subject: Subject) -> Picture:
     return Picture("pair", _TITLE, description, svg, note)
 
 
-def _pair(subject: Subject) -> tuple[ImexPair, StabilityFunction]:
+def _pair(method: GarkMethod) -> tuple[ImexPair, StabilityFunction]:
     """The pair, and R of its explicit colour alone."""
-    method = subject.method
     tableau = method.tableau
     alone = directions(tableau)[1:]
     is_small = sum(method.stages) <= _MOST_STAGES

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from math import isfinite
 
+from garkcli.api.runs import long_run
 from garkcli.longtime.history import InvariantHistory, LongRun
-from garkcli.longtime.longtime import long_run, usual
+from garkcli.longtime.longtime import usual
 from garkcli.page.figures import measured
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.step import StepFailed
+from garkcli.tableau.garkmethod import GarkMethod, word_for
 from garkcli.webpage.pictures.drawing import Frame
 from garkcli.webpage.pictures.elements import Point
+from garkcli.webpage.pictures.large import is_large
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import common_exponent, in_words, linear_marks, power_of_ten
-from garkcli.webpage.pictures.subject import Subject
 
 STEPS = 5000
 _POINTS = 600
@@ -24,17 +26,17 @@ _HEIGHT = 200
 _TITLE = "Energy error over a long time"
 
 
-def draw(subject: Subject) -> Picture:
+def draw(method: GarkMethod) -> Picture:
     """The energy error of one method.
 
     Raises:
         NotDrawn: it is large or not for the problem, a step fails, or nothing is above round-off.
     """
-    if subject.is_large:
+    if is_large(method):
         raise NotDrawn(
             "The method has too many stages to be put to work for a picture; gark energy does it."
         )
-    run = _run(subject)
+    run = _run(method)
     history = run.invariants[0]
     if history.verdict in ("exact", "round-off"):
         raise NotDrawn(
@@ -42,7 +44,7 @@ def draw(subject: Subject) -> Picture:
             "Kepler's problem."
         )
     svg = svg_of(run)
-    note = _note(subject, run, history)
+    note = _note(run, history)
     return Picture("energy", _TITLE, _description(run, history), svg, note)
 
 
@@ -74,14 +76,11 @@ def svg_of(run: LongRun) -> str:
     return frame.finished(_TITLE, description, marks, ("time t", label))
 
 
-def _run(subject: Subject) -> LongRun:
-    tableau = with_joined_terms(subject.stepped)
-    problem = hamiltonian(_PROBLEM, terms_of(tableau))
+def _run(method: GarkMethod) -> LongRun:
+    problem = hamiltonian(_PROBLEM, terms_of(with_joined_terms(method.tableau)))
     step, _ = usual(problem)
     try:
-        return long_run(
-            tableau, problem, STEPS * step, step, points=_POINTS, tolerance=subject.method.tolerance
-        )
+        return long_run(method, problem, STEPS * step, step, points=_POINTS)
     except StepFailed as error:
         raise NotDrawn(f"A step fails on Kepler's problem: {error}.") from None
 
@@ -128,7 +127,7 @@ _WORDS = {
     "bounded": "no drift can be told",
     "drifts": "it drifts",
     "unstable": "it blows up, or the orbit escapes",
-    "undecided": "the run is too short to tell whether it drifts",
+    "undecided": "the run does not tell whether it drifts",
 }
 
 
@@ -144,10 +143,9 @@ def _description(run: LongRun, history: InvariantHistory) -> str:
     )
 
 
-def _note(subject: Subject, run: LongRun, history: InvariantHistory) -> str:
-    which = "the symplectic pair" if subject.is_stepped_as_pair else "the method"
+def _note(run: LongRun, history: InvariantHistory) -> str:
     largest = _largest(history)
     return (
-        f"Numerical: {which} on Kepler's problem, {run.steps} steps of "
+        f"Numerical: the {word_for(run.method)} on Kepler's problem, {run.steps} steps of "
         f"{run.step}; the largest error is {largest}, and {_WORDS[history.verdict]}."
     )

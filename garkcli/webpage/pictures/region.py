@@ -12,12 +12,12 @@ import numpy as np
 from garkcli.plots.plane import Window, modulus, window_of
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.summary import directions
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.webpage.pictures.contours import Point, outlines
 from garkcli.webpage.pictures.drawing import INSIDE, Frame, colour, dashes
 from garkcli.webpage.pictures.elements import path_of
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import linear_marks
-from garkcli.webpage.pictures.subject import Subject
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -39,13 +39,13 @@ _AROUND = 1.3
 _TITLE = "Stability region"
 
 
-def draw(subject: Subject) -> Picture:
+def draw(method: GarkMethod) -> Picture:
     """The regions of one method, in one picture.
 
     Raises:
         NotDrawn: the linear test equation has no meaning for it.
     """
-    found = directions(subject.method.tableau)
+    found = directions(method.tableau)
     if not found:
         raise NotDrawn(
             "There is no stability function: colours drive positions or momenta only, or do not "
@@ -54,7 +54,7 @@ def draw(subject: Subject) -> Picture:
     names = []
     functions = []
     for name, shares in found[:MOST_CURVES]:
-        R = stability_function(subject.method.tableau, shares)
+        R = stability_function(method.tableau, shares)
         functions.append(R)
         names.append(_label(name, len(found)))
     picture = drawn(names, functions)

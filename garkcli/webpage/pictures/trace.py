@@ -10,11 +10,11 @@ from garkcli.exact.roots import RealRoot
 from garkcli.plots.plane import values
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.summary import directions, usual_oscillator
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.webpage.pictures.drawing import Frame
 from garkcli.webpage.pictures.elements import Point
 from garkcli.webpage.pictures.picture import NotDrawn, Picture
 from garkcli.webpage.pictures.scales import linear_marks
-from garkcli.webpage.pictures.subject import Subject
 
 _HEIGHT = 200
 _POINTS = 360
@@ -27,20 +27,20 @@ _NO_SPLIT = "The method has no split for the oscillator."
 _NO_AREAS = "The steps on the oscillator do not keep areas: the trace alone does not decide."
 
 
-def draw(subject: Subject) -> Picture:
+def draw(method: GarkMethod) -> Picture:
     """|tr M|/2 over z = hω of one method.
 
     Raises:
         NotDrawn: it has no split for the oscillator, or its steps do not keep areas, so that the
             trace alone does not decide; or its coefficients are rounded.
     """
-    if subject.method.tolerance is not None:
-        raise NotDrawn(_unless_linear(subject, _ROUNDED))
-    found = usual_oscillator(subject.method.tableau)
+    if method.tolerance is not None:
+        raise NotDrawn(_unless_linear(method, _ROUNDED))
+    found = usual_oscillator(method.tableau)
     if found is None:
-        raise NotDrawn(_unless_linear(subject, _NO_SPLIT))
+        raise NotDrawn(_unless_linear(method, _NO_SPLIT))
     if not found.determinant.is_one:
-        raise NotDrawn(_unless_linear(subject, _NO_AREAS))
+        raise NotDrawn(_unless_linear(method, _NO_AREAS))
     ends = _ends(found)
     highest = [high for _, high in ends if high]
     end = 1.25 * max(highest, default=_WITHOUT_END)
@@ -59,9 +59,9 @@ def draw(subject: Subject) -> Picture:
     return Picture("oscillator", _TITLE, description, svg, note)
 
 
-def _unless_linear(subject: Subject, why: str) -> str:
+def _unless_linear(method: GarkMethod, why: str) -> str:
     """Why it is not drawn; empty where the region tells what there is to tell."""
-    is_linear = bool(directions(subject.method.tableau))
+    is_linear = bool(directions(method.tableau))
     return "" if is_linear else why
 
 
