@@ -18,10 +18,10 @@ LONGEST = 40
 def stem_of(name: str) -> str:
     """A name as lower case ASCII letters, digits and single underscores; it begins with a letter.
 
-    Behind ``gark_`` it is a name in every language.
+    Behind ``gark_`` it is a name in every language. A letter of another script is its number.
 
     >>> stem_of("Größe 3.gark.yaml"), stem_of("3/8 rule"), stem_of("中")
-    ('grosse_3', 'method_3_8_rule', 'method')
+    ('grosse_3', 'method_3_8_rule', 'u4e2d')
     """
     plain = plain_line(printable(name)).replace("\u00df", "ss").lower()
     stem = plain.removesuffix(".yaml").removesuffix(".gark")
