@@ -92,12 +92,12 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     Raises:
         MethodError: a tree that the coupling graph does not admit.
     """
-    images: dict[_Place, Vector] = {}
     tableau = printed(method)
+    vectors = TreeVectors(tableau)
     allowed = _exactly if isinstance(method, Tableau) else _effects(method)
     for tree in trees:
         b = tableau.colours[tree.root].b
-        value = dot(b, _stage_vector(tableau, tree, images))
+        value = dot(b, vectors.of(tree))
         is_met = value == fmpq(1, tree.density)
         yield Condition(tree, value, ZERO if is_met else allowed(tree))
 
@@ -136,30 +136,47 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     return True
 
 
-def _stage_vector(tableau: Tableau, tree: Tree, images: dict[_Place, Vector]) -> Vector:
-    """𝒜^[u], eqs. (Ataul) and (Au); what the blocks make of its branches is kept in ``images``."""
-    colour = tableau.colours[tree.root]
-    if colour.is_linear and len(tree.branches) > 1:
-        raise MethodError(f"colour {colour.name} is linear: its vertices have one branch at most")
-    space = tableau.space(tree.root)
-    vector = space.one
-    for branch in tree.branches:
+class TreeVectors:
+    """Stage vectors of single trees; what the blocks make of their branches is kept.
+
+    Args:
+        tableau: of numbers, polynomials or balls.
+    """
+
+    def __init__(self, tableau: Tableau) -> None:
+        self.tableau = tableau
+        self._images: dict[_Place, Vector] = {}
+
+    def of(self, tree: Tree) -> Vector:
+        """𝒜^[u], eqs. (Ataul) and (Au).
+
+        Raises:
+            MethodError: the coupling graph does not admit the tree.
+        """
+        colour = self.tableau.colours[tree.root]
+        if colour.is_linear and len(tree.branches) > 1:
+            message = f"colour {colour.name} is linear: its vertices have one branch at most"
+            raise MethodError(message)
+        space = self.tableau.space(tree.root)
+        vector = space.one
+        for branch in tree.branches:
+            vector = space.product(vector, self.image(tree.root, branch))
+        return vector
+
+    def image(self, l: int, branch: Tree) -> Vector:
+        """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
+        colour = self.tableau.colours[l]
         place = colour.space, branch
-        if place not in images:
-            images[place] = _image(tableau, colour, branch, images)
-        vector = space.product(vector, images[place])
-    return vector
-
-
-def _image(tableau: Tableau, colour: Colour, branch: Tree, images: dict[_Place, Vector]) -> Vector:
-    """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
-    block = tableau.blocks.get((colour.space, branch.root))
-    if block is None:
-        seen = tableau.colours[branch.root]
-        raise MethodError(
-            f"colour {colour.name} does not see colour {seen.name}: the tree is not admissible"
-        )
-    return apply(block, _stage_vector(tableau, branch, images))
+        if place not in self._images:
+            block = self.tableau.blocks.get((colour.space, branch.root))
+            if block is None:
+                seen = self.tableau.colours[branch.root]
+                raise MethodError(
+                    f"colour {colour.name} does not see colour {seen.name}: "
+                    "the tree is not admissible"
+                )
+            self._images[place] = apply(block, self.of(branch))
+        return self._images[place]
 
 
 def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
