@@ -13,7 +13,14 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.search.rational import Constant, RationalFunction, Slope, as_ball, as_float
+from garkcli.design.search.rational import (
+    Constant,
+    RationalFunction,
+    Slope,
+    as_ball,
+    as_float,
+    with_gradients,
+)
 from garkcli.exact.parametric import Parameters
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -110,18 +117,7 @@ class Generators:
 
     def at(self, points: Array) -> tuple[Array, Array]:
         """Values and derivatives as those of ``Residuals.at``; points are balls."""
-        import numpy as np
-
-        zero = as_ball(fmpq(0))
-        unknowns, count = points.shape
-        values = np.full((len(self.functions), count), zero, object)
-        gradients = np.full((len(self.functions), unknowns, count), zero, object)
-        for number, function in enumerate(self.functions):
-            slope = function.at(points, as_ball)
-            values[number] = slope.value
-            for unknown, derivative in slope.derivatives:
-                gradients[number, unknown] = derivative
-        return values, gradients
+        return with_gradients(self.functions, points)
 
 
 def _functions(rows: Sequence[Sequence[object]], ring: Parameters) -> list[list[RationalFunction]]:
@@ -171,11 +167,8 @@ class _Evaluation(StageVectors[_Vectors]):
     def run(self) -> tuple[Array, Array]:
         for l, ids, vectors in self.everything(self.table):
             self._close(l, ids, vectors)
-        for number, function in enumerate(self.system.more, start=len(self.table)):
-            slope = function.at(self.points, self.constant)
-            self.values[number] = slope.value
-            for unknown, derivative in slope.derivatives:
-                self.gradients[number, unknown] = derivative
+        more = slice(len(self.table), None)
+        self.values[more], self.gradients[more] = with_gradients(self.system.more, self.points)
         return self.values, self.gradients
 
     def _vertex(self, l: int) -> _Vectors:
