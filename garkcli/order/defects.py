@@ -1,5 +1,5 @@
-"""By how much B, C and D are missed: exact elements and functionals of stage spaces, zero where a
-condition holds.
+"""By how much B, C, D and symplecticity are missed: exact elements and functionals of stage spaces,
+zero where a condition holds, or balls where coefficients are rounded.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
-from flint import fmpq
+from flint import arb, ctx, fmpq
 
 from garkcli.exact.linear_map import EntrywiseMap, LinearMap
 from garkcli.exact.matrix import Matrix, Vector, dot
@@ -18,6 +18,7 @@ from garkcli.tableau.tableau import Edge, Tableau
 
 if TYPE_CHECKING:
     from garkcli.tableau.meant import AnyTableau
+    from garkcli.tableau.rounded import RoundedTableau
 
 
 class Defects:
@@ -89,6 +90,28 @@ class Defects:
         return LinearMap(block, self.tableau.field)
 
 
+class RoundedDefects(Defects):
+    """The defects of the methods that a tableau may be a rounding of: balls, which hold 0 where
+    rounding explains the defect.
+
+    Their entries belong to stages, also where the exact defects are elements of a stage algebra.
+    """
+
+    def __init__(self, rounded: RoundedTableau) -> None:
+        super().__init__(rounded.tableau, rounded.in_balls)
+        self._bits = rounded.bits
+
+    def precision(self) -> AbstractContextManager[object]:
+        return ctx.workprec(self._bits)
+
+    def vanish(self, defects: Iterable[Any]) -> bool:
+        """Whether rounding explains them all."""
+        return all(x.is_finite() and x.contains(0) for x in map(arb, defects))
+
+    def _made_ready(self, block: Matrix) -> EntrywiseMap:
+        return EntrywiseMap(block)
+
+
 def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
     """The difference u − v/k."""
     return tuple(x - y / k for x, y in zip(u, v, strict=True))
@@ -107,7 +130,4 @@ def defects_of(method: AnyTableau) -> Defects:
     """The defects of a tableau, over its box where it is rounded."""
     if isinstance(method, Tableau) or method.obstacle:
         return Defects(printed(method))
-    # balls, which exact methods do without
-    from garkcli.order.rounded_defects import RoundedDefects
-
     return RoundedDefects(method)

@@ -14,7 +14,7 @@ from flint import fmpq
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.domain import Domain
-from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Root
 from garkcli.exact.parametric import Parameters, Parametric, Rule
@@ -85,20 +85,13 @@ class _Into:
     def __init__(self, ring: Parameters, larger: Parameters) -> None:
         self.ring = ring
         self.larger = larger
-        self._zeros = (0,) * (len(larger.names) - len(ring.names))
+        roots = larger.names[len(ring.names) :]
+        self._radicals = [larger.parameter(name) for name in roots]
+        self._zeros = (0,) * len(roots)
 
     def number(self, x: Number) -> Any:
         """A number of the field of the nodes."""
-        if not isinstance(x, Algebraic):
-            return x
-        total: Any = fmpq(0)
-        for coefficient, word in x.terms():
-            term: Any = coefficient
-            for index in word:
-                name = self.larger.names[len(self.ring.names) + index]
-                term = term * self.larger.parameter(name)
-            total = total + term
-        return total
+        return with_radicals(x, self._radicals)
 
     def function(self, x: object) -> Any:
         """A coefficient of the family."""

@@ -16,7 +16,7 @@ from flint import arb, arb_mat, ctx
 from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import Further
@@ -138,7 +138,11 @@ def in_points(tableau: Tableau) -> Tableau | None:
     domain = _domain_with(tableau, radical_nodes)
     if domain is None:
         return None
-    return at_points(tableau, radical_nodes, domain, _embedding(tableau, domain), lambda x: x)
+    own = tableau.field.radicals if tableau.field else ()
+    radicals = [domain.evaluate(radical) for radical, _ in own]
+    return at_points(
+        tableau, radical_nodes, domain, lambda x: with_radicals(x, radicals), lambda x: x
+    )
 
 
 def nodes_in_radicals(tableau: Tableau) -> dict[int, tuple[Expression, ...]] | None:
@@ -213,28 +217,6 @@ def at_points(
 
 def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
     return tuple(tuple(map(change, row)) for row in rows)
-
-
-def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
-    """The map of the tableau's numbers into a larger domain."""
-    field = tableau.field
-    if field is None:
-        return lambda number: number
-    radicals = [domain.evaluate(radical) for radical, _ in field.radicals]
-
-    def embed(number: Number) -> Number:
-        if not isinstance(number, Algebraic):
-            return number
-        total: Number = ZERO
-        coefficients = field.in_radicals(number)
-        for coefficient, word in zip(coefficients, field.monomials, strict=True):
-            term: Number = ONE * coefficient
-            for index in word:
-                term = term * radicals[index]
-            total = total + term
-        return total
-
-    return embed
 
 
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:

@@ -15,8 +15,7 @@ from garkcli.exact.display import to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
-from garkcli.order.defects import Defects, is_symplectic
-from garkcli.order.rounded_defects import RoundedDefects
+from garkcli.order.defects import Defects, RoundedDefects, is_symplectic
 from garkcli.order.simplifying import consistent_blocks, simplifying
 from garkcli.order.tolerance import within
 from garkcli.tableau.conjugate import symplectic_defect
