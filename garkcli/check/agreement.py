@@ -33,6 +33,14 @@ def agrees(wanted: object, found: object) -> bool:
     return type(wanted) is type(found) and wanted == found
 
 
+def capped(value: object, limit: int) -> object:
+    """A number at which the search stopped is known to be at least that large, no more."""
+    if isinstance(value, (list, tuple)):
+        return [capped(x, limit) for x in value]
+    is_number = isinstance(value, int) and not isinstance(value, bool)
+    return AtLeast(limit) if is_number and value == limit else value
+
+
 def claimed_text(value: object) -> str:
     """A value as it is written in YAML."""
     if isinstance(value, list):

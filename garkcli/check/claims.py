@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from garkcli.check.agreement import agrees, claim_of, claimed_text
+from garkcli.check.agreement import agrees, capped, claim_of, claimed_text
 from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
@@ -58,13 +57,13 @@ def found_value(key: str, analysis: Analysis) -> object:
         "order": _order(analysis.order),
         "conjugate-order": _order(analysis.conjugate_order),
         "pair-order": _order(analysis.pair_order),
-        "bound": _capped(analysis.bound, limit),
-        "pair-bound": _capped(analysis.pair_bound, limit),
-        "sharp-bound": _capped(analysis.sharp_bound, limit),
-        "pair-sharp-bound": _capped(analysis.pair_sharp_bound, limit),
-        "B": _capped_row(table.B, limit),
-        "C": [_capped_row(row, limit) for row in table.C],
-        "D": [_capped_row(row, limit) for row in table.D],
+        "bound": capped(analysis.bound, limit),
+        "pair-bound": capped(analysis.pair_bound, limit),
+        "sharp-bound": capped(analysis.sharp_bound, limit),
+        "pair-sharp-bound": capped(analysis.pair_sharp_bound, limit),
+        "B": capped(table.B, limit),
+        "C": capped(table.C, limit),
+        "D": capped(table.D, limit),
         "symplectic": analysis.symplectic,
         "nonautonomous-order": _order(analysis.nonautonomous_order),
     }[key]
@@ -93,14 +92,3 @@ def _order(found: AnyOrder | DenseOrder | None) -> object:
     if found is None:
         return None
     return AtLeast(found.order) if found.is_lower_bound else found.order
-
-
-def _capped_row(numbers: Sequence[int | None], limit: int) -> list[object]:
-    return [_capped(number, limit) for number in numbers]
-
-
-def _capped(number: int | None, limit: int) -> object:
-    """A number at which the search stopped is known to be at least that large, no more."""
-    if number is None or number < limit:
-        return number
-    return AtLeast(number)

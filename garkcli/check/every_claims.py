@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from garkcli.check.agreement import agrees, claim_of, claimed_text
+from garkcli.check.agreement import agrees, capped, claim_of, claimed_text
 from garkcli.check.every_facts import Fact
 from garkcli.check.every_orders import EveryOrder
 from garkcli.check.every_value import EveryValue
@@ -82,22 +82,12 @@ def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool:
         return False
     others = (*fact.special, *fact.elsewhere)
     values = [fact.value, *(value for _, value in others)]
-    if not all(agrees(wanted, _capped(value, limit)) for value in values):
+    if not all(agrees(wanted, capped(value, limit)) for value in values):
         return False
     if not fact.open and not fact.zeros:
         return True
     # where polynomials are zero more conditions hold, never less
     return claim.key in GROWING and _is_bound(wanted)
-
-
-def _capped(value: object, limit: int) -> object:
-    """A number at which the search stopped is known to be at least that large, no more."""
-    if isinstance(value, list):
-        return [_capped(x, limit) for x in value]
-    is_number = isinstance(value, int) and not isinstance(value, bool)
-    if is_number and value == limit:
-        return AtLeast(limit)
-    return value
 
 
 def _is_bound(wanted: object) -> bool:

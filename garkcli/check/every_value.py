@@ -18,7 +18,7 @@ from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.order.simplifying import simplifying
-from garkcli.tableau.conjugate import are_opposite, is_symplectic, symplectic_defect
+from garkcli.tableau.conjugate import is_symplectic, symplectic_defects
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import pair
 from garkcli.tableau.nonautonomous import with_time
@@ -184,18 +184,7 @@ def _symplectic(family: EveryFamily) -> Fact:
 def _defects(family: EveryFamily) -> list[fmpq_mpoly]:
     """What is zero where a method is symplectic."""
     tableau, ring = family.tableau, family.ring
-    numbers: list[object] = []
-    for l, one in enumerate(tableau.colours):
-        for m, other in enumerate(tableau.colours):
-            if one.space == other.space and {one.part, other.part} == {"q", "p"}:
-                numbers += [x - y for x, y in zip(one.b, other.b, strict=True)]
-            if not are_opposite(one, other):
-                continue
-            if (tableau.block(l, m) is None) != (tableau.block(m, l) is None):
-                return [ring.constant(ONE)]
-            if tableau.block(l, m) is not None:
-                for row in symplectic_defect(tableau, l, m):
-                    numbers += row
+    numbers: list[object] = [*symplectic_defects(tableau)]
     zeros = [x.numerator for x in numbers if isinstance(x, Parametric)]
     if any(x and not isinstance(x, Parametric) for x in numbers):
         return [ring.constant(ONE)]

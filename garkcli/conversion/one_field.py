@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 
 from garkcli.exact.domain import Domain
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
+from garkcli.exact.field import Algebraic, Number, NumberField, with_radicals
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
 
@@ -51,14 +51,8 @@ class OneField:
         """The same number in the common field."""
         if not isinstance(number, Algebraic) or not self._images:
             return number
-        values = self._images[id(number.field)]
-        total: Number = ZERO
-        for coefficient, word in number.terms():
-            term: Number = ONE * coefficient
-            for index in word:
-                term = term * values[index]
-            total = total + term
-        return total
+        image: Number = with_radicals(number, self._images[id(number.field)])
+        return image
 
     def vector(self, row: Sequence[Number]) -> Vector:
         """A row, number by number."""

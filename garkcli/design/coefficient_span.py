@@ -75,6 +75,8 @@ class CoefficientSpan:
 def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
     row: _Row = {}
     for coordinate, polynomial in enumerate(vector):
+        if not polynomial:  # maybe the number 0
+            continue
         for exponents, a in polynomial.to_dict().items():
             row[-coordinate, tuple(-int(e) for e in exponents)] = a
     return row

@@ -13,18 +13,20 @@ A span over ℚ(t) would give the order for almost all parameters and lose the e
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.deadline import check_time
-from garkcli.design.coefficient_span import CoefficientSpan, Polynomials
-from garkcli.exact.matrix import Vector
-from garkcli.exact.parametric import Parameters, common_denominator, fraction, times
-from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.tableau import Edge, Tableau
+from garkcli.design.cleared import Cleared
+from garkcli.design.coefficient_span import CoefficientSpan
+from garkcli.exact.linear_map import EntrywiseMap
+from garkcli.exact.matrix import dot
+from garkcli.exact.parametric import Parameters, refuse_long
+from garkcli.order.recursion import Forest, Forests, Spans
+from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 
 
@@ -41,16 +43,7 @@ class Condition:
     polynomial: fmpq_mpoly
 
 
-@dataclass(frozen=True)
-class _Member:
-    """(w, v) and the branches of the trees that it comes from."""
-
-    scale: fmpq_mpoly
-    vector: Polynomials
-    branches: tuple[Tree, ...]
-
-
-class FamilyConditions:
+class FamilyConditions(Spans):
     """The conditions of a family, order by order.
 
     Args:
@@ -62,36 +55,12 @@ class FamilyConditions:
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
-        self.tableau = tableau
-        self.ring = ring
-        self._one = ring.constant(fmpq(1))
-        self._zero = ring.constant(fmpq(0))
-        weights = [colour.b for colour in tableau.colours]
-        rows = list(chain.from_iterable(tableau.blocks.values()))
-        self._of_blocks = common_denominator(chain.from_iterable(rows), ring)
-        self._of_weights = common_denominator(chain.from_iterable(weights), ring)
-        both = (self._of_blocks, self._of_weights)
-        self.denominators = tuple(d for d in both if not d.is_constant())
-        self._maps: dict[Edge, list[Polynomials]] = {}
-        for edge, block in tableau.blocks.items():
-            cleared = [self._polynomials(row, self._of_blocks) for row in block]
-            self._maps[edge] = cleared
-        self._weights = [self._polynomials(b, self._of_weights) for b in weights]
-        # of each stage space, by order: members with one branch, and all members
-        self._branches: list[list[list[_Member]]] = []
-        self._forests: list[list[list[_Member]]] = []
-        for space in tableau.spaces:
-            one = self._polynomials(space.one, self._one)
-            vertex = _Member(self._one, one, ())
-            self._branches.append([[]])
-            self._forests.append([[vertex]])
-
-    def _polynomials(self, row: Vector, denominator: fmpq_mpoly) -> Polynomials:
-        made = []
-        for x in row:
-            numerator, own = fraction(x, self.ring)
-            made.append(times(numerator, denominator // own))
-        return tuple(made)
+        self._cleared = cleared = Cleared.of(tableau, ring)
+        self.denominators = tuple(d for d in (cleared.D, cleared.E) if not d.is_constant())
+        one = cleared.one
+        vertices = [Forest([x * one for x in space.one], (), one) for space in tableau.spaces]
+        maps = {edge: EntrywiseMap(block) for edge, block in cleared.blocks.items()}
+        super().__init__(tableau, vertices, maps, cleared.D)
 
     def of_order(self, order: int) -> Iterator[Condition]:
         """Conditions that generate those of all trees of an order, together with lower ones.
@@ -100,83 +69,26 @@ class FamilyConditions:
             NotDecided: the time was not enough; they may be asked for again.
             TooManyTerms: they are too long.
         """
-        for l in range(self.tableau.size):
-            weights = self._weights[l]
-            for member in self._stage_vectors(l, order):
-                value = self._zero
-                for b, x in zip(weights, member.vector, strict=True):
-                    value += times(b, x)
-                required = member.scale * self._of_weights / fmpq(order)
-                tree = Tree(l, member.branches)
-                yield Condition(tree, value - required)
+        for l, forest in self.members(order):
+            refuse_long(_longest(self._cleared.weights[l]), _longest(forest.vector))
+            value = dot(self._cleared.weights[l], forest.vector)
+            required = forest.scale * self._cleared.E / fmpq(order)
+            yield Condition(Tree(l, forest.branches), value - required)
 
-    def _stage_vectors(self, colour: int, order: int) -> list[_Member]:
-        seeing = self.tableau.colours[colour]
-        branches = self._branches[seeing.space]
-        forests = self._forests[seeing.space]
-        while len(forests) < order:
-            k = len(forests)
-            # branches without forests: the time was over between the two
-            if len(branches) == k:
-                new_branches = self._new_branches(seeing.space, k)
-                branches.append(self._spanning(new_branches))
-            new_forests = self._new_forests(seeing.space, k)
-            forests.append(self._spanning(new_forests))
-        has_one_branch = seeing.is_linear and order > 1
-        return branches[order - 1] if has_one_branch else forests[order - 1]
+    def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
+        longest = _longest(chain.from_iterable(self._cleared.blocks[k, m]))
+        for forest in trees:
+            refuse_long(longest, _longest(forest.vector))
+        return super()._image(k, m, order, trees)
 
-    def _new_branches(self, rows: int, order: int) -> Iterator[_Member]:
-        for m in range(self.tableau.size):
-            block = self._maps.get((rows, m))
-            if block is None:
-                continue
-            for member in self._stage_vectors(m, order):
-                image = []
-                for row in block:
-                    total = self._zero
-                    for a, x in zip(row, member.vector, strict=True):
-                        if a and x:
-                            total += times(a, x)
-                    image.append(total * fmpq(order))
-                scale = times(self._of_blocks, member.scale)
-                branch = Tree(m, member.branches)
-                yield _Member(scale, tuple(image), (branch,))
+    def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
+        refuse_long(_longest(u), _longest(v))
+        return super()._product(k, u, v)
 
-    def _new_forests(self, rows: int, order: int) -> Iterator[_Member]:
-        """One branch, or the smallest branch times the forest of the others."""
-        branches, forests = self._branches[rows], self._forests[rows]
-        yield from branches[order]
-        for j in range(1, order // 2 + 1):
-            for branch in branches[j]:
-                for rest in forests[order - j]:
-                    trees = (*branch.branches, *rest.branches)
-                    scale = times(branch.scale, rest.scale)
-                    vector = self._product(rows, branch.vector, rest.vector)
-                    yield _Member(scale, vector, trees)
-
-    def _product(self, rows: int, u: Polynomials, v: Polynomials) -> Polynomials:
-        space = self.tableau.spaces[rows]
-        if not isinstance(space, PolynomialSpace):
-            pairs = zip(u, v, strict=True)
-            return tuple(times(x, y) for x, y in pairs)
-        s = space.stages
-        out = [self._zero] * (2 * s - 1)
-        for i, x in enumerate(u):
-            for j, y in enumerate(v):
-                if x and y:
-                    out[i + j] += times(x, y)
-        # x^k for k ≥ s, by the node polynomial, from the highest down
-        for k in range(2 * s - 2, s - 1, -1):
-            for j in range(s):
-                out[k - s + j] -= out[k] * space.modulus[j]
-        return tuple(out[:s])
-
-    def _spanning(self, members: Iterator[_Member]) -> list[_Member]:
+    def _joined(self, k: int, parts: Iterable[Forests]) -> Forests:  # noqa: ARG002 -- any space
         span = CoefficientSpan()
-        kept = []
-        for member in members:
-            check_time()
-            coordinates = (member.scale, *member.vector)
-            if span.insert(coordinates):
-                kept.append(member)
-        return kept
+        return [x for x in chain.from_iterable(parts) if span.insert((x.scale, *x.vector))]
+
+
+def _longest(polynomials: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
+    return max(polynomials, key=len)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from math import prod
 from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
@@ -272,6 +273,18 @@ class Algebraic:
 
 Number: TypeAlias = fmpq | Algebraic
 """An exact real number."""
+
+
+def with_radicals(number: Number, radicals: Sequence[Any]) -> Any:
+    """A number with other values in place of the radicals of its field, such as the same radicals
+    in a larger field.
+    """
+    if not isinstance(number, Algebraic):
+        return number
+    total: Any = ZERO
+    for coefficient, word in number.terms():
+        total = total + prod((radicals[i] for i in word), start=coefficient)
+    return total
 
 
 def coordinates(number: Number, degree: int) -> list[fmpq]:

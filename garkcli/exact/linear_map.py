@@ -74,7 +74,11 @@ class EntrywiseMap:
 
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
-        return [apply(self._rows, v) for v in vectors]
+        images = []
+        for v in vectors:
+            check_time()
+            images.append(apply(self._rows, v))
+        return images
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
         """wᵀ A for each of the functionals."""

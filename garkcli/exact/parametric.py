@@ -304,9 +304,18 @@ def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
     Raises:
         TooManyTerms: it would fill the memory, and is not computed.
     """
+    refuse_long(p, q)
+    return p * q
+
+
+def refuse_long(p: fmpq_mpoly, q: fmpq_mpoly) -> None:
+    """Refuse a product that is too long, before it is computed.
+
+    Raises:
+        TooManyTerms: it would fill the memory.
+    """
     if len(p) * len(q) > MAX_TERMS and terms_of_product(p, q) > MAX_TERMS:
         raise _too_many_terms()
-    return p * q
 
 
 def power(p: fmpq_mpoly, exponent: int) -> fmpq_mpoly:

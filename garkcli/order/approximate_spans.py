@@ -19,15 +19,16 @@ good or bad.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
+from itertools import chain
 from operator import add
 
 from flint import arb, arb_mat, ctx
 
 from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
-from garkcli.order.recursion import OrderByOrder
+from garkcli.order.recursion import Forest, OrderByOrder
 from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
@@ -37,18 +38,12 @@ Places = list[int]
 
 
 @dataclass(frozen=True, eq=False)
-class _Member:
-    """A vector that is known, and the branches of its tree."""
-
-    vector: Entries
-    branches: tuple[Tree, ...]
-
-
-@dataclass(frozen=True, eq=False)
 class _Hull:
-    """Members, and how far all others of their kind are from them: Λ, ε and π."""
+    """Members, and how far all others of their kind are from them: Λ, ε and π; no members where
+    there is nothing of that kind.
+    """
 
-    members: Sequence[_Member]
+    members: Sequence[Forest]
     weight: arb
     error: Entries
     size: Entries
@@ -97,8 +92,6 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         with ctx.workprec(self.enclosure.bits):
             for l, b in enumerate(self.enclosure.b):
                 hull = self.of_trees(l, order)
-                if hull is None:
-                    continue
                 weights = b.entries()
                 required = arb(1) / order
                 worst = arb(0)
@@ -112,50 +105,40 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         members.sort(key=lambda x: float(x[0].mid()), reverse=True)
         return HullSizes(bound.abs_upper(), members)
 
-    def _new_branches(self, k: int, order: int) -> _Hull | None:
-        """Order · A ψ over the colours that the stages of space k see."""
-        hulls: list[_Hull] = []
-        for m in range(self.tableau.size):
-            if (k, m) not in self.enclosure.A:
-                continue
-            hull = self.of_trees(m, order)
-            if hull is not None:
-                hulls.append(self._branch(k, m, order, hull))
-        return _reduced(hulls, self.grain)
-
-    def _branch(self, k: int, m: int, order: int, hull: _Hull) -> _Hull:
-        """What A^{k,m} makes of the trees with root colour m."""
+    def _image(self, k: int, m: int, order: int, trees: _Hull) -> _Hull:
         A = self.enclosure.A[k, m] * order
         members = []
-        for x in hull.members:
+        for x in trees.members:
             branch = Tree(m, x.branches)
             vector = _image(A, x.vector)
-            members.append(_Member(vector, (branch,)))
+            members.append(Forest(vector, (branch,)))
         absolute = self._absolute[k, m] * order
         return _Hull(
-            members, hull.weight, _image(absolute, hull.error), _image(absolute, hull.size)
+            members, trees.weight, _image(absolute, trees.error), _image(absolute, trees.size)
         )
 
-    def _new_forests(self, k: int, order: int) -> _Hull | None:
+    def _new_forests(self, k: int, order: int) -> _Hull:
         """The smallest branch times the forest of the others, or one branch.
 
         The bush comes first: its density is the least, so that where an order fails it often shows
         it.
         """
-        hulls: list[_Hull] = []
-        for branch, rest in self._split_forests(k, order):
-            hulls.append(_product(branch, rest))
-        single = self._branches[k][order]
-        if single is not None:
-            hulls.append(single)
-        return _reduced(hulls, self.grain)
+        products = (_product(branch, rest) for branch, rest in self._splits(k, order))
+        return self._joined(k, chain(products, [self.branches(k, order)]))
+
+    def _joined(self, k: int, parts: Iterable[_Hull]) -> _Hull:
+        hulls = [hull for hull in parts if hull.members]
+        if hulls:
+            return _reduced(hulls, self.grain)
+        nothing = [arb(0)] * self.enclosure.stages[k]
+        return _Hull([], arb(0), nothing, nothing)
 
 
 def _unit(stages: int) -> _Hull:
     """What the single vertex has: its vector is 𝟙, and nothing is beyond it."""
     one = [arb(1)] * stages
     zero = [arb(0)] * stages
-    vertex = _Member(one, ())
+    vertex = Forest(one, ())
     return _Hull([vertex], arb(1), zero, one)
 
 
@@ -165,7 +148,7 @@ def _product(x: _Hull, y: _Hull) -> _Hull:
         for w in y.members:
             vector = times(v.vector, w.vector)
             branches = v.branches + w.branches
-            members.append(_Member(vector, branches))
+            members.append(Forest(vector, branches))
     weight = x.weight * y.weight
     size = times(x.size, y.size)
     of_second = times(x.size, y.error)
@@ -176,13 +159,9 @@ def _product(x: _Hull, y: _Hull) -> _Hull:
     return _Hull(members, weight, error, size)
 
 
-def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
+def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
     """Few of the members of all hulls, and bounds that hold for everything in any of them."""
-    if not hulls:
-        return None
-    members: list[_Member] = []
-    for hull in hulls:
-        members += hull.members
+    members = [member for hull in hulls for member in hull.members]
     points: Rows = [[arb(1), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
     kept = [members[i] for i in chosen]
@@ -190,19 +169,16 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
     misses = arb_mat(points) - weights * corners
     weight_rows = weights.tolist()
     miss_rows = misses.tolist()
-    found: _Hull | None = None
+    around = []
     start = 0
     for hull in hulls:
-        end = start + len(hull.members)
-        own_weights = weight_rows[start:end]
-        own_misses = miss_rows[start:end]
-        around = _around(kept, hull, own_weights, own_misses)
-        found = _joined(found, around)
-        start = end
-    return found
+        own = slice(start, start + len(hull.members))
+        around.append(_around(kept, hull, weight_rows[own], miss_rows[own]))
+        start = own.stop
+    return reduce(_in_both, around)
 
 
-def _around(kept: Sequence[_Member], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
+def _around(kept: Sequence[Forest], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
     """The bounds of one hull around the members that are kept.
 
     ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,
@@ -220,10 +196,8 @@ def _around(kept: Sequence[_Member], hull: _Hull, weights: Rows, misses: Rows) -
     return _Hull(kept, weight, error, hull.size)
 
 
-def _joined(one: _Hull | None, other: _Hull) -> _Hull:
+def _in_both(one: _Hull, other: _Hull) -> _Hull:
     """Bounds that hold in both of two hulls with the same members."""
-    if one is None:
-        return other
     weight = one.weight.max(other.weight)
     error = entrywise_max(one.error, other.error)
     size = entrywise_max(one.size, other.size)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias, cast
+from typing import cast
 
 from flint import fmpq
 
@@ -22,8 +22,9 @@ from garkcli.doing import doing
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number, coordinates
 from garkcli.exact.linear_map import LinearMap
-from garkcli.exact.matrix import Vector, dot
+from garkcli.exact.matrix import dot
 from garkcli.exact.span import AffineSpan
+from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 from garkcli.upward import found
@@ -91,14 +92,6 @@ class Order:
         return html
 
 
-@dataclass(frozen=True)
-class Forest:
-    """A spanning member: the product of the branches' contributions, and the branches."""
-
-    vector: Vector
-    branches: tuple[Tree, ...]
-
-
 @doing("order")
 def find_order(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
@@ -115,98 +108,38 @@ def find_order(
     """
     spans = spans or StageSpans(tableau)
     for order in range(1, limit + 1):
-        for l, colour in enumerate(tableau.colours):
-            for forest in spans.stage_vectors(l, order):
-                value = dot(colour.b, forest.vector)
-                if value != fmpq(1, order):
-                    witness = _witness(Tree(l, forest.branches), value)
-                    return Order(order - 1, witness)
+        for l, forest in spans.members(order):
+            value = dot(tableau.colours[l].b, forest.vector)
+            if value != fmpq(1, order):
+                return Order(order - 1, witness_of(Tree(l, forest.branches), value))
     return Order(limit, None)
 
 
-def _witness(tree: Tree, normalised: Number) -> Witness:
-    """The witness whose tree has b_lᵀ ψ(u) = ``normalised``."""
-    density = tree.density
-    weight = normalised * fmpq(tree.order, density)
-    return Witness(tree, weight, fmpq(1, density))
+def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
+    """The witness whose tree has b_lᵀ ψ(u) = ``normalised`` instead of share/ρ(u)."""
+    weight = normalised * fmpq(tree.order, tree.density)
+    return Witness(tree, weight, fmpq(share, tree.density))
 
 
-_Forests: TypeAlias = list[Forest]
-_ByOrder: TypeAlias = list[_Forests]
-
-
-class StageSpans:
+class StageSpans(Spans):
     """Spanning members of Θ (branches) and Φ (forests) for each stage space, made on demand."""
 
     def __init__(self, tableau: Tableau) -> None:
-        self.tableau = tableau
+        maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
+        super().__init__(tableau, (Forest(space.one) for space in tableau.spaces), maps)
         self.degree = tableau.degree
-        self.maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
-        self.forests: list[_ByOrder] = []
-        self.branches: list[_ByOrder] = []
-        for space in tableau.spaces:
-            vertex = Forest(space.one, ())
-            self.forests.append([[vertex]])
-            self.branches.append([[]])
 
-    def stage_vectors(self, colour: int, order: int) -> Sequence[Forest]:
-        """Members that span Ψ_order of a colour."""
-        rows = self.tableau.colours[colour].space
-        self._extend(rows, order - 1)
-        if self.tableau.colours[colour].is_linear and order > 1:
-            return self.branches[rows][order - 1]
-        return self.forests[rows][order - 1]
-
-    def _extend(self, rows: int, size: int) -> None:
-        while len(self.forests[rows]) <= size:
-            k = len(self.forests[rows])
-            new = self._new_branches(rows, k)
-            self.branches[rows].append(self._spanning(rows, new))
-            new = self._new_forests(rows, k)
-            self.forests[rows].append(self._spanning(rows, new))
-
-    def _new_branches(self, rows: int, order: int) -> Iterator[_Forests]:
-        """Θ_order: order · A ψ over the colours that the stages see."""
-        for m in range(self.tableau.size):
-            if (rows, m) not in self.maps:
-                continue
-            members = self.stage_vectors(m, order)
-            scaled = [tuple(order * y for y in x.vector) for x in members]
-            images = self.maps[rows, m].images(scaled)
-            batch = []
-            for image, x in zip(images, members, strict=True):
-                branch = Tree(m, x.branches)
-                batch.append(Forest(image, (branch,)))
-            yield batch
-
-    def _new_forests(self, rows: int, order: int) -> Iterator[_Forests]:
-        """Φ_order: one branch, or the smallest branch times the forest of the others."""
-        space = self.tableau.spaces[rows]
-        branches = self.branches[rows]
-        forests = self.forests[rows]
-        yield branches[order]
-        for j in range(1, order // 2 + 1):
-            for branch in branches[j]:
-                batch = []
-                for rest in forests[order - j]:
-                    vector = space.product(branch.vector, rest.vector)
-                    trees = (*branch.branches, *rest.branches)
-                    batch.append(Forest(vector, trees))
-                yield batch
-
-    def _spanning(self, rows: int, batches: Iterator[_Forests]) -> _Forests:
-        stages = self.tableau.spaces[rows].stages
-        span = AffineSpan(stages * self.degree)
-        members: _Forests = []
-        for batch in batches:
-            vectors = [self._flat(x.vector) for x in batch]
-            new = span.insert(vectors)
-            members += [batch[i] for i in new]
+    def _joined(self, k: int, parts: Iterable[Forests]) -> Forests:
+        span = AffineSpan(self.tableau.spaces[k].stages * self.degree)
+        members: list[Forest] = []
+        for part in parts:
+            new = span.insert([self._flat(x.vector) for x in part])
+            members += [part[i] for i in new]
             if span.is_full:
                 break
         return members
 
-    def _flat(self, vector: Vector) -> list[fmpq]:
+    def _flat(self, vector: Sequence[Number]) -> list[fmpq]:
         """Coordinates over ℚ: each number by its coordinates in 1, θ, …"""
         if self.degree == 1:
             return cast("list[fmpq]", list(vector))
@@ -228,6 +161,6 @@ def all_spanning_trees(
     spans = StageSpans(tableau)
     for order in orders:
         yield tuple(
-            tuple(Tree(l, forest.branches) for forest in spans.stage_vectors(l, order))
+            tuple(Tree(l, forest.branches) for forest in spans.of_trees(l, order))
             for l in range(tableau.size)
         )

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Vector, apply, dot
+from garkcli.exact.matrix import dot
 from garkcli.order.tolerance import within
+from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
@@ -19,9 +20,6 @@ from garkcli.upward import found
 
 if TYPE_CHECKING:
     from garkcli.tableau.rounded import RoundedTableau
-
-_Place: TypeAlias = tuple[int, Tree]
-"""Who sees a branch, by its stage space, and the branch."""
 
 
 @dataclass(frozen=True)
@@ -92,12 +90,12 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     Raises:
         MethodError: a tree that the coupling graph does not admit.
     """
-    images: dict[_Place, Vector] = {}
     tableau = printed(method)
+    vectors = TreeVectors(tableau)
     allowed = _exactly if isinstance(method, Tableau) else _effects(method)
     for tree in trees:
         b = tableau.colours[tree.root].b
-        value = dot(b, _stage_vector(tableau, tree, images))
+        value = dot(b, vectors.of(tree))
         is_met = value == fmpq(1, tree.density)
         yield Condition(tree, value, ZERO if is_met else allowed(tree))
 
@@ -134,32 +132,6 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
         if not is_admissible(tableau, branch):
             return False
     return True
-
-
-def _stage_vector(tableau: Tableau, tree: Tree, images: dict[_Place, Vector]) -> Vector:
-    """𝒜^[u], eqs. (Ataul) and (Au); what the blocks make of its branches is kept in ``images``."""
-    colour = tableau.colours[tree.root]
-    if colour.is_linear and len(tree.branches) > 1:
-        raise MethodError(f"colour {colour.name} is linear: its vertices have one branch at most")
-    space = tableau.space(tree.root)
-    vector = space.one
-    for branch in tree.branches:
-        place = colour.space, branch
-        if place not in images:
-            images[place] = _image(tableau, colour, branch, images)
-        vector = space.product(vector, images[place])
-    return vector
-
-
-def _image(tableau: Tableau, colour: Colour, branch: Tree, images: dict[_Place, Vector]) -> Vector:
-    """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
-    block = tableau.blocks.get((colour.space, branch.root))
-    if block is None:
-        seen = tableau.colours[branch.root]
-        raise MethodError(
-            f"colour {colour.name} does not see colour {seen.name}: the tree is not admissible"
-        )
-    return apply(block, _stage_vector(tableau, branch, images))
 
 
 def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:

@@ -9,11 +9,14 @@ coefficients that cancel do not make the bound large.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.order.entries import scalar_product, times
+from garkcli.exact.matrix import Vector
+from garkcli.order.entries import scalar_product
+from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.rounded import RoundedTableau, Row
 from garkcli.tableau.tableau import Edge
 from garkcli.trees.tree import Tree
@@ -31,24 +34,19 @@ class Effects:
 
     def __init__(self, rounded: RoundedTableau) -> None:
         self.rounded = rounded
-        self._spaces = [colour.space for colour in rounded.tableau.colours]
-        self._A = rounded.balls.A
-        self._back = {key: block.transpose() for key, block in self._A.items()}
+        self._balls = rounded.in_balls
         self._radii = {key: [x for row in rows for x in row] for key, rows in rounded.A.items()}
-        self._vectors: dict[tuple[int, Tree], Row] = {}
-        self._images: dict[tuple[int, Tree], Row] = {}
+        self._vectors = TreeVectors(self._balls)
 
     def effect(self, tree: Tree) -> arb:
         """No method of the box has another weight b_lᵀ 𝒜^[u] by more."""
         l = tree.root
         with ctx.workprec(BITS):
-            moved = [abs(x) for x in self._vector(tree)]
-            total = scalar_product(self.rounded.b[l], moved)
+            total = _largest(self.rounded.b[l], self._vectors.of(tree))
             slopes: dict[Edge, arb_mat] = {}
-            self._add_slopes(tree, self.rounded.balls.b[l].entries(), slopes)
+            self._add_slopes(tree, self._balls.colours[l].b, slopes)
             for key, slope in slopes.items():
-                sizes = [abs(x) for x in slope.entries()]
-                total += scalar_product(self._radii[key], sizes)
+                total += _largest(self._radii[key], slope.entries())
             return total.abs_upper()
 
     def bound(self, tree: Tree) -> fmpq:
@@ -56,38 +54,27 @@ class Effects:
         mantissa, exponent = self.effect(tree).man_exp()
         return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
-    def _vector(self, tree: Tree) -> Row:
-        """𝒜^[u] of the tableaus of the box."""
-        k = self._spaces[tree.root]
-        key = k, tree
-        if key not in self._vectors:
-            vector = [arb(1)] * self.rounded.balls.stages[k]
-            for branch in tree.branches:
-                vector = times(vector, self._image(k, branch))
-            self._vectors[key] = vector
-        return self._vectors[key]
-
-    def _image(self, k: int, branch: Tree) -> Row:
-        """A 𝒜^[u], as the stages of space k see a branch u."""
-        key = k, branch
-        if key not in self._images:
-            self._images[key] = _applied(self._A[k, branch.root], self._vector(branch))
-        return self._images[key]
-
-    def _add_slopes(self, tree: Tree, y: Sequence[arb], slopes: dict[Edge, arb_mat]) -> None:
+    def _add_slopes(self, tree: Tree, y: Vector, slopes: dict[Edge, arb_mat]) -> None:
         """Add the derivatives to the blocks on the edges of a tree, whose weight is yᵀ 𝒜^[u]."""
-        k = self._spaces[tree.root]
+        l = tree.root
+        space = self._balls.space(l)
         for number, branch in enumerate(tree.branches):
-            others = tree.branches[:number] + tree.branches[number + 1 :]
-            rest = list(y)
-            for other in others:
-                rest = times(rest, self._image(k, other))
-            key = k, branch.root
-            slope = arb_mat([[x] for x in rest]) * arb_mat([self._vector(branch)])
+            rest = y
+            for other in tree.branches[:number] + tree.branches[number + 1 :]:
+                rest = space.product(rest, self._vectors.image(l, other))
+            key = self._balls.colours[l].space, branch.root
+            row = _row(rest)
+            slope = row.transpose() * _row(self._vectors.of(branch))
             slopes[key] = slopes[key] + slope if key in slopes else slope
             if branch.branches:
-                self._add_slopes(branch, _applied(self._back[key], rest), slopes)
+                below: Any = (row * self.rounded.balls.A[key]).entries()
+                self._add_slopes(branch, below, slopes)
 
 
-def _applied(matrix: arb_mat, vector: Sequence[arb]) -> Row:
-    return (matrix * arb_mat([[x] for x in vector])).entries()
+def _row(vector: Iterable[Any]) -> arb_mat:
+    return arb_mat([list(map(arb, vector))])
+
+
+def _largest(radii: Row, slopes: Iterable[Any]) -> arb:
+    """Σ ρ |∂| over some entries."""
+    return scalar_product(radii, [abs(arb(x)) for x in slopes])

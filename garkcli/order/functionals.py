@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.exact.matrix import dot
-from garkcli.order.certificate import StageSpans, Witness
+from garkcli.order.certificate import StageSpans, Witness, witness_of
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.meant import AnyTableau
 from garkcli.tableau.tableau import Tableau
@@ -107,17 +107,13 @@ def _first_exact(
 ) -> Failure | None:
     spans = spans or StageSpans(tableau)
     for order in orders:
-        for l in range(tableau.size):
-            for forest in spans.stage_vectors(l, order):
-                for number, functional in enumerate(functionals):
-                    value = dot(functional.weights[l], forest.vector)
-                    if value == fmpq(functional.share(order), order):
-                        continue
+        for l, forest in spans.members(order):
+            for number, functional in enumerate(functionals):
+                value = dot(functional.weights[l], forest.vector)
+                share = functional.share(order)
+                if value != fmpq(share, order):
                     tree = Tree(l, forest.branches)
-                    # as ψ(u) is γ(u)/ρ(u) times the stage vector of u
-                    weight = value * fmpq(order, tree.density)
-                    witness = Witness(tree, weight, functional.required(tree))
-                    return Failure(number, witness)
+                    return Failure(number, witness_of(tree, value, share))
     return None
 
 

@@ -2,69 +2,159 @@
 
 A tree is its root with a forest on it. A forest is its smallest branch beside the forest of the
 others, and a branch is a tree seen through a block A. So one value for all forests of an order, and
-one for all branches, follow from those of the orders below.
+one for all branches, follow from those of the orders below. What a value is depends on the
+question: members that span, with bounds around them or without, or a sum.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
-from typing import Generic, TypeVar
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any, Generic, TypeAlias, TypeVar
 
-from garkcli.tableau.tableau import Tableau
+from garkcli.deadline import check_time
+from garkcli.exact.field import ONE
+from garkcli.exact.linear_map import EntrywiseMap, LinearMap
+from garkcli.tableau.tableau import Edge, Tableau
+from garkcli.trees.tree import Tree
 
-Found = TypeVar("Found")
+Value = TypeVar("Value")
 
 
-class OrderByOrder(ABC, Generic[Found]):
+class OrderByOrder(ABC, Generic[Value]):
     """One value for the branches of each order, and one for the forests, of every stage space.
+
+    Each is made once, on demand; where the time is over on the way, the next call goes on there.
 
     Args:
         tableau: the tableau whose trees are meant.
-        empty: for each stage space what the empty forest has: that of a single vertex.
+        vertices: for each stage space the value of the empty forest, which makes a single vertex.
     """
 
-    def __init__(self, tableau: Tableau, empty: Sequence[Found]) -> None:
+    def __init__(self, tableau: Tableau, vertices: Iterable[Value]) -> None:
         self.tableau = tableau
-        # for each stage space one order after the other
-        self._forests: list[list[Found | None]] = []
-        self._branches: list[list[Found | None]] = []
-        for value in empty:
-            self._forests.append([value])
-            self._branches.append([None])
+        # by stage space and order
+        self._forests = {(k, 0): value for k, value in enumerate(vertices)}
+        self._branches: dict[tuple[int, int], Value] = {}
 
-    def of_trees(self, l: int, order: int) -> Found | None:
-        """What all trees of an order with root colour l have; None where there is none."""
+    def of_trees(self, l: int, order: int) -> Value:
+        """The value of all trees of an order with root colour l."""
         colour = self.tableau.colours[l]
-        k = colour.space
-        self._extend(k, order - 1)
-        if colour.is_linear and order > 1:
-            return self._branches[k][order - 1]
-        return self._forests[k][order - 1]
+        has_one_branch = colour.is_linear and order > 1
+        under_root = self.branches if has_one_branch else self.forests
+        for lower in range(1, order - 1):  # one after the other: recursion stays flat
+            under_root(colour.space, lower)
+        return under_root(colour.space, order - 1)
 
-    def _extend(self, k: int, order: int) -> None:
-        """Make all values of stage space k up to an order."""
-        while len(self._forests[k]) <= order:
-            n = len(self._forests[k])
-            branches = self._new_branches(k, n)
-            self._branches[k].append(branches)
-            forests = self._new_forests(k, n)
-            self._forests[k].append(forests)
+    def branches(self, k: int, order: int) -> Value:
+        """The value of all branches of an order that the stages of space k see."""
+        if (k, order) not in self._branches:
+            self._branches[k, order] = self._joined(k, self._images(k, order))
+        return self._branches[k, order]
 
-    def _split_forests(self, k: int, order: int) -> Iterator[tuple[Found, Found]]:
+    def forests(self, k: int, order: int) -> Value:
+        """The value of all forests of an order of branches that the stages of space k see."""
+        if (k, order) not in self._forests:
+            self._forests[k, order] = self._new_forests(k, order)
+        return self._forests[k, order]
+
+    def _images(self, k: int, order: int) -> Iterator[Value]:
+        for m in range(self.tableau.size):
+            if (k, m) in self.tableau.blocks:
+                yield self._image(k, m, order, self.of_trees(m, order))
+
+    def _splits(self, k: int, order: int) -> Iterator[tuple[Value, Value]]:
         """The smallest branch, and the forest of the others, of all forests of two branches at
         least.
         """
         for j in range(1, order // 2 + 1):
-            branch = self._branches[k][j]
-            rest = self._forests[k][order - j]
-            if branch is not None and rest is not None:
-                yield branch, rest
+            yield self.branches(k, j), self.forests(k, order - j)
 
     @abstractmethod
-    def _new_branches(self, k: int, order: int) -> Found | None:
-        """What the branches of an order have, over the colours that the stages of space k see."""
+    def _image(self, k: int, m: int, order: int, trees: Value) -> Value:
+        """The value of branches in space k, from that of the trees of an order with root colour m:
+        of order · A ψ.
+        """
 
     @abstractmethod
-    def _new_forests(self, k: int, order: int) -> Found | None:
-        """What the forests of an order have, from smaller ones and the branches of this order."""
+    def _joined(self, k: int, parts: Iterable[Value]) -> Value:
+        """The value of everything in some parts, in space k."""
+
+    @abstractmethod
+    def _new_forests(self, k: int, order: int) -> Value:
+        """The value of the forests of an order, from smaller ones and the branches up to it."""
+
+
+@dataclass(frozen=True)
+class Forest:
+    """A forest, and what it contributes to the stage vector of a tree.
+
+    Attributes:
+        vector: the product of the branches' contributions, times ``scale``.
+        branches: the trees on the root.
+        scale: a common denominator; 1 where entries have inverses.
+    """
+
+    vector: Sequence[Any]
+    branches: tuple[Tree, ...] = ()
+    scale: Any = ONE
+
+
+Forests: TypeAlias = Sequence[Forest]
+
+
+class Spans(OrderByOrder[Forests]):
+    """Members that span what all branches, and all forests, contribute.
+
+    Args:
+        tableau: the tableau.
+        vertices: the empty forest of each stage space.
+        maps: the blocks of the tableau times ``scale``.
+        scale: a common denominator of the blocks.
+    """
+
+    def __init__(
+        self,
+        tableau: Tableau,
+        vertices: Iterable[Forest],
+        maps: Mapping[Edge, LinearMap | EntrywiseMap],
+        scale: Any = ONE,
+    ) -> None:
+        super().__init__(tableau, ([vertex] for vertex in vertices))
+        self._maps = maps
+        self._scale = scale
+
+    def members(self, order: int) -> Iterator[tuple[int, Forest]]:
+        """For each root colour, forests whose trees span those of all trees of an order."""
+        for l in range(self.tableau.size):
+            for forest in self.of_trees(l, order):
+                yield l, forest
+
+    def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
+        scaled = [tuple(order * y for y in x.vector) for x in trees]
+        images = self._maps[k, m].images(scaled)
+        return [
+            Forest(image, (Tree(m, x.branches),), self._scale * x.scale)
+            for image, x in zip(images, trees, strict=True)
+        ]
+
+    def _new_forests(self, k: int, order: int) -> Forests:
+        return self._joined(k, chain([self.branches(k, order)], self._products(k, order)))
+
+    def _products(self, k: int, order: int) -> Iterator[Forests]:
+        """The smallest branch times the forest of the others, a branch at a time."""
+        for branches, rests in self._splits(k, order):
+            for branch in branches:
+                batch = []
+                for rest in rests:
+                    check_time()
+                    vector = self._product(k, branch.vector, rest.vector)
+                    trees = (*branch.branches, *rest.branches)
+                    batch.append(Forest(vector, trees, branch.scale * rest.scale))
+                yield batch
+
+    def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
+        """What two branches contribute together, in space k."""
+        return self.tableau.spaces[k].product(u, v)  # type: ignore[arg-type]

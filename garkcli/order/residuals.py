@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from itertools import chain
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, arb_mat, ctx
 
@@ -22,13 +23,15 @@ from garkcli.order.conditions import coupling_graph, twin_roots
 from garkcli.order.entries import times
 from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.columns import Segment
 from garkcli.trees.count import Admissible
+from garkcli.trees.stage_vectors import StageVectors
 from garkcli.trees.table import TreeTable
 
+if TYPE_CHECKING:
+    from garkcli.trees.columns import Column, Segment
+
 Row: TypeAlias = list[arb]
-_Nature: TypeAlias = tuple[int, bool]
-"""Stage space of a colour, and whether it is linear."""
+Rows: TypeAlias = list[Row]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,35 +47,23 @@ class Sizes:
     reached: arb
 
 
-class TreeResiduals:
+class TreeResiduals(StageVectors[Rows]):
     """The residuals of every admissible tree, order after order; what orders share is kept.
 
-    ``_vectors[n, nature]``: 𝒜^[u], one row a tree, of the trees of order n in the order of the
-    table; colours of one nature share their stages and their trees. ``_applied[space, n, m]``: A
-    𝒜^[u] as columns, for the trees with root colour m.
+    A row a tree.
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
         self.enclosure = enclosure
-        self._rows = [colour.space for colour in tableau.colours]
-        self._natures: list[_Nature] = []
-        for colour in tableau.colours:
-            nature = colour.space, colour.is_linear
-            self._natures.append(nature)
         self._roots = tuple(twin_roots(tableau))
         edges, linear = coupling_graph(tableau)
         self._admissible = Admissible.of(tableau.size, edges, linear)
-        self._vectors: dict[tuple[int, _Nature], list[Row]] = {}
-        for nature in self._natures:
-            space, _ = nature
-            one = [arb(1)] * enclosure.stages[space]
-            self._vectors[1, nature] = [one]
-        self._applied: dict[tuple[int, int, int], arb_mat] = {}
+        super().__init__(self._admissible, [colour.space for colour in tableau.colours])
 
     def sizes(self, order: int) -> Sizes:
         """Bounds on all |residuals| of an order."""
         bound = reached = arb(0)
-        for residual, _, _ in self.of(order):
+        for residual, _, _ in self.of_order(order):
             size = abs(residual)
             bound = bound.max(size)
             if size > reached:
@@ -80,10 +71,10 @@ class TreeResiduals:
         return Sizes(bound.abs_upper(), reached)
 
     def table(self, order: int) -> TreeTable:
-        """The table whose ids ``of`` gives."""
+        """The table whose ids ``of_order`` gives."""
         return TreeTable.of(self._admissible, order)
 
-    def of(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
+    def of_order(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
         """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order, for
         the roots that differ in more than their colour.
         """
@@ -116,49 +107,22 @@ class TreeResiduals:
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:
         """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
-        l = segment.root
-        b = self.enclosure.b[l].entries()
-        stem_order = segment.order - segment.branch_order
-        stems = self._stage_vectors(table, stem_order, l)
-        weighted = arb_mat([times(row, b) for row in stems])
-        branches = self._branches(table, segment)
+        b = self.enclosure.b[segment.root].entries()
+        weighted = arb_mat([times(row, b) for row in self.stems(table, segment)])
+        branches = arb_mat(self.branches(table, segment)).transpose()
         return (weighted * branches).entries()
 
-    def _branches(self, table: TreeTable, segment: Segment) -> arb_mat:
-        """A 𝒜^[branch] of all branches that a segment chooses from, one column each."""
-        space = self._rows[segment.root]
-        order = segment.branch_order
-        m = segment.branch_root
-        key = space, order, m
-        if key not in self._applied:
-            vectors = self._stage_vectors(table, order, m)
-            columns = arb_mat(vectors).transpose()
-            A = self.enclosure.A[space, m]
-            self._applied[key] = A * columns
-        return self._applied[key]
+    def _part(self, vectors: Rows, places: Column) -> Rows:
+        return [vectors[i] for i in places.tolist()]
 
-    def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[Row]:
-        """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at
-        least.
-        """
-        key = order, self._natures[l]
-        if key not in self._vectors:
-            vectors: list[Row] = []
-            for segment in table.segments:
-                if segment.order == order and segment.root == l:
-                    vectors += self._products(table, segment)
-            self._vectors[key] = vectors
-        return self._vectors[key]
+    def _vertex(self, l: int) -> Rows:
+        return [[arb(1)] * self.enclosure.stages[self.rows[l]]]
 
-    def _products(self, table: TreeTable, segment: Segment) -> Iterator[Row]:
-        """𝒜^[stem] ⊙ A 𝒜^[branch] for the trees of a segment, in their order."""
-        stem_order = segment.order - segment.branch_order
-        stems = self._stage_vectors(table, stem_order, segment.root)
-        branches = self._branches(table, segment).transpose().tolist()
-        ids = slice(segment.ids.start, segment.ids.stop)
-        of_stem = table.stem[ids] - segment.stems.start
-        of_branch = table.branch[ids] - segment.branches.start
-        rows = of_stem.tolist()
-        columns = of_branch.tolist()
-        for i, j in zip(rows, columns, strict=True):
-            yield times(stems[i], branches[j])
+    def _image(self, space: int, m: int, vectors: Rows) -> Rows:
+        return (arb_mat(vectors) * self.enclosure.A[space, m].transpose()).tolist()
+
+    def _product(self, space: int, stems: Rows, branches: Rows) -> Rows:  # noqa: ARG002
+        return list(map(times, stems, branches))
+
+    def _joined(self, parts: list[Rows]) -> Rows:
+        return list(chain.from_iterable(parts))

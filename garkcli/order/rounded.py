@@ -205,7 +205,7 @@ class Conditions:
         with ctx.workprec(self.rounded.bits):
             least = self._least_effect(order)
             doubtful: list[_Doubt] = []
-            for residual, required, tree_id in self.residuals.of(order, share):
+            for residual, required, tree_id in self.residuals.of_order(order, share):
                 size = abs(residual)
                 bound = bound.max(size)
                 if not size <= least * (required - size):
@@ -221,7 +221,7 @@ class Conditions:
         """Those whose residuals one method of the box does not explain: the one with the largest
         coefficients, whose residuals differ by no more than any rounding can make them.
         """
-        moved = {u: residual for residual, _, u in self.corner.of(order, share)}
+        moved = {u: residual for residual, _, u in self.corner.of_order(order, share)}
         return [x for x in doubtful if not x[0] <= abs(moved[x[2]] - x[1])]
 
     def _by_spans(self, order: int) -> Verdict | None:

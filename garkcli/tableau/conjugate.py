@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 
 from garkcli.errors import ZeroWeight
+from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import (
     Matrix,
     SingularMatrixError,
@@ -111,30 +114,27 @@ def is_symplectic(tableau: Tableau) -> bool:
     conjugates of its position blocks, with the same weights where positions and momenta share
     stages. No weight is divided by.
     """
+    return not any(symplectic_defects(tableau))
+
+
+def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
+    """What is zero where a tableau is symplectic; 1 where a block has none on the other side."""
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
-            if _share_stages(one, other) and one.b != other.b:
-                return False
+            if _share_stages(one, other):
+                yield from (x - y for x, y in zip(one.b, other.b, strict=True))
             if not are_opposite(one, other):
                 continue
-            if not _is_symplectic_between(tableau, l, m):
-                return False
-    return True
+            if (tableau.block(l, m) is None) != (tableau.block(m, l) is None):
+                yield ONE
+            elif tableau.block(l, m) is not None:
+                yield from chain.from_iterable(symplectic_defect(tableau, l, m))
 
 
 def _share_stages(one: Colour, other: Colour) -> bool:
     """Whether a velocity and a force are evaluated at the same stages."""
     parts = {one.part, other.part}
     return one.space == other.space and parts == {"q", "p"}
-
-
-def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:
-    forth = tableau.block(l, m)
-    back = tableau.block(m, l)
-    if forth is None or back is None:
-        return forth is back
-    defect = symplectic_defect(tableau, l, m)
-    return not any(any(row) for row in defect)
 
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:

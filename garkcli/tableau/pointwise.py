@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, arb_mat, ctx
 
@@ -17,7 +17,7 @@ from garkcli.doing import doing
 from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import Further
@@ -134,19 +134,31 @@ def in_points(tableau: Tableau) -> Tableau | None:
 
     Nor have they, where together with the coefficients they generate too large a field.
     """
-    radical_nodes: dict[int, tuple[Expression, ...]] = {}
-    for k, space in enumerate(tableau.spaces):
-        if isinstance(space, PolynomialSpace):
-            nodes = simple_nodes(space)
-            if nodes is None:
-                return None
-            radical_nodes[k] = nodes
+    radical_nodes = nodes_in_radicals(tableau)
     if not radical_nodes:
-        return tableau
+        return None if radical_nodes is None else tableau
     domain = _domain_with(tableau, radical_nodes)
     if domain is None:
         return None
-    return _at_points(tableau, radical_nodes, domain)
+    own = tableau.field.radicals if tableau.field else ()
+    radicals = [domain.evaluate(radical) for radical, _ in own]
+    return at_points(
+        tableau, radical_nodes, domain, lambda x: with_radicals(x, radicals), lambda x: x
+    )
+
+
+def nodes_in_radicals(tableau: Tableau) -> dict[int, tuple[Expression, ...]] | None:
+    """The nodes of the stage spaces that are stage algebras; None where they have no simple
+    radicals.
+    """
+    nodes: dict[int, tuple[Expression, ...]] = {}
+    for k, space in enumerate(tableau.spaces):
+        if isinstance(space, PolynomialSpace):
+            simple = simple_nodes(space)
+            if simple is None:
+                return None
+            nodes[k] = simple
+    return nodes
 
 
 def _domain_with(
@@ -164,73 +176,49 @@ def _domain_with(
         return None
 
 
-@dataclass(frozen=True)
-class _Frame:
-    """A stage space with one coordinate a stage, and the maps of coordinates into it and back.
-
-    ``into`` is the Vandermonde matrix of the nodes for a polynomial space, of shape (s, s).
-    """
-
-    space: PointSpace
-    into: Matrix
-    back: Matrix
-
-
-def _at_points(
-    tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]], domain: Domain
+def at_points(
+    tableau: Tableau,
+    nodes: Mapping[int, Sequence[Expression]],
+    domain: Domain,
+    coefficient: Callable[[Any], Any],
+    number: Callable[[Number], Any],
 ) -> Tableau:
-    """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes."""
-    embed = _embedding(tableau, domain)
-    frames: list[_Frame] = []
+    """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes.
+
+    Args:
+        tableau: a family or a single method.
+        nodes: of the stage spaces that are stage algebras.
+        domain: of these nodes.
+        coefficient: what becomes of a coefficient.
+        number: what becomes of a number of the domain.
+    """
+    spaces: list[PointSpace] = []
+    into: list[Matrix] = []
+    back: list[Matrix] = []
     for k, old in enumerate(tableau.spaces):
-        if k in radical_nodes:
-            nodes = tuple(map(domain.evaluate, radical_nodes[k]))
-            space = PointSpace(nodes)
-            V = space.reductions(space.stages)
-            frames.append(_Frame(space, V, space.lifts()))
+        if k in nodes:
+            space = PointSpace(tuple(map(domain.evaluate, nodes[k])))
+            into.append(_mapped(space.reductions(space.stages), number))
+            back.append(_mapped(space.lifts(), number))
+            spaces.append(PointSpace(tuple(map(number, space.points))))
         else:
-            space = PointSpace(tuple(map(embed, old.nodes)))
-            unit = identity(space.stages)
-            frames.append(_Frame(space, unit, unit))
+            spaces.append(PointSpace(tuple(map(coefficient, old.nodes))))
+            into.append(identity(old.stages))
+            back.append(identity(old.stages))
     blocks: dict[Edge, Matrix] = {}
     for (k, m), block in tableau.blocks.items():
-        into = frames[k].into
-        back = frames[tableau.colours[m].space].back
-        in_domain = tuple(tuple(map(embed, row)) for row in block)
-        in_coordinates = multiply(in_domain, back)
-        blocks[k, m] = multiply(into, in_coordinates)
+        in_coordinates = multiply(_mapped(block, coefficient), back[tableau.colours[m].space])
+        blocks[k, m] = multiply(into[k], in_coordinates)
     colours = []
     for colour in tableau.colours:
-        frame = frames[colour.space]
-        weights = tuple(map(embed, colour.b))
-        nodes = tuple(map(embed, colour.c))
-        b = apply_left(weights, frame.back)
-        c = apply(frame.into, nodes)
-        colours.append(replace(colour, b=b, c=c))
-    spaces = tuple(frame.space for frame in frames)
-    return Tableau(spaces, tuple(colours), blocks)
+        b, c = _mapped((colour.b, colour.c), coefficient)
+        k = colour.space
+        colours.append(replace(colour, b=apply_left(b, back[k]), c=apply(into[k], c)))
+    return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
-    """The map of the tableau's numbers into a larger domain."""
-    field = tableau.field
-    if field is None:
-        return lambda number: number
-    radicals = [domain.evaluate(radical) for radical, _ in field.radicals]
-
-    def embed(number: Number) -> Number:
-        if not isinstance(number, Algebraic):
-            return number
-        total: Number = ZERO
-        coefficients = field.in_radicals(number)
-        for coefficient, word in zip(coefficients, field.monomials, strict=True):
-            term: Number = ONE * coefficient
-            for index in word:
-                term = term * radicals[index]
-            total = total + term
-        return total
-
-    return embed
+def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
+    return tuple(tuple(map(change, row)) for row in rows)
 
 
 @doing("entries")

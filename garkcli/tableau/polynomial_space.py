@@ -62,7 +62,7 @@ class PolynomialSpace(StageSpace):
         if is_rational((u, v)):
             f, g = in_flint(u), in_flint(v)
             return self._vector(f * g % self.modulus)
-        return apply(self._higher, _convolution(u, v))
+        return apply(self._higher, convolution(u, v))
 
     @cached_property
     def _higher(self) -> Matrix:
@@ -169,7 +169,8 @@ def _has_long_denominators(row: Vector) -> bool:
     return sum(lengths) > MAX_BITS_OF_ROW
 
 
-def _convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
+def convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
+    """The product of two polynomials, lowest coefficients first."""
     length = len(u) + len(v) - 1
     out: list[Number] = [ZERO] * length
     for i, x in enumerate(u):

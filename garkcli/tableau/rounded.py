@@ -10,20 +10,21 @@ it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import Number
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import apply
 from garkcli.tableau.conjugate import are_opposite, conjugate
 from garkcli.tableau.embedded import Weights, with_weights
 from garkcli.tableau.enclosing import Enclosure, enclose_nodes, enclose_tableau
 from garkcli.tableau.forms import pair
 from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 GUARD = 96
@@ -127,6 +128,20 @@ class RoundedTableau:
         """The nodes as balls, a row a colour."""
         with ctx.workprec(self.bits):
             return _widened(enclose_nodes(self.tableau, self.bits), self.c)
+
+    @cached_property
+    def in_balls(self) -> Tableau:
+        """The tableau with these balls in place of its numbers, a coordinate a stage."""
+        A: Any = self.balls.A  # no numbers, and used like these
+        b: Any = self.balls.b
+        c: Any = self.nodes
+        blocks = {key: tuple(map(tuple, block.tolist())) for key, block in A.items()}
+        colours = tuple(
+            replace(colour, b=tuple(weights.entries()), c=tuple(nodes))
+            for colour, weights, nodes in zip(self.tableau.colours, b, c, strict=True)
+        )
+        spaces = tuple(PointSpace((ZERO,) * s) for s in self.balls.stages)
+        return Tableau(spaces, colours, blocks)
 
     def conjugate(self) -> RoundedTableau:
         """The symplectic conjugate, with an obstacle where a weight that it divides by may be 0.

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.trees import weights as module
+from garkcli.trees import stage_vectors as module
 from garkcli.trees.table import TreeTable
 from garkcli.trees.tree import Tree
 from garkcli.trees.weights import elementary_weights

@@ -13,7 +13,7 @@ from flint import arb, fmpq, fmpq_mpoly
 
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.points import Fixings, polished
-from garkcli.design.search.rational import RationalFunction, as_ball, as_float
+from garkcli.design.search.rational import RationalFunction, as_float, with_gradients
 from garkcli.exact.parametric import Parameters
 
 if TYPE_CHECKING:
@@ -38,19 +38,7 @@ class _Equations:
         """Values, shape (equations, points), and derivatives, shape (equations, unknowns,
         points).
         """
-        import numpy as np
-
-        constant: Any = as_ball if points.dtype == object else as_float
-        zero = constant(fmpq(0))
-        count = len(self.functions)
-        values = np.full((count, points.shape[1]), zero, points.dtype)
-        slopes = np.full((count, *points.shape), zero, points.dtype)
-        for k, function in enumerate(self.functions):
-            slope = function.at(points, constant)
-            values[k] = slope.value
-            for unknown, derivative in slope.derivatives:
-                slopes[k, unknown] = derivative
-        return values, slopes
+        return with_gradients(self.functions, points)
 
 
 def critical_point_near(

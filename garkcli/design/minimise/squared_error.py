@@ -14,26 +14,18 @@ and these are few. The work grows with the order as a polynomial, whatever the n
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from itertools import chain
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from flint import fmpq
 
 from garkcli.deadline import check_time
-from garkcli.design.minimise.tensors import (
-    Entry,
-    Pair,
-    Row,
-    Square,
-    Tensor,
-    TensorAlgebra,
-    scaled,
-    squared,
-)
-from garkcli.exact.field import ONE
-from garkcli.exact.parametric import Parameters, common_denominator, fraction
-from garkcli.tableau.tableau import Edge, Tableau
+from garkcli.design.cleared import Cleared, Entry, Row, Square
+from garkcli.design.minimise.tensors import Pair, Tensor, TensorAlgebra, scaled, squared
+from garkcli.exact.matrix import apply, dot
+from garkcli.exact.parametric import Parameters
+from garkcli.order.recursion import OrderByOrder
+from garkcli.tableau.tableau import Tableau
 
 
 @dataclass(frozen=True)
@@ -57,12 +49,12 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
         order: of the trees.
         ring: the parameters; None where all entries are numbers.
     """
-    return _Sums(_Cleared.of(tableau, ring)).total(order)
+    return _Sums(Cleared.of(tableau, ring)).total(order)
 
 
 def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     """The same over the trees of more than one colour."""
-    cleared = _Cleared.of(tableau, ring)
+    cleared = Cleared.of(tableau, ring)
     total = _Sums(cleared).total(order)
     numerator = total.numerator
     for l in range(tableau.size):
@@ -70,55 +62,6 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
             alone = _Sums(cleared.alone(l)).total(order)
             numerator = numerator - alone.numerator
     return Quotient(numerator, total.denominator)
-
-
-@dataclass(frozen=True)
-class _Cleared:
-    """A tableau times denominators: blocks D A, weights E b."""
-
-    tableau: Tableau
-    blocks: dict[Edge, Square]
-    weights: tuple[Row, ...]
-    D: Entry
-    E: Entry
-    one: Entry
-
-    @classmethod
-    def of(cls, tableau: Tableau, ring: Parameters | None) -> _Cleared:
-        weights = tuple(colour.b for colour in tableau.colours)
-        if ring is None:
-            blocks = dict(tableau.blocks)
-            return cls(tableau, blocks, weights, ONE, ONE, ONE)
-        rows = list(chain.from_iterable(tableau.blocks.values()))
-        D = common_denominator(chain.from_iterable(rows), ring)
-        E = common_denominator(chain.from_iterable(weights), ring)
-
-        def cleared(row: Sequence[object], denominator: Entry) -> Row:
-            made = []
-            for x in row:
-                numerator, own = fraction(x, ring)
-                made.append(numerator * (denominator // own))
-            return tuple(made)
-
-        blocks = {}
-        for edge, block in tableau.blocks.items():
-            blocks[edge] = tuple(cleared(row, D) for row in block)
-        b = tuple(cleared(row, E) for row in weights)
-        return cls(tableau, blocks, b, D, E, ring.constant(fmpq(1)))
-
-    def alone(self, l: int) -> _Cleared:
-        """One colour by itself."""
-        colour = self.tableau.colours[l]
-        space = self.tableau.spaces[colour.space]
-        own = {}
-        mine = self.tableau.blocks.get((colour.space, l))
-        if mine is not None:
-            own[0, 0] = mine
-        tableau = Tableau((space,), (replace(colour, space=0),), own)
-        blocks = {}
-        if mine is not None:
-            blocks[0, 0] = self.blocks[colour.space, l]
-        return replace(self, tableau=tableau, blocks=blocks, weights=(self.weights[l],))
 
 
 @dataclass(frozen=True)
@@ -134,20 +77,15 @@ class _Branch:
     symmetry: int
 
 
-class _Sums:
+class _Sums(OrderByOrder[Tensor]):
     """The sums over forests and branches, order by order."""
 
-    def __init__(self, cleared: _Cleared) -> None:
+    def __init__(self, cleared: Cleared) -> None:
         self.cleared = cleared
-        tableau = cleared.tableau
-        self._algebras = [TensorAlgebra(space, cleared.one) for space in tableau.spaces]
-        self._forests: list[list[Tensor]] = []
-        self._sums: list[list[Tensor]] = []
-        self._branches: list[list[list[_Branch]]] = []
-        for algebra in self._algebras:
-            self._forests.append([squared(algebra.unit)])
-            self._sums.append([algebra.nothing])
-            self._branches.append([[]])
+        self._algebras = [TensorAlgebra(x, cleared.one) for x in cleared.tableau.spaces]
+        # of each stage space, by order
+        self._trees: list[list[list[_Branch]]] = [[[]] for _ in self._algebras]
+        super().__init__(cleared.tableau, (squared(x.unit) for x in self._algebras))
 
     def total(self, order: int) -> Quotient:
         """Σ e(u)² over the trees of an order, over all root colours."""
@@ -155,63 +93,42 @@ class _Sums:
         E = cleared.E
         total = cleared.one * 0
         for l, b in enumerate(cleared.weights):
-            x = self._of_trees(l, order)
+            x = self.of_trees(l, order)
             # (b v)² − 2 (b v) (E w / order) + (E w / order)²
             scale = E * fmpq(1, order)
-            rows = [_dot(b, row) for row in x.vv]
-            mixed = _dot(b, x.vw) * scale
-            total += _dot(b, rows)
-            total -= mixed * 2
+            total += dot(b, _applied(x.vv, b))
+            total -= dot(b, x.vw) * scale * 2
             total += x.ww * scale * scale
         power = cleared.D ** (order - 1)
         denominator = E * power
         return Quotient(total, denominator * denominator)
 
-    def _of_trees(self, l: int, order: int) -> Tensor:
-        """The sum over the forests under a root of colour l."""
-        colour = self.cleared.tableau.colours[l]
-        self._extend(colour.space, order - 1)
-        if colour.is_linear and order > 1:
-            return self._sums[colour.space][order - 1]
-        return self._forests[colour.space][order - 1]
+    def _image(self, k: int, m: int, order: int, trees: Tensor) -> Tensor:
+        block = self.cleared.blocks[k, m]
+        scale = self.cleared.D * fmpq(1, order)
+        columns = [_applied(block, row) for row in trees.vv]
+        vv = tuple(_applied(block, row) for row in zip(*columns, strict=True))
+        return Tensor(vv, scaled(_applied(block, trees.vw), scale), trees.ww * scale * scale)
 
-    def _extend(self, k: int, order: int) -> None:
-        """The sums of stage space k up to an order."""
-        while len(self._forests[k]) <= order:
-            n = len(self._forests[k])
-            self._sums[k].append(self._sum_of_branches(k, n))
-            self._forests[k].append(self._sum_of_forests(k, n))
-
-    def _sum_of_branches(self, k: int, order: int) -> Tensor:
-        """Σ x_u over the trees of an order that the stages of space k see."""
+    def _joined(self, k: int, parts: Iterable[Tensor]) -> Tensor:
         total = self._algebras[k].nothing
-        D = self.cleared.D
-        for m in range(self.cleared.tableau.size):
-            block = self.cleared.blocks.get((k, m))
-            if block is None:
-                continue
-            x = self._of_trees(m, order)
-            scale = D * fmpq(1, order)
-            columns = [_applied(block, row) for row in x.vv]
-            vv = [_applied(block, row) for row in zip(*columns, strict=True)]
-            vw = scaled(_applied(block, x.vw), scale)
-            seen = Tensor(tuple(vv), vw, x.ww * scale * scale)
-            total = total.plus(seen)
+        for part in parts:
+            total = total.plus(part)
         return total
 
-    def _sum_of_forests(self, k: int, order: int) -> Tensor:
+    def _new_forests(self, k: int, order: int) -> Tensor:
         """The exponential E = exp L by n E_n = Σ_j j L_j E_{n−j}."""
-        algebra = self._algebras[k]
-        total = algebra.nothing
+        multiplied = self._algebras[k].multiplied
+        parts = []
         for j in range(1, order + 1):
-            part = algebra.multiplied(self._logarithm(k, j), self._forests[k][order - j])
-            total = total.plus(part.times(fmpq(j, order)))
-        return total
+            part = multiplied(self._logarithm(k, j), self.forests(k, order - j))
+            parts.append(part.times(fmpq(j, order)))
+        return self._joined(k, parts)
 
     def _logarithm(self, k: int, order: int) -> Tensor:
         """L_j = Σ c_m Σ_u x_u^m over the trees u of order j/m."""
         algebra = self._algebras[k]
-        total = self._sums[k][order]
+        total = self.branches(k, order)
         factors = _logarithm_of_squares(order)
         for m in range(2, order + 1):
             if order % m:
@@ -226,12 +143,12 @@ class _Sums:
 
     def _all_branches(self, k: int, order: int) -> list[_Branch]:
         """Every tree of an order that the stages of space k see."""
-        known = self._branches[k]
+        known = self._trees[k]
         while len(known) <= order:
-            known.append(list(self._new_branches(k, len(known))))
+            known.append(list(self._new_trees(k, len(known))))
         return known[order]
 
-    def _new_branches(self, k: int, order: int) -> Iterator[_Branch]:
+    def _new_trees(self, k: int, order: int) -> Iterator[_Branch]:
         D = self.cleared.D
         for m, colour in enumerate(self.cleared.tableau.colours):
             block = self.cleared.blocks.get((k, m))
@@ -281,17 +198,9 @@ def _joined(algebra: TensorAlgebra, a: _Branch, b: _Branch) -> _Branch:
     return _Branch(value, a.symmetry * b.symmetry)
 
 
-def _dot(a: Sequence[Entry], b: Sequence[Entry]) -> Entry:
-    check_time()
-    total = a[0] * b[0]
-    for x, y in zip(a[1:], b[1:], strict=True):
-        if x and y:
-            total += x * y
-    return total
-
-
 def _applied(block: Square, v: Sequence[Entry]) -> Row:
-    return tuple(_dot(row, v) for row in block)
+    check_time()
+    return apply(block, v)
 
 
 def _logarithm_of_squares(terms: int) -> list[fmpq]:

@@ -6,21 +6,16 @@ S ⊗ S.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
 
 from flint import fmpq
 
 from garkcli.deadline import check_time
-from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.design.cleared import Entry, Row, Square
+from garkcli.exact.matrix import apply
+from garkcli.tableau.polynomial_space import PolynomialSpace, convolution
 from garkcli.tableau.stages import StageSpace
-
-Entry: TypeAlias = Any
-"""A polynomial of parameters, or an exact number."""
-Row: TypeAlias = tuple[Entry, ...]
-Square: TypeAlias = tuple[Row, ...]
 
 
 @dataclass(frozen=True)
@@ -72,33 +67,8 @@ class TensorAlgebra:
 
     def product(self, u: Row, v: Row) -> Row:
         """The product of two stage vectors."""
-        if not isinstance(self.space, PolynomialSpace):
-            return multiplied(u, v)
-        raised = self._convolved([(u, v)])
-        return self._reduced(raised)
-
-    def _convolved(self, pairs: Sequence[tuple[Row, Row]]) -> list[Entry]:
         check_time()
-        s = self.space.stages
-        out = [self.zero] * (2 * s - 1)
-        for u, v in pairs:
-            for i, x in enumerate(u):
-                for j, y in enumerate(v, start=i):
-                    if x and y:
-                        out[j] += x * y
-        return out
-
-    def _reduced(self, out: list[Entry]) -> Row:
-        """x^k for k ≥ s by the node polynomial, from the highest down."""
-        space = self.space
-        assert isinstance(space, PolynomialSpace)
-        s = space.stages
-        lower = [space.modulus[j] for j in range(s)]
-        for k in reversed(range(s, 2 * s - 1)):
-            highest = out[k]
-            for j, a in enumerate(lower, start=k - s):
-                out[j] -= highest * a
-        return tuple(out[:s])
+        return self.space.product(u, v)
 
     def multiplied(self, a: Tensor, b: Tensor) -> Tensor:
         """The product of two tensors."""
@@ -109,23 +79,18 @@ class TensorAlgebra:
 
     def _squares(self, a: Square, b: Square) -> Square:
         if not isinstance(self.space, PolynomialSpace):
-            pairs_of_rows = zip(a, b, strict=True)
-            return tuple(multiplied(u, v) for u, v in pairs_of_rows)
+            return tuple(map(self.product, a, b))
         # rows are polynomials in y, the column of rows one in x
         s = self.space.stages
-        rows = []
-        for k in range(2 * s - 1):
-            first = max(0, k - s + 1)
-            last = min(k, s - 1)
-            pairs = []
-            for i in range(first, last + 1):
-                pair = a[i], b[k - i]
-                pairs.append(pair)
-            raised = self._convolved(pairs)
-            rows.append(self._reduced(raised))
-        columns = zip(*rows, strict=True)
-        reduced = [self._reduced(list(column)) for column in columns]
-        return tuple(zip(*reduced, strict=True))
+        reductions = self.space.reductions(2 * s - 1)
+        rows: list[Row] = [(self.zero,) * (2 * s - 1)] * (2 * s - 1)
+        for i, u in enumerate(a):
+            for j, v in enumerate(b, start=i):
+                check_time()
+                rows[j] = _added(rows[j], convolution(u, v))
+        half = [apply(reductions, row) for row in rows]
+        columns = [apply(reductions, column) for column in zip(*half, strict=True)]
+        return tuple(zip(*columns, strict=True))
 
     def power(self, x: Pair, k: int) -> Pair:
         """The k-th power of an element of S."""
@@ -150,9 +115,3 @@ def squared(x: Pair) -> Tensor:
     vw = scaled(x.v, x.w)
     ww = x.w * x.w
     return Tensor(vv, vw, ww)
-
-
-def multiplied(u: Row, v: Row) -> Row:
-    """The product, entry by entry."""
-    check_time()
-    return tuple(x * y for x, y in zip(u, v, strict=True))

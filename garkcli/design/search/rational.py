@@ -8,7 +8,7 @@ same to the last bit on every machine with IEEE arithmetic.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -109,3 +109,25 @@ class RationalFunction:
             change = of_p.at(points, constant) - value * of_q.at(points, constant)
             derivatives.append((unknown, change / q))
         return Slope(value, tuple(derivatives))
+
+
+def with_gradients(functions: Sequence[RationalFunction], points: Array) -> tuple[Array, Array]:
+    """Values, shape (functions, points), and derivatives, (functions, unknowns, points).
+
+    Args:
+        functions: of the same unknowns.
+        points: shape (unknowns, points), of floats or of balls.
+    """
+    import numpy as np
+
+    constant: Constant = as_ball if points.dtype == object else as_float
+    zero = constant(fmpq(0))
+    unknowns, count = points.shape
+    values = np.full((len(functions), count), zero, points.dtype)
+    gradients = np.full((len(functions), unknowns, count), zero, points.dtype)
+    for number, function in enumerate(functions):
+        slope = function.at(points, constant)
+        values[number] = slope.value
+        for unknown, derivative in slope.derivatives:
+            gradients[number, unknown] = derivative
+    return values, gradients

@@ -13,17 +13,24 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.search.rational import Constant, RationalFunction, Slope, as_ball, as_float
+from garkcli.design.search.rational import (
+    Constant,
+    RationalFunction,
+    Slope,
+    as_ball,
+    as_float,
+    with_gradients,
+)
 from garkcli.exact.parametric import Parameters
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
+from garkcli.trees.stage_vectors import StageVectors
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from garkcli.design.search.rational import Array
-    from garkcli.trees.columns import Segment
 
 
 class Residuals:
@@ -110,18 +117,7 @@ class Generators:
 
     def at(self, points: Array) -> tuple[Array, Array]:
         """Values and derivatives as those of ``Residuals.at``; points are balls."""
-        import numpy as np
-
-        zero = as_ball(fmpq(0))
-        unknowns, count = points.shape
-        values = np.full((len(self.functions), count), zero, object)
-        gradients = np.full((len(self.functions), unknowns, count), zero, object)
-        for number, function in enumerate(self.functions):
-            slope = function.at(points, as_ball)
-            values[number] = slope.value
-            for unknown, derivative in slope.derivatives:
-                gradients[number, unknown] = derivative
-        return values, gradients
+        return with_gradients(self.functions, points)
 
 
 def _functions(rows: Sequence[Sequence[object]], ring: Parameters) -> list[list[RationalFunction]]:
@@ -137,19 +133,20 @@ class _Vectors:
         self.values = values
         self.derivatives = derivatives
 
-    def part(self, which: Array) -> _Vectors:
+    def __getitem__(self, which: Array) -> _Vectors:
         return _Vectors(self.values[which], self.derivatives[which])
 
 
-class _Evaluation:
-    """One evaluation; ``vectors[n, l]`` and ``applied[space, n, m]`` as for float weights."""
+class _Evaluation(StageVectors[_Vectors]):
+    """One evaluation."""
 
     def __init__(self, system: Residuals, points: Array) -> None:
         import numpy as np
 
+        tableau, self.table = system.tableau, system.table
+        super().__init__(self.table.admissible, [colour.space for colour in tableau.colours])
         self.np = np
         self.system = system
-        self.table = system.table
         self.points = points
         self.is_exact = points.dtype == object
         self.constant: Constant = as_ball if self.is_exact else as_float
@@ -158,8 +155,6 @@ class _Evaluation:
             for key, block in system.blocks.items()
         }
         self.weights = [[x.at(points, self.constant) for x in row] for row in system.weights]
-        self.vectors: dict[tuple[int, int], _Vectors] = {}
-        self.applied: dict[tuple[int, int, int], _Vectors] = {}
         shape = len(system), points.shape[1]
         self.values = self._zeros(*shape)
         self.gradients = self._zeros(shape[0], system.unknowns, shape[1])
@@ -170,25 +165,14 @@ class _Evaluation:
         return self.np.zeros(shape)
 
     def run(self) -> tuple[Array, Array]:
-        tableau, table = self.system.tableau, self.table
-        for l in range(tableau.size):
-            one = self._single_vertex(l)
-            self.vectors[1, l] = one
-            self._close(l, slice(l, l + 1), one)
-        for order in range(2, table.max_order + 1):
-            self._apply(order - 1)
-            for segment in table.segments:
-                if segment.order == order:
-                    self._grow(segment)
-        for number, function in enumerate(self.system.more, start=len(table)):
-            slope = function.at(self.points, self.constant)
-            self.values[number] = slope.value
-            for unknown, derivative in slope.derivatives:
-                self.gradients[number, unknown] = derivative
+        for l, ids, vectors in self.everything(self.table):
+            self._close(l, ids, vectors)
+        more = slice(len(self.table), None)
+        self.values[more], self.gradients[more] = with_gradients(self.system.more, self.points)
         return self.values, self.gradients
 
-    def _single_vertex(self, colour: int) -> _Vectors:
-        space = self.system.tableau.space(colour)
+    def _vertex(self, l: int) -> _Vectors:
+        space = self.system.tableau.space(l)
         points = self.points.shape[1]
         values = self._zeros(1, space.stages, points)
         for i, x in enumerate(space.one):
@@ -196,22 +180,18 @@ class _Evaluation:
         derivatives = self._zeros(1, space.stages, self.system.unknowns, points)
         return _Vectors(values, derivatives)
 
-    def _apply(self, order: int) -> None:
-        """Every block to the vectors of the trees of one order."""
-        for (space, m), block in self.blocks.items():
-            vectors = self.vectors.get((order, m))
-            if vectors is None:
-                continue
-            trees, _, points = vectors.values.shape
-            image = _Vectors(
-                self._zeros(trees, len(block), points),
-                self._zeros(trees, len(block), self.system.unknowns, points),
-            )
-            for i, row in enumerate(block):
-                for j, slope in enumerate(row):
-                    if isinstance(slope, Slope):
-                        self._add_multiple(image, i, slope, vectors, j)
-            self.applied[space, order, m] = image
+    def _image(self, space: int, m: int, vectors: _Vectors) -> _Vectors:
+        block = self.blocks[space, m]
+        trees, _, points = vectors.values.shape
+        image = _Vectors(
+            self._zeros(trees, len(block), points),
+            self._zeros(trees, len(block), self.system.unknowns, points),
+        )
+        for i, row in enumerate(block):
+            for j, slope in enumerate(row):
+                if isinstance(slope, Slope):
+                    self._add_multiple(image, i, slope, vectors, j)
+        return image
 
     def _add_multiple(
         self, image: _Vectors, i: int, slope: Slope, vectors: _Vectors, j: int
@@ -224,33 +204,12 @@ class _Evaluation:
         for unknown, derivative in slope.derivatives:
             image.derivatives[:, i, unknown] += derivative * v
 
-    def _grow(self, segment: Segment) -> None:
-        """The trees of a segment: their stage vectors and residuals."""
-        check_time()
-        table, root = self.table, segment.root
-        ids = slice(segment.ids.start, segment.ids.stop)
-        space = self.system.tableau.colours[root].space
-        stem_order = segment.order - segment.branch_order
-        first = segment.stems.start
-        # vectors of an order and root colour are in the order of their ids
-        stems = self.vectors[stem_order, root].part(table.stem[ids] - first)
-        applied = self.applied[space, segment.branch_order, segment.branch_root]
-        branches = applied.part(table.branch[ids] - segment.branches.start)
-        made = self._product(space, stems, branches)
-        self._close(root, ids, made)
-        if segment.order < table.max_order:
-            self._keep(segment.order, root, made)
-
-    def _keep(self, order: int, root: int, made: _Vectors) -> None:
-        known = self.vectors.get((order, root))
-        if known is not None:
-            join = self.np.concatenate
-            values = join([known.values, made.values])
-            derivatives = join([known.derivatives, made.derivatives])
-            made = _Vectors(values, derivatives)
-        self.vectors[order, root] = made
+    def _joined(self, parts: list[_Vectors]) -> _Vectors:
+        join = self.np.concatenate
+        return _Vectors(join([x.values for x in parts]), join([x.derivatives for x in parts]))
 
     def _product(self, space: int, u: _Vectors, v: _Vectors) -> _Vectors:
+        check_time()
         stages = self.system.tableau.spaces[space]
         if not isinstance(stages, PolynomialSpace):
             values = u.values * v.values

@@ -2,9 +2,8 @@
 
 from typing import cast
 
-from flint import fmpq
-
-from garkcli.design.wants.want import ZERO, Asked, Meaning, Want
+from garkcli.design.wants.want import Asked, Meaning, Want
+from garkcli.order.defects import Defects
 
 
 def _meaning(asked: Asked) -> Meaning:
@@ -20,20 +19,16 @@ def _meaning(asked: Asked) -> Meaning:
     stages = max(len(tableau.colours[l].c) for l in asked.colours)
     wanted = cast("int", asked.value)
     highest = min(wanted, stages + 1)
-    zeros = []
+    defects = Defects(tableau)
+    zeros: list[object] = []
     for l in asked.colours:
-        b, c = tableau.colours[l].b, tableau.colours[l].c
         for k in range(1, min(wanted, 2 * stages + 1) + 1):
-            moment = sum((w * x ** (k - 1) for w, x in zip(b, c, strict=True)), start=ZERO)
-            zeros.append(moment - fmpq(1, k))
+            zeros += defects.B(l, k)
         asked.diagonal(l, "stage-order")
         for m in asked.colours:
-            block = asked.block(l, m, "stage-order")
-            c_m = tableau.colours[m].c
+            asked.block(l, m, "stage-order")
             for k in range(1, highest + 1):
-                for row, node in zip(block, c, strict=True):
-                    terms = (a * x ** (k - 1) for a, x in zip(row, c_m, strict=True))
-                    zeros.append(sum(terms, start=ZERO) - node**k / fmpq(k))
+                zeros += defects.C(l, m, k)
     return Meaning(tuple(zeros))
 
 

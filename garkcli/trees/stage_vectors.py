@@ -1,0 +1,104 @@
+"""The stage vectors 𝒜^[u] of all trees of a table, whatever their entries are."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from garkcli.trees.columns import Column, Segment
+    from garkcli.trees.count import Admissible
+    from garkcli.trees.table import TreeTable
+
+Vectors = TypeVar("Vectors")
+CHUNK = 1 << 16
+"""Trees whose stage vectors are gathered at once: bounds the memory of the highest order."""
+
+
+class StageVectors(ABC, Generic[Vectors]):
+    """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of a table.
+
+    Vectors are those of several trees, in the order of their ids. Tables of any order may be asked
+    for: what they share is kept. Colours that share their stages and their branches share vectors.
+
+    Args:
+        admissible: which trees are meant.
+        rows: the stage space of each colour.
+    """
+
+    def __init__(self, admissible: Admissible, rows: Sequence[int]) -> None:
+        self.rows = rows
+        self._natures = [
+            (space, admissible.branches[l], admissible.is_linear(l)) for l, space in enumerate(rows)
+        ]
+        self._vectors: dict[tuple[int, object], Vectors] = {}
+        self._images: dict[tuple[int, int, int], Vectors] = {}
+
+    def everything(self, table: TreeTable) -> Iterator[tuple[int, slice, Vectors]]:
+        """The root colour, the ids and the stage vectors of all trees, some at a time; those of the
+        highest order are never held together.
+        """
+        highest = table.max_order
+        for order in range(1, max(highest, 2)):
+            for l in range(table.colours):
+                ids = table.ids(order, l)
+                if ids:
+                    yield l, slice(ids.start, ids.stop), self.of(table, order, l)
+        for segment in table.segments:
+            if segment.order == highest:
+                for here, vectors in self._pieces(table, segment):
+                    yield segment.root, here, vectors
+
+    def of(self, table: TreeTable, order: int, l: int) -> Vectors:
+        """Those of the trees of an order with root colour l; there is one at least."""
+        key = order, self._natures[l]
+        if key not in self._vectors:
+            parts = [self._vertex(l)] if order == 1 else []
+            for segment in table.segments:
+                if segment.order == order and segment.root == l:
+                    parts += [vectors for _, vectors in self._pieces(table, segment)]
+            self._vectors[key] = parts[0] if len(parts) == 1 else self._joined(parts)
+        return self._vectors[key]
+
+    def branches(self, table: TreeTable, segment: Segment) -> Vectors:
+        """A 𝒜^[branch] of all branches that a segment chooses from."""
+        space, m = self.rows[segment.root], segment.branch_root
+        key = space, segment.branch_order, m
+        if key not in self._images:
+            self._images[key] = self._image(space, m, self.of(table, segment.branch_order, m))
+        return self._images[key]
+
+    def stems(self, table: TreeTable, segment: Segment) -> Vectors:
+        """𝒜^[stem] of all stems that a segment chooses from."""
+        return self.of(table, segment.order - segment.branch_order, segment.root)
+
+    def _pieces(self, table: TreeTable, segment: Segment) -> Iterator[tuple[slice, Vectors]]:
+        space, ids = self.rows[segment.root], segment.ids
+        stems, branches = self.stems(table, segment), self.branches(table, segment)
+        for start in range(ids.start, ids.stop, CHUNK):
+            here = slice(start, min(start + CHUNK, ids.stop))
+            left = self._part(stems, table.stem[here] - segment.stems.start)
+            right = self._part(branches, table.branch[here] - segment.branches.start)
+            yield here, self._product(space, left, right)
+
+    def _part(self, vectors: Any, places: Column) -> Vectors:
+        """Those at some places, copied."""
+        part: Vectors = vectors[places]
+        return part
+
+    @abstractmethod
+    def _vertex(self, l: int) -> Vectors:
+        """𝟙, of the single vertex of colour l."""
+
+    @abstractmethod
+    def _image(self, space: int, m: int, vectors: Vectors) -> Vectors:
+        """A 𝒜^[u], A the block of a stage space and a colour."""
+
+    @abstractmethod
+    def _product(self, space: int, stems: Vectors, branches: Vectors) -> Vectors:
+        """The products of two vectors each; both may be written over."""
+
+    @abstractmethod
+    def _joined(self, parts: list[Vectors]) -> Vectors:
+        """Some after the other."""
