@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from flint import fmpq
 
 from garkcli import find_order, loads, pair
 from garkcli.design.chosen import first_method
