@@ -18,7 +18,7 @@ from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.methodfile.load import load
-from garkcli.page.bandplot import INSIDE, SINGLE, terminal_band
+from garkcli.page.asciiplot import INSIDE, POINT, terminal_band
 from garkcli.page.paint import Paint
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure as draw
@@ -285,7 +285,7 @@ def test_band_joins_its_points() -> None:
         drawn = [
             line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column] for line in lines
         ]
-        assert any(x in (INSIDE, SINGLE) for x in drawn)
+        assert any(x in (INSIDE, POINT) for x in drawn)
 
 
 @pytest.mark.parametrize(

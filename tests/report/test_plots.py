@@ -22,7 +22,7 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
-from garkcli.page.asciiplot import SEVERAL, terminal_curves, terminal_plot
+from garkcli.page.asciiplot import POINT, SEVERAL, terminal_curves
 from garkcli.plots import saving
 from garkcli.plots.convergence import comparison_scene, convergence_scene
 from garkcli.plots.figure import figure as draw
@@ -70,41 +70,38 @@ def beyond_floats() -> Convergence:
     return result
 
 
-def test_terminal_plot_is_a_straight_line() -> None:
+def test_points_are_on_a_straight_line() -> None:
     """Points of error = h² rise from the lower left to the upper right corner, in equal steps."""
     h = [10.0**-k for k in range(4)]
-    lines = terminal_plot(h, [x**2 for x in h], width=31, height=7).splitlines()
-    at = [(i, line.index("•")) for i, line in enumerate(lines) if "•" in line]
+    lines = terminal_curves({POINT: [(x, x**2) for x in h]}, "h", 31, 7).splitlines()
+    at = [(i, line.index(POINT)) for i, line in enumerate(lines) if POINT in line]
     assert [i for i, _ in at] == [1, 3, 5, 7]
     assert [at[k][1] - at[k + 1][1] for k in range(3)] == [10, 10, 10]
 
 
 @pytest.mark.parametrize("name", ["explicit-euler", "rk4"])
-def test_terminal_plot_fits_the_terminal(name: str) -> None:
-    """Every point is there, the reference line too, within 80 columns."""
-    result = result_of(name)
-    text = terminal_plot(
-        [r.h for r in result.rows], [r.error for r in result.rows], order=result.visible_order
-    )
+def test_errors_fit_the_terminal(name: str) -> None:
+    """Every point is there, within 60 columns."""
+    points = [(row.h, row.error) for row in result_of(name).rows]
+    text = terminal_curves({POINT: points}, "h")
     lines = text.splitlines()
     assert len(lines) == 16 + 3
-    assert max(map(len, lines)) <= 80
-    assert text.count("•") == len(result.rows)
-    assert "·" in text
+    assert max(map(len, lines)) <= 58
+    assert text.count(POINT) == len(points)
 
 
-def test_terminal_plot_below_the_floats() -> None:
+def test_errors_below_the_floats() -> None:
     """Errors that no float can hold are plotted all the same."""
-    tiny = [arb(10) ** -(k * 400) for k in (1, 2, 3)]
-    text = terminal_plot([fmpq(1), fmpq(1, 2), fmpq(1, 4)], tiny)
+    points = [(fmpq(1, 2**k), arb(10) ** -((k + 1) * 400)) for k in range(3)]
+    text = terminal_curves({POINT: points}, "h")
     assert "1e-400" in text
-    assert text.count("•") == 3
+    assert text.count(POINT) == 3
 
 
-def test_terminal_plot_of_little() -> None:
+def test_plots_of_little() -> None:
     """One point has a plot, none has words."""
-    assert terminal_plot([0.5], [0.1]).count("•") == 1
-    assert terminal_plot([0.5], [0.0]) == "no positive errors to plot"
+    assert terminal_curves({POINT: [(0.5, 0.1)]}, "h").count(POINT) == 1
+    assert terminal_curves({POINT: [(0.5, 0.0)]}, "h") == "no positive errors to plot"
 
 
 def test_terminal_curves_have_marks_of_their_own() -> None:
