@@ -59,7 +59,7 @@ def logarithmic_marks(low: float, high: float, most: int) -> list[Mark]:
 
     >>> [mark.label for mark in logarithmic_marks(-6.5, -1.5, 3)]
     ['10⁻⁶', '10⁻⁴', '10⁻²']
-    >>> [mark.label for mark in logarithmic_marks(-1.3, 0.1, 6)]
+    >>> [mark.label for mark in logarithmic_marks(-1.4, 0.1, 6)]
     ['0.05', '0.1', '0.2', '0.5', '1']
     """
     first = ceil(low - 1e-9)
