@@ -11,6 +11,7 @@ writes ``rectangular.png`` beside this file, or FILE; ``make figures`` does the 
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from flint import fmpq
@@ -19,7 +20,8 @@ from matplotlib.figure import Figure
 
 from garkcli import converge, load, long_run
 from garkcli.longtime.history import LongRun
-from garkcli.plots.energy_plot import draw_history
+from garkcli.plots.energy import history_panel
+from garkcli.plots.figure import draw
 from garkcli.plots.saving import save
 from garkcli.problems.oscillator import Oscillator
 
@@ -42,14 +44,11 @@ def draw_energy(axes: Axes) -> None:
     in all.
     """
     run = energy(10_000)
-    draw_history(axes, run, run.energy)
-    low, high = min(run.energy.errors), max(run.energy.errors)
-    axes.set_ylim(low - 0.06 * (high - low), high + 0.95 * (high - low))
-    axes.set_title("", loc="left")
+    panel = history_panel(run, run.energy)
+    low, high = panel.y.low, panel.y.high
+    with_space = replace(panel.y, high=high + 0.85 * (high - low), given=panel.y.marks(4))
+    draw(axes, replace(panel, y=with_space, note=""))
     axes.set_title("Error in the total energy, h = 1/2", fontsize=11)
-    axes.set_xlabel("time t")
-    axes.set_ylabel("H(t) − H(0)")
-    axes.set_yticks([0.0, 5e-5, 1e-4])
     first = axes.inset_axes((0.03, 0.65, 0.94, 0.27))
     short = energy(60)
     first.plot(

@@ -25,9 +25,8 @@ from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, tel
 from garkcli.errors import GarkError, UsageProblem
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from garkcli.convergence.result import Convergence
+    from garkcli.plots.scene import Scene
     from garkcli.report.convergence_data import Entry
 
 AXES = ("h", "evaluations", "seconds")
@@ -209,18 +208,17 @@ def _one(
     output.write(text)
     hint_rounding(method, result, output)
     if shown.plot is not None:
-        figure = _figure(result, method.name, shown)
-        save_plot(figure, shown.plot, output)
+        save_plot(_scene(result, method.name, shown), shown.plot, output)
     return result.exit_code
 
 
-def _figure(result: Convergence, name: str, shown: Shown) -> Figure:
+def _scene(result: Convergence, name: str, shown: Shown) -> Scene:
     """The errors of one method: over step sizes with their slopes, or over their costs."""
-    from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
+    from garkcli.plots.convergence import comparison_scene, convergence_scene
 
     if shown.against == "h" and not shown.work:
-        return convergence_figure(result, name)
-    return comparison_figure([(name, result)], shown.against)
+        return convergence_scene(result, name)
+    return comparison_scene([(name, result)], shown.against)
 
 
 def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> int:
@@ -242,6 +240,6 @@ def _draw(entries: list[Entry], path: str, against: str, output: Output) -> None
     if not results:
         output.note(f"nothing to draw into {path}")
         return
-    from garkcli.plots.convergence_plot import comparison_figure
+    from garkcli.plots.convergence import comparison_scene
 
-    save_plot(comparison_figure(results, against), path, output)
+    save_plot(comparison_scene(results, against), path, output)

@@ -111,9 +111,9 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     says_all = output.verbosity >= 0
     output.write(report.render(made, output.format, output.paint, says_all))
     if wanted.plot is not None:
-        from garkcli.plots.energy_plot import energy_figure
+        from garkcli.plots.energy import energy_scene
 
-        save_plot(energy_figure(run), wanted.plot, output)
+        save_plot(energy_scene(run), wanted.plot, output)
     is_met = all(claim.holds for claim in claims)
     return 0 if is_met and not run.is_unstable else 1
 

@@ -11,7 +11,7 @@ import click
 from garkcli.cli.options import PATH, Output
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from garkcli.plots.scene import Scene
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -33,9 +33,9 @@ def check_plot(path: str | None) -> None:
         check_suffix(Path(path))
 
 
-def save_plot(figure: Figure, path: str, output: Output) -> None:
-    """Write the figure, and say so."""
-    from garkcli.plots.saving import save
+def save_plot(scene: Scene, path: str, output: Output) -> None:
+    """Draw the scene into a file, and say so."""
+    from garkcli.plots.saving import save_scene
 
-    save(figure, Path(path))
+    save_scene(scene, Path(path))
     output.note(f"wrote {path}")

@@ -94,9 +94,9 @@ def command(
             )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
-        from garkcli.plots.stability_plot import stability_figure
+        from garkcli.plots.regions import stability_scene
 
-        save_plot(stability_figure(reports, order_star), plot, output)
+        save_plot(stability_scene(reports, order_star), plot, output)
     return 0
 
 

@@ -101,11 +101,10 @@ def command(
     if parquet is not None:
         write_parquet(report, parquet)
     if plot is not None:
-        from garkcli.plots.saving import save
-        from garkcli.plots.sweep_plot import sweep_figure
+        from garkcli.plots.saving import save_scene
+        from garkcli.plots.sweep import sweep_scene
 
-        x, y = plan.pareto[:2]
-        save(sweep_figure(report, x, y), Path(plot))
+        save_scene(sweep_scene(report, *plan.pareto[:2]), Path(plot))
     return 0
 
 

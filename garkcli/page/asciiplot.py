@@ -1,8 +1,9 @@
-"""A small log–log plot in plain text, for terminals."""
+"""Plots in plain text, for terminals: points, a signal in bands, a region; one frame for all."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import pairwise
 from math import ceil, floor
 from typing import TypeAlias
 
@@ -10,11 +11,22 @@ from flint import arb, fmpq
 
 Positive: TypeAlias = float | fmpq | arb
 """What can be plotted; balls and fractions reach beyond the range of floats."""
+_Field: TypeAlias = Sequence[Sequence[str]]
+"""The signs inside a frame, line by line."""
 
-POINT, LINE, SEVERAL = "•", "·", "*"
+POINT, SEVERAL = "•", "*"
 COLUMNS = 58
 """Of a plot with its axes; indented by two it fits narrow terminals."""
 _AROUND = 13  # columns beside the frame: marks of decades, half a number, gaps
+INSIDE = "│"
+"""From the least to the greatest value of a column."""
+ZERO = "·"
+"""The line of zero, where there is nothing else."""
+_BESIDE_BAND = 5  # columns of the axis left of what is inside, and of the letter right of it
+FULL = "█"
+"""Inside of a region."""
+SHADED = ":"
+"""Outside, but inside of a second region."""
 
 
 def log10(x: Positive) -> float:
@@ -27,24 +39,22 @@ def log10(x: Positive) -> float:
     return float(natural / arb(10).log())
 
 
-def terminal_plot(
-    hs: Sequence[Positive],
-    errors: Sequence[Positive],
+def terminal_curves(
+    curves: Mapping[str, Iterable[tuple[Positive, Positive]]],
+    label: str,
     width: int = 0,
     height: int = 16,
-    order: int | None = None,
 ) -> str:
-    """Errors against step sizes, both on logarithmic axes, as lines of text without a final
-    newline.
+    """Errors on logarithmic axes, as lines of text without a final newline.
 
     Args:
-        hs: step sizes, positive.
-        errors: an error for each; those that are not positive are left out.
+        curves: pairs (x, error) by the sign that marks them; two on top of each other make a *.
+            Those that are not positive are left out.
+        label: of the horizontal axis.
         width: columns inside the frame, so many that the lines have at most ``COLUMNS`` by default.
         height: lines inside the frame.
-        order: the slope of a dotted line through the smallest step; none by default.
 
-    >>> print(terminal_plot([1, 0.1, 0.01], [1, 0.01, 0.0001], width=21, height=5))
+    >>> print(terminal_curves({POINT: [(1, 1), (0.1, 0.01), (0.01, 0.0001)]}, "h", 21, 5))
          error
     1e+0 ┤                    •
          │
@@ -53,32 +63,6 @@ def terminal_plot(
     1e-4 ┤•
          └┬─────────┬─────────┬
         0.01       0.1        1  h
-    """
-    points = []
-    for h, error in zip(hs, errors, strict=True):
-        if error > 0:
-            points.append((log10(h), log10(error)))
-    points.sort()
-    line = None
-    if order is not None and points:
-        line = (*points[0], order)
-    marked = [(x, y, POINT) for x, y in points]
-    return _plot(marked, "h", width or _inside("h"), height, line)
-
-
-def terminal_curves(
-    curves: Mapping[str, Iterable[tuple[Positive, Positive]]],
-    label: str,
-    width: int = 0,
-    height: int = 16,
-) -> str:
-    """Errors of several methods, as ``terminal_plot`` draws those of one.
-
-    Args:
-        curves: pairs (x, error) by the letter that marks them; two on top of each other make a *.
-        label: of the horizontal axis.
-        width: columns inside the frame, so many that the lines have at most ``COLUMNS`` by default.
-        height: lines inside the frame.
 
     >>> curves = {"A": [(10, 1), (100, 0.1)], "B": [(100, 1)]}
     >>> print(terminal_curves(curves, "steps", width=13, height=3))
@@ -89,66 +73,34 @@ def terminal_curves(
          └┬───────────┬
          10          100  steps
     """
-    points = []
-    for mark, pairs in curves.items():
-        for x, y in pairs:
-            if x > 0 and y > 0:
-                points.append((log10(x), log10(y), mark))
-    return _plot(points, label, width or _inside(label), height, None)
-
-
-def _inside(label: str) -> int:
-    """Columns inside a frame with this label behind its horizontal axis."""
-    return COLUMNS - _AROUND - len(label)
-
-
-def _plot(
-    points: Sequence[tuple[float, float, str]],
-    label: str,
-    width: int,
-    height: int,
-    line: tuple[float, float, float] | None,
-) -> str:
-    """Marks at decimal logarithms, over a dotted line through the point (x, y) with a slope."""
+    points = [
+        (log10(x), log10(y), mark)
+        for mark, pairs in curves.items()
+        for x, y in pairs
+        if x > 0 and y > 0
+    ]
     if not points:
         return "no positive errors to plot"
+    width = width or COLUMNS - _AROUND - len(label)
     xs, ys, _ = zip(*points, strict=True)
     left = min(xs)
     right = max(*xs, left + 0.1)
     bottom = floor(min(ys))
     top = max(ceil(max(ys)), bottom + 1)
-    frame = [[" "] * width for _ in range(height)]
-
-    def put(x: float, y: float, mark: str) -> None:
-        row = _cell(top - y, top - bottom, height)
-        if not 0 <= row < height:
-            return
-        column = _cell(x - left, right - left, width)
-        is_free = frame[row][column] in (" ", LINE, mark)
-        frame[row][column] = mark if is_free else SEVERAL
-
-    if line is not None:
-        start, level, slope = line
-        extent = right - left
-        last = width - 1
-        for column in range(width):
-            x = left + extent * column / last
-            y = level + slope * (x - start)
-            put(x, y, LINE)
+    field = [[" "] * width for _ in range(height)]
     for x, y, mark in points:
-        put(x, y, mark)
-
-    rows = {}
-    for k in _decades(bottom, top, (height + 1) // 2):
-        row = _cell(top - k, top - bottom, height)
-        rows[row] = f"1e{k:+d}"
-    columns = {}
-    whole = range(ceil(left), floor(right) + 1)
-    # the ends come last: they replace a whole power that shares their column
-    for x in (*whole, left, right):
+        row = _cell(top - y, top - bottom, height)
         column = _cell(x - left, right - left, width)
-        columns[column] = _short(x)
-    return "\n".join(_framed(frame, rows, columns, label))
+        is_free = field[row][column] in (" ", mark)
+        field[row][column] = mark if is_free else SEVERAL
+    rows = {
+        _cell(top - k, top - bottom, height): f"1e{k:+d}"
+        for k in _decades(bottom, top, (height + 1) // 2)
+    }
+    # the ends come last: they replace a whole power that shares their column
+    powers = (*range(ceil(left), floor(right) + 1), left, right)
+    columns = {_cell(x - left, right - left, width): _short(x) for x in powers}
+    return _framed(field, rows, columns, "error", label)
 
 
 def _cell(distance: float, extent: float, cells: int) -> int:
@@ -177,44 +129,171 @@ def _short(exponent: float) -> str:
     return str(round(mantissa * 10**power))
 
 
+def terminal_band(
+    times: Sequence[float], values: Sequence[float], label: str, columns: int = 58, height: int = 11
+) -> str:
+    """Values against time, linear on both axes, as lines of text without a final newline.
+
+    A column shows all values of its span of time, straight lines between them included. Zero is
+    always shown.
+
+    Args:
+        times: ascending, at least one.
+        values: finite, one for each time.
+        label: of the vertical axis.
+        columns: of the longest line.
+        height: lines inside the frame.
+
+    >>> print(terminal_band([0, 3, 5, 6], [0, 3, 3, -1], "f", columns=14, height=5))
+       f
+     3 ┤  │••│
+       │  │  │
+       ││•│  ││
+     0 ┤│·····│
+    -1 ┤      │
+       └┬─────┬
+        0     6  t
+    """
+    low = min(0.0, *values)
+    high = max(0.0, *values)
+    if high == low:
+        high = 1.0
+    extent = high - low
+    last = height - 1
+
+    def line(value: float) -> int:
+        part = (high - value) / extent
+        return round(part * last)
+
+    # zero comes last: it replaces an end that shares its line
+    marks = {0: high, last: low}
+    marks[line(0.0)] = 0.0
+    texts = {i: f"{x:.3g}" for i, x in marks.items()}
+    first, end = f"{times[0]:g}", f"{times[-1]:g}"
+    around = max(map(len, texts.values())) + len(end) // 2 + _BESIDE_BAND
+    width = max(columns - around, 2)
+
+    field = [[" "] * width for _ in range(height)]
+    field[line(0.0)] = [ZERO] * width
+    bands = _bands(times, values, width)
+    for j, (least, greatest) in enumerate(bands):
+        top = line(greatest)
+        bottom = line(least)
+        sign = POINT if top == bottom else INSIDE
+        for i in range(top, bottom + 1):
+            field[i][j] = sign
+    return _framed(field, texts, {0: first, width - 1: end}, label, "t")
+
+
+def _bands(
+    times: Sequence[float], values: Sequence[float], width: int
+) -> list[tuple[float, float]]:
+    """The least and the greatest value of each column, of the line through all points."""
+    start = times[0]
+    span = times[-1] - start
+    scale = (width - 1) / (span or 1.0)
+    columns: list[list[float]] = [[] for _ in range(width)]
+    columns[0].append(values[0])
+    places = [(t - start) * scale for t in times]
+    points = zip(places, values, strict=True)
+    for (x, v), (y, w) in pairwise(points):
+        first, last = round(x), round(y)
+        columns[last].append(w)
+        for j in range(first, last):
+            # where the line goes from column j to the next
+            edge = j + 0.5
+            part = (edge - x) / (y - x)
+            part = min(max(part, 0.0), 1.0)
+            value = v + (w - v) * part
+            columns[j].append(value)
+            columns[j + 1].append(value)
+    bands = []
+    for column in columns:
+        # a single point has one column
+        filled = column or [values[-1]]
+        bands.append((min(filled), max(filled)))
+    return bands
+
+
+def terminal_region(
+    is_inside: Callable[[complex], bool],
+    left: float,
+    right: float,
+    top: float,
+    width: int = 60,
+    height: int = 21,
+    is_shaded: Callable[[complex], bool] | None = None,
+) -> str:
+    """The points of a part of the plane for which something holds, as lines of text.
+
+    Args:
+        is_inside: decides a point, in floats.
+        left: the least real part.
+        right: the greatest one.
+        top: the greatest imaginary part, and minus the least.
+        width: columns inside the frame.
+        height: lines inside the frame, odd so that one is the real axis.
+        is_shaded: decides whether a point outside belongs to a second region; None for no such.
+
+    >>> print(terminal_region(lambda z: abs(z) <= 1, -2, 2, 1.5, width=9, height=5))
+     1.5 ┤    │
+         │   █│█
+       0 ┤──██│██──
+         │   █│█
+    -1.5 ┤    │
+         └┬───┬───┬
+         -2   0   2
+    """
+    middle = height // 2
+    extent = right - left
+    axis = round(-left / extent * (width - 1))
+    rows = {0: f"{top:.3g}", middle: "0", height - 1: f"{-top:.3g}"}
+    columns = {0: f"{left:.3g}", axis: "0", width - 1: f"{right:.3g}"}
+    field = []
+    for i in range(height):
+        part = 2 * i / (height - 1)  # 0 at the top, 2 at the bottom
+        y = top * (1 - part)
+        is_axis = i == middle
+        cells = []
+        for j in range(width):
+            x = left + extent * j / (width - 1)
+            z = complex(x, y)
+            empty = "─" if is_axis else " "
+            shaded = SHADED if is_shaded is not None and is_shaded(z) else empty
+            cells.append(FULL if is_inside(z) else shaded)
+        if 0 <= axis < width:
+            cells[axis] = "│"
+        field.append(cells)
+    return _framed(field, rows, columns)
+
+
 def _framed(
-    frame: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
-) -> list[str]:
-    """The frame with its axes; ``rows`` and ``columns`` say where they have a mark, and its
-    label.
+    field: _Field,
+    rows: Mapping[int, str],
+    columns: Mapping[int, str],
+    above: str = "",
+    beside: str = "",
+) -> str:
+    """A field with its axes, as lines.
+
+    Args:
+        field: what is inside.
+        rows: where the vertical axis has a mark, and its number.
+        columns: the same of the horizontal axis.
+        above: the label of the vertical axis.
+        beside: that of the horizontal axis.
     """
     margin = max(map(len, rows.values()))
-    width = len(frame[0])
+    width = len(field[0])
     blank = " " * margin
-    numbers = _placed(columns, margin, width)
-    lines = [f"{blank} error"]
-    lines += beside_axis(frame, rows, margin)
-    lines.append(f"{blank} {ruled(columns, width)}")
-    lines.append(f"{numbers}  {label}")
-    return lines
-
-
-def beside_axis(frame: Sequence[Sequence[str]], marks: Mapping[int, str], margin: int) -> list[str]:
-    """The lines of a frame right of their axis; ``marks`` has the numbers of some of them, and
-    ``margin`` their width.
-    """
-    lines = []
-    for i, cells in enumerate(frame):
-        number = marks.get(i, "").rjust(margin)
-        axis = "┤" if i in marks else "│"
-        inside = "".join(cells)
-        line = f"{number} {axis}{inside}"
-        lines.append(line.rstrip())
-    return lines
-
-
-def ruled(marks: Iterable[int], width: int) -> str:
-    """A horizontal axis with marks at some columns."""
-    cells = ["─"] * width
-    for j in marks:
-        if 0 <= j < width:
-            cells[j] = "┬"
-    return "└" + "".join(cells)
+    lines = [f"{blank} {above}"] if above else []
+    for i, cells in enumerate(field):
+        axis = "┤" if i in rows else "│"
+        lines.append(f"{rows.get(i, ''):>{margin}} {axis}{''.join(cells)}".rstrip())
+    rule = "".join("┬" if j in columns else "─" for j in range(width))
+    lines.append(f"{blank} └{rule}")
+    lines.append(f"{_placed(columns, margin, width)}  {beside}".rstrip())
+    return "\n".join(lines)
 
 
 def _placed(columns: Mapping[int, str], margin: int, width: int) -> str:

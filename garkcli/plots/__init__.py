@@ -1,1 +1,1 @@
-"""Pictures of results: figures with matplotlib, plots in text."""
+"""Pictures of results: scenes, which say what is drawn, and what draws them."""

@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
+from garkcli.plots.convergence import comparison_scene, convergence_scene
+from garkcli.plots.energy import energy_scene
 from garkcli.plots.saving import check_suffix, need_matplotlib, save
+from garkcli.plots.scene import Scene
+from garkcli.plots.sweep import sweep_scene
 from garkcli.report.stability_data import StabilityReport
 from garkcli.report.sweep import SweepReport
 from garkcli.stability.summary import Stability
@@ -53,53 +57,39 @@ def plot(
     if path is not None:
         check_suffix(Path(path))
     labels = [*names, *[""] * (len(results) - len(names))]
-    figure = _figure(results, labels, against, is_order_star)
+    from garkcli.plots.figure import figure
+
+    drawn = figure(_scene(results, labels, against, is_order_star))
     if path is not None:
-        save(figure, Path(path))
-    return figure
+        save(drawn, Path(path))
+    return drawn
 
 
-def _figure(
+def _scene(
     results: Sequence[Any], names: Sequence[str], against: str, is_order_star: bool
-) -> Figure:
+) -> Scene:
     if not results:
         raise MethodError("there is nothing to draw", _CURE)
     kind = type(results[0])
     if any(type(result) is not kind for result in results):
         raise MethodError("the results are of several kinds", "draw them apart")
+    named = list(zip(names, results, strict=True))
     if kind is Convergence:
-        return _errors(results, names, against)
+        if len(named) == 1 and against == "h":
+            return convergence_scene(results[0], names[0])
+        return comparison_scene(named, against)
     if kind is Stability:
-        from garkcli.plots.stability_plot import stability_figure
+        from garkcli.plots.regions import stability_scene
 
-        reports = [
-            StabilityReport(name, name, found) for name, found in zip(names, results, strict=True)
-        ]
-        return stability_figure(reports, is_order_star)
+        reports = [StabilityReport(name, name, result) for name, result in named]
+        return stability_scene(reports, is_order_star)
     if len(results) > 1:
         raise MethodError("several are not drawn together", "draw them apart")
     (result,) = results
     if isinstance(result, LongRun):
-        from garkcli.plots.energy_plot import energy_figure
-
-        return energy_figure(result)
+        return energy_scene(result)
     if isinstance(result, SweepReport):
-        return _front(result)
+        if len(result.plan.pareto) < 2:
+            raise MethodError("the sweep compares no two columns", "say pareto: [x, y] in its file")
+        return sweep_scene(result, *result.plan.pareto[:2])
     raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE)
-
-
-def _errors(results: Sequence[Convergence], names: Sequence[str], against: str) -> Figure:
-    from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
-
-    if len(results) == 1 and against == "h":
-        return convergence_figure(results[0], names[0])
-    return comparison_figure(list(zip(names, results, strict=True)), against)
-
-
-def _front(report: SweepReport) -> Figure:
-    from garkcli.plots.sweep_plot import sweep_figure
-
-    if len(report.plan.pareto) < 2:
-        raise MethodError("the sweep compares no two columns", "say pareto: [x, y] in its file")
-    x, y = report.plan.pareto[:2]
-    return sweep_figure(report, x, y)

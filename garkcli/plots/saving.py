@@ -14,6 +14,8 @@ from garkcli.page.writing import refuse_unwritable, write_whole
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from garkcli.plots.scene import Scene
+
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
 
@@ -44,6 +46,14 @@ def need_matplotlib() -> None:
     if find_spec("matplotlib") is None:
         cure = "install garkcli[plot]; text and JSON do without"
         raise UsageProblem("a figure needs matplotlib", cure)
+
+
+def save_scene(scene: Scene, path: Path) -> None:
+    """Draw a scene into a file, as ``save`` writes it."""
+    check_suffix(path)
+    from garkcli.plots.figure import figure
+
+    save(figure(scene), path)
 
 
 def save(figure: Figure, path: Path) -> None:

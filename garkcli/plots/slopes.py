@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise, product
-from typing import Any, TypeAlias
+from typing import TypeAlias
+
+from garkcli.plots.scene import Curve, Point, Rule
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
 """Distances from the curve that a line is for, in heights of the figure."""
@@ -14,52 +16,14 @@ _CLEAR = 0.035
 _LABEL = ((0.02, 0.02), (0.06, 0.03), (0.11, 0.035))
 """Where a label is, from the middle of its line, in widths and heights of the figure."""
 _SAMPLES = 8
-Decades: TypeAlias = Sequence[float]
-"""Decimal logarithms."""
-Point: TypeAlias = tuple[float, float]
 _Points: TypeAlias = Sequence[Point]
-
-
-@dataclass(frozen=True)
-class Curve:
-    """Points in decimal logarithms, and how to draw them."""
-
-    xs: Decades
-    ys: Decades
-    label: str
-    style: Mapping[str, Any]
-
-
-@dataclass(frozen=True)
-class Line:
-    """A line of a slope.
-
-    Attributes:
-        xs, ys: its ends, in decimal logarithms.
-        slope: decades a decade.
-        is_below: whether it is below the curve that it is for; its label is on its far side.
-    """
-
-    xs: Point
-    ys: Point
-    slope: int
-    is_below: bool
-
-    @property
-    def label(self) -> str:
-        """Its slope in words."""
-        return f"slope {self.slope}".replace("-", "−")
-
-    @property
-    def is_right(self) -> bool:
-        """Whether its label is on the right of it: on its far side from the curve."""
-        return (self.slope > 0) == self.is_below
 
 
 def place_line(
     beside: Sequence[Curve], slope: int, curves: Sequence[Curve], is_whole: bool = False
-) -> Line:
-    """A line of this slope near one of the curves that it is for, where no other curve is.
+) -> Rule:
+    """A line of this slope near one of the curves that it is for, where no other curve is; its
+    label is on its far side.
 
     Args:
         beside: the curves that have this slope, each with at least one point.
@@ -74,15 +38,14 @@ def place_line(
     parts: list[_Points] = []
     for curve in beside:
         parts += _parts(curve, is_whole)
-    has_label = not is_whole
     sides = (not is_whole, is_whole)
     best = None
     clearest = -1.0
     # the nearest places first
     for gap, part, is_below in product(_GAPS, parts, sides):
-        distance = gap * figure.high
-        line = _beside(part, slope, distance, is_below)
-        clear = _clearance(line, figure, has_label)
+        line = _beside(part, slope, gap * figure.high, is_below)
+        line = replace(line, label="") if is_whole else line
+        clear = _clearance(line, figure)
         if clear > clearest:
             best, clearest = line, clear
         if clear >= _CLEAR:
@@ -107,19 +70,11 @@ class _Figure:
     @staticmethod
     def of(curves: Sequence[Curve]) -> _Figure:
         """The figure that holds some curves."""
-        xs: list[float] = []
-        ys: list[float] = []
-        for curve in curves:
-            xs += curve.xs
-            ys += curve.ys
-        wide = _extent(xs)
-        high = _extent(ys)
+        points = [point for curve in curves for point in curve.points]
+        wide = _extent([x for x, _ in points])
+        high = _extent([y for _, y in points])
         empty = _Figure(wide, high, [])
-        scaled: list[_Points] = []
-        for curve in curves:
-            points = sorted(zip(curve.xs, curve.ys, strict=True))
-            placed = [empty.place(x, y) for x, y in points]
-            scaled.append(placed)
+        scaled = [[empty.place(x, y) for x, y in sorted(curve.points)] for curve in curves]
         return _Figure(wide, high, scaled)
 
     def place(self, x: float, y: float) -> Point:
@@ -138,20 +93,20 @@ class _Figure:
         return found
 
 
-def _extent(numbers: Decades) -> float:
+def _extent(numbers: Sequence[float]) -> float:
     """From the least to the greatest; 1 where they are one."""
     return max(numbers) - min(numbers) or 1.0
 
 
 def _parts(curve: Curve, is_whole: bool) -> list[_Points]:
     """The points beside which a line can be: those of the smallest errors, or of the largest."""
-    points = list(zip(curve.xs, curve.ys, strict=True))
+    points = curve.points
     if is_whole or len(points) <= 3:
         return [points]
     return [points[-3:], points[:3]]
 
 
-def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Line:
+def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Rule:
     """The line through no point, with this distance from the nearest."""
     left, _ = points[0]
     right, _ = points[-1]
@@ -162,33 +117,25 @@ def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Line:
     offset = max(offsets) + gap
     if is_below:
         offset = min(offsets) - gap
-    start = offset + slope * left
-    end = offset + slope * right
-    return Line((left, right), (start, end), slope, is_below)
+    start, end = ((x, offset + slope * x) for x in (left, right))
+    label = f"slope {slope}".replace("-", "−")
+    return Rule(start, end, label, is_right=(slope > 0) == is_below, is_below=is_below)
 
 
-def _clearance(line: Line, figure: _Figure, has_label: bool) -> float:
+def _clearance(line: Rule, figure: _Figure) -> float:
     """The least vertical distance of the line and its label from the curves, in heights of the
     figure.
     """
-    left, right = line.xs
-    start, end = line.ys
+    (left, start), (right, end) = line.start, line.end
     points: list[Point] = []
     for k in range(_SAMPLES + 1):
         part = k / _SAMPLES
-        x = left + (right - left) * part
-        y = start + (end - start) * part
-        points.append(figure.place(x, y))
-    if has_label:
-        middle = (left + right) / 2
-        height = (start + end) / 2
-        x, y = figure.place(middle, height)
+        points.append(figure.place(left + (right - left) * part, start + (end - start) * part))
+    if line.label:
+        x, y = figure.place((left + right) / 2, (start + end) / 2)
         away = 1 if line.is_right else -1
         up = -1 if line.is_below else 1
-        for u, v in _LABEL:
-            right_of = x + away * u
-            above = y + up * v
-            points.append((right_of, above))
+        points += [(x + away * u, y + up * v) for u, v in _LABEL]
     distances: list[float] = []
     for x, y in points:
         heights = figure.heights(x)

@@ -8,7 +8,7 @@ from textwrap import wrap
 from flint import arb
 
 from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Cost, Row, Stiffness
-from garkcli.page.asciiplot import terminal_curves, terminal_plot
+from garkcli.page.asciiplot import POINT, terminal_curves
 from garkcli.page.figures import rounded, scientific
 from garkcli.page.paint import Paint, aligned, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
@@ -90,9 +90,7 @@ def _plot(result: Convergence) -> list[str]:
     positive = [row for row in result.rows if row.error > 0]
     if len(positive) < 2:
         return []
-    sizes = [row.h for row in positive]
-    errors = [row.error for row in positive]
-    plot = terminal_plot(sizes, errors)
+    plot = terminal_curves({POINT: [(row.h, row.error) for row in positive]}, "h")
     return ["", *indented(plot.splitlines())]
 
 
@@ -300,7 +298,7 @@ def _work_plot(result: Convergence) -> list[str]:
     points = [
         (float(row.cost.evaluations), row.error) for row in result.rows if row.cost is not None
     ]
-    plot = terminal_curves({"•": points}, "evaluations")
+    plot = terminal_curves({POINT: points}, "evaluations")
     return ["", *indented(plot.splitlines())]
 
 

@@ -11,7 +11,7 @@ from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Symplecticity
 from garkcli.longtime.trend import LEAST
-from garkcli.page.bandplot import terminal_band
+from garkcli.page.asciiplot import terminal_band
 from garkcli.page.figures import measured
 from garkcli.page.paint import Paint, counted, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS

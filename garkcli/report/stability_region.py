@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from flint import fmpq
 
 from garkcli.exact.display import to_float
+from garkcli.page.asciiplot import terminal_region
 from garkcli.page.paint import indented
-from garkcli.report.region_text import terminal_region
 from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 

@@ -11,11 +11,11 @@ from garkcli.convergence.result import Convergence, Row
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured, rounded
 from garkcli.page.plain import printable
+from garkcli.plots.scene import Panel
+from garkcli.plots.svg import svg
 from garkcli.report.convergence import order_text, predicted, remarks
 from garkcli.tableau.garkmethod import word_for
-from garkcli.webpage.pictures.convergence import svg_of as errors_svg
-from garkcli.webpage.pictures.energy import svg_of as energy_svg
-from garkcli.webpage.pictures.picture import NotDrawn
+from garkcli.webpage.pictures import NotDrawn, energy, errors
 
 T = TypeVar("T")
 _WIDE = 'style="max-width:32rem"'
@@ -34,7 +34,7 @@ def convergence_html(result: Convergence) -> str:
     name = getattr(result.problem, "name", "oscillator")
     table = _table(f"{name}, to t = {result.t_end}", heads, rows)
     texts = _texts([said, *remarks(result)])
-    return _shown([table, *texts], errors_svg, result)
+    return _shown([table, *texts], errors, result)
 
 
 def _step(row: Row) -> list[str]:
@@ -53,7 +53,7 @@ def long_run_html(run: LongRun) -> str:
     name = getattr(run.problem, "name", "oscillator")
     title = f"{name}: {run.steps} steps of {run.step} to t = {run.t_end}"
     table = _table(title, heads, rows)
-    return _shown([table], energy_svg, run)
+    return _shown([table], energy, run)
 
 
 def _invariant(history: InvariantHistory) -> list[str]:
@@ -64,10 +64,10 @@ def _invariant(history: InvariantHistory) -> list[str]:
     return [history.name, start, largest, history.verdict]
 
 
-def _shown(parts: list[str], draw: Callable[[T], str], result: T) -> str:
+def _shown(parts: list[str], draw: Callable[[T], Panel], result: T) -> str:
     """The parts, and below them the picture where there is one."""
     with suppress(NotDrawn):
-        parts.append(f"<div {_WIDE}>{draw(result)}</div>")
+        parts.append(f"<div {_WIDE}>{svg(draw(result))}</div>")
     return "\n".join(parts)
 
 

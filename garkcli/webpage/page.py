@@ -14,8 +14,8 @@ from markupsafe import Markup
 
 from garkcli.doing import doing
 from garkcli.errors import counted, printable
+from garkcli.plots.svg import STYLE
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
-from garkcli.webpage.pictures import STYLE
 from garkcli.webpage.registry import SECTIONS
 from garkcli.webpage.reported import MOST_CONDITIONS, Reported
 from garkcli.webpage.section import Content, Section

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from flint import arb, fmpq
+from hypothesis import given
+from hypothesis import strategies as st
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -20,10 +22,13 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
-from garkcli.page.asciiplot import SEVERAL, terminal_curves, terminal_plot
+from garkcli.page.asciiplot import POINT, SEVERAL, terminal_curves
 from garkcli.plots import saving
-from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
+from garkcli.plots.convergence import comparison_scene, convergence_scene
+from garkcli.plots.figure import figure as draw
 from garkcli.plots.saving import check_suffix, save
+from garkcli.plots.scales import logarithmic_marks
+from garkcli.plots.scene import Curve, Rule
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
 
@@ -32,6 +37,22 @@ OSCILLATOR = Oscillator.default(1, fmpq(1))
 
 TINY = tuple(fmpq(1, 2**k) for k in (34, 36, 38, 40))
 """Steps with which Gauss 16 has errors no float reaches."""
+
+
+def convergence_figure(result: Convergence, name: str) -> Figure:
+    """The figure of one method."""
+    return draw(convergence_scene(result, name))
+
+
+def comparison_figure(named: Sequence[tuple[str, Convergence]], against: str = "h") -> Figure:
+    """The figure of several."""
+    return draw(comparison_scene(named, against))
+
+
+def names_in(figure: Figure) -> list[str]:
+    """What the legend of a figure says."""
+    legend = figure.axes[0].get_legend()
+    return [] if legend is None else [text.get_text() for text in legend.get_texts()]
 
 
 @cache
@@ -49,41 +70,38 @@ def beyond_floats() -> Convergence:
     return result
 
 
-def test_terminal_plot_is_a_straight_line() -> None:
+def test_points_are_on_a_straight_line() -> None:
     """Points of error = h² rise from the lower left to the upper right corner, in equal steps."""
     h = [10.0**-k for k in range(4)]
-    lines = terminal_plot(h, [x**2 for x in h], width=31, height=7).splitlines()
-    at = [(i, line.index("•")) for i, line in enumerate(lines) if "•" in line]
+    lines = terminal_curves({POINT: [(x, x**2) for x in h]}, "h", 31, 7).splitlines()
+    at = [(i, line.index(POINT)) for i, line in enumerate(lines) if POINT in line]
     assert [i for i, _ in at] == [1, 3, 5, 7]
     assert [at[k][1] - at[k + 1][1] for k in range(3)] == [10, 10, 10]
 
 
 @pytest.mark.parametrize("name", ["explicit-euler", "rk4"])
-def test_terminal_plot_fits_the_terminal(name: str) -> None:
-    """Every point is there, the reference line too, within 80 columns."""
-    result = result_of(name)
-    text = terminal_plot(
-        [r.h for r in result.rows], [r.error for r in result.rows], order=result.visible_order
-    )
+def test_errors_fit_the_terminal(name: str) -> None:
+    """Every point is there, within 60 columns."""
+    points = [(row.h, row.error) for row in result_of(name).rows]
+    text = terminal_curves({POINT: points}, "h")
     lines = text.splitlines()
     assert len(lines) == 16 + 3
-    assert max(map(len, lines)) <= 80
-    assert text.count("•") == len(result.rows)
-    assert "·" in text
+    assert max(map(len, lines)) <= 58
+    assert text.count(POINT) == len(points)
 
 
-def test_terminal_plot_below_the_floats() -> None:
+def test_errors_below_the_floats() -> None:
     """Errors that no float can hold are plotted all the same."""
-    tiny = [arb(10) ** -(k * 400) for k in (1, 2, 3)]
-    text = terminal_plot([fmpq(1), fmpq(1, 2), fmpq(1, 4)], tiny)
+    points = [(fmpq(1, 2**k), arb(10) ** -((k + 1) * 400)) for k in range(3)]
+    text = terminal_curves({POINT: points}, "h")
     assert "1e-400" in text
-    assert text.count("•") == 3
+    assert text.count(POINT) == 3
 
 
-def test_terminal_plot_of_little() -> None:
+def test_plots_of_little() -> None:
     """One point has a plot, none has words."""
-    assert terminal_plot([0.5], [0.1]).count("•") == 1
-    assert terminal_plot([0.5], [0.0]) == "no positive errors to plot"
+    assert terminal_curves({POINT: [(0.5, 0.1)]}, "h").count(POINT) == 1
+    assert terminal_curves({POINT: [(0.5, 0.0)]}, "h") == "no positive errors to plot"
 
 
 def test_terminal_curves_have_marks_of_their_own() -> None:
@@ -123,44 +141,45 @@ def test_figures_are_saved(tmp_path: Path, suffix: str, start: bytes) -> None:
 
 
 def test_convergence_figure_shows_the_result() -> None:
-    """Its lines are the errors, the energy errors and a reference of the right slope; all are
-    labelled.
+    """Its lines are the errors, a reference of the right slope, and the energy errors, in decimal
+    logarithms; all are labelled, and the marks below are the step sizes.
     """
     result = result_of("rk4")
-    (axes,) = convergence_figure(result, "a method").axes
-    error, energy, reference = axes.get_lines()
-    assert list(error.get_ydata()) == pytest.approx([float(r.error) for r in result.rows])
-    assert list(energy.get_ydata()) == pytest.approx([float(r.energy_error) for r in result.rows])
-    x, y = reference.get_xdata(), reference.get_ydata()
-    assert y[0] / y[1] == pytest.approx((x[0] / x[1]) ** 4)
-    assert reference.get_label() == "reference, slope 4"
-    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+    figure = convergence_figure(result, "a method")
+    (axes,) = figure.axes
+    error, reference, energy = axes.get_lines()
+    assert 10 ** error.get_ydata() == pytest.approx([float(r.error) for r in result.rows])
+    assert 10 ** energy.get_ydata() == pytest.approx([float(r.energy_error) for r in result.rows])
+    assert _slope(reference) == pytest.approx(4)
+    assert names_in(figure) == ["error", "reference, slope 4", "energy error"]
+    marks = {
+        text.get_text(): x
+        for text, x in zip(axes.get_xticklabels(), axes.get_xticks(), strict=True)
+    }
+    assert marks["1/8"] == pytest.approx(np.log10(1 / 8))
+
+
+def _slope(line: Line2D) -> float:
+    (a, b), (c, d) = line.get_xdata(), line.get_ydata()
+    return float((d - c) / (b - a))
 
 
 def test_comparison_figure_shows_every_method() -> None:
     """Errors with a mark and a dash each, a line a visible order with its slope, and all names in
     the legend.
     """
-    named = [
-        (f"the method {name}", result_of(name))
-        for name in ("explicit-euler", "rk4", "heun", "kutta")
-    ]
-    named.append(("again rk4", result_of("rk4")))
+    names = ("explicit-euler", "rk4", "heun", "kutta", "rk4")
+    named = [(f"{k}, {name}", result_of(name)) for k, name in enumerate(names)]
     figure = comparison_figure(named)
     (axes,) = figure.axes
-    curves, slopes = axes.get_lines()[:5], axes.get_lines()[5:]
+    *slopes, _, _, _, _, _ = axes.get_lines()
+    curves = axes.get_lines()[-5:]
     for drawn, (_, result) in zip(curves, named, strict=True):
-        assert list(drawn.get_ydata()) == pytest.approx([float(row.error) for row in result.rows])
-    assert len({(x.get_marker(), x.get_linestyle()) for x in curves}) == 5
-    found = []
-    for line in slopes:
-        x, y = line.get_xdata(), line.get_ydata()
-        found.append(round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9))
-        assert line.get_label() == f"slope {found[-1]:.0f}"
-    assert sorted(found) == [1, 2, 3, 4]
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
-        name for name, _ in named
-    ]
+        assert 10 ** drawn.get_ydata() == pytest.approx([float(row.error) for row in result.rows])
+    assert len({(x.get_marker(), x.get_linestyle()) for x in curves}) >= 4
+    assert sorted(round(_slope(line), 9) for line in slopes) == [1, 2, 3, 4]
+    assert sorted(text.get_text() for text in axes.texts) == [f"slope {p}" for p in (1, 2, 3, 4)]
+    assert names_in(figure) == [name for name, _ in named]
 
 
 def test_comparison_figure_in_grey() -> None:
@@ -168,7 +187,7 @@ def test_comparison_figure_in_grey() -> None:
     white.
     """
     curves = (
-        comparison_figure([(str(k), result_of("rk4")) for k in range(20)]).axes[0].get_lines()[:20]
+        comparison_figure([(str(k), result_of("rk4")) for k in range(20)]).axes[0].get_lines()[-20:]
     )
     assert len({(x.get_marker(), str(x._dash_pattern)) for x in curves}) == 20
     for one, other in pairwise(curves):
@@ -183,15 +202,17 @@ def test_work_figure(against: str, sign: int) -> None:
     """Errors against what they cost; the line beside them falls as fast as the order says."""
     tableau = gark([diagonal_method("rk4")], {})
     result = converge(tableau, OSCILLATOR, is_timed=True)
-    (axes,) = comparison_figure([("rk4", result)], against).axes
-    curve, slope = axes.get_lines()
+    (panel,) = comparison_scene([("rk4", result)], against).panels
+    rule, curve = panel.shapes
+    assert isinstance(curve, Curve)
+    assert isinstance(rule, Rule)
     if against == "evaluations":
-        assert list(curve.get_xdata()) == pytest.approx(
+        assert [10**x for x, _ in curve.points] == pytest.approx(
             [row.cost.evaluations for row in result.rows if row.cost]
         )
-    x, y = slope.get_xdata(), slope.get_ydata()
-    assert np.log(y[0] / y[1]) / np.log(x[0] / x[1]) == pytest.approx(4 * sign)
-    assert slope.get_label() == ("slope 4" if sign > 0 else "slope −4")
+    (a, c), (b, d) = rule.start, rule.end
+    assert (d - c) / (b - a) == pytest.approx(4 * sign)
+    assert rule.label == ("slope 4" if sign > 0 else "slope −4")
 
 
 def test_names_are_no_formulas(tmp_path: Path) -> None:
@@ -200,7 +221,7 @@ def test_names_are_no_formulas(tmp_path: Path) -> None:
     """
     names = ["$x^{", "_hidden", "方法", "long " * 40]
     figure = comparison_figure([(name, result_of("rk4")) for name in names])
-    shown = [text.get_text() for text in figure.legends[0].get_texts()]
+    shown = names_in(figure)
     assert shown[:3] == names[:3]
     assert len(shown[3]) < 80
     save(figure, tmp_path / "figure.svg")
@@ -221,7 +242,7 @@ def test_figures_without_errors(tmp_path: Path) -> None:
         assert figure.axes[0].get_lines() == []
         save(figure, tmp_path / f"{k}.png")
     mixed = comparison_figure([("exact", exact), ("rk4", result)])
-    assert [text.get_text() for text in mixed.legends[0].get_texts()] == ["rk4"]
+    assert names_in(mixed) == ["rk4"]
 
 
 def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
@@ -268,12 +289,12 @@ def test_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Mon
 
 def _clearance(line: Line2D, curves: Sequence[Line2D]) -> float:
     """The least distance of a line from curves, in decades of the error."""
-    (a, b), (c, d) = np.log10(line.get_xdata()), np.log10(line.get_ydata())
+    (a, b), (c, d) = line.get_xdata(), line.get_ydata()
     least = float("inf")
     for x in np.linspace(a, b, 50):
         y = c + (d - c) * (x - a) / (b - a)
         for curve in curves:
-            xs, ys = (np.log10(curve.get_xdata())[::-1], np.log10(curve.get_ydata())[::-1])
+            xs, ys = curve.get_xdata()[::-1], curve.get_ydata()[::-1]
             if xs[0] <= x <= xs[-1]:
                 least = min(least, abs(y - np.interp(x, xs, ys)))
     return least
@@ -289,8 +310,8 @@ def test_lines_of_slopes_are_on_no_curve() -> None:
             result, rows=tuple(replace(row, error=row.error * factor) for row in result.rows)
         )
         (axes,) = comparison_figure([("one", result), ("other", shifted)]).axes
-        *curves, line = axes.get_lines()
-        errors = np.log10([y for x in curves for y in x.get_ydata()])
+        line, *curves = axes.get_lines()
+        errors = [y for x in curves for y in x.get_ydata()]
         assert _clearance(line, curves) > 0.03 * np.ptp(errors)
 
 
@@ -300,45 +321,49 @@ def test_the_reference_is_not_on_the_energy_error() -> None:
     result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, steps=steps)
     rows = tuple(replace(row, energy_error=row.error * 3) for row in result.rows)
     (axes,) = convergence_figure(replace(result, rows=rows), "rk4").axes
-    *curves, line = axes.get_lines()
-    assert _clearance(line, curves) > 0.3
+    error, line, energy = axes.get_lines()
+    assert _clearance(line, [error, energy]) > 0.3
 
 
 @pytest.mark.parametrize(
     ("steps", "shown"),
     [
-        ((fmpq(1, 3), fmpq(1, 5), fmpq(1, 7)), ["0.2", "0.3"]),
-        ((fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)), ["0.05", "0.1", "0.2", "0.5"]),
-        (
-            (fmpq(1, 2), fmpq(1, 100), fmpq(1, 1000)),
-            ["$\\mathdefault{10^{-3}}$", "$\\mathdefault{10^{-2}}$"],
-        ),
+        ((fmpq(1, 3), fmpq(1, 5), fmpq(1, 7)), ["1/3", "1/5", "1/7"]),
+        (tuple(fmpq(1, k) for k in range(2, 40)), ["1/2", "1/4"]),
+        ((fmpq(1, 2), fmpq(1, 100), fmpq(1, 1234567)), ["1/2", "1/100", "8.1·10⁻⁷"]),
     ],
 )
 def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str]) -> None:
-    """Over few decades some multiples of powers of ten are labelled too, and never one on
+    """The step sizes themselves are below, as many as there is space for, and never one on
     another.
     """
-    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps)
+    tableau = gark([diagonal_method("rk4")], {})
+    rows = tuple(replace(result_of("rk4").rows[0], h=h) for h in steps)
+    result = replace(converge(tableau, OSCILLATOR), rows=rows)
     figure = comparison_figure([("rk4", result)])
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    (axes,) = figure.axes
-    low, high = axes.get_xlim()
-    labels = [
-        text
-        for tick in (*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks())
-        if (text := tick.label1).get_text() and low <= tick.get_loc() <= high
-    ]
+    labels = figure.axes[0].get_xticklabels()
     assert set(shown) <= {text.get_text() for text in labels}
     boxes = sorted((text.get_window_extent() for text in labels), key=lambda box: box.x0)
     assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
 
 
+@given(st.floats(-400, 400), st.floats(0.01, 300), st.integers(3, 9))
+def test_marks_of_logarithms(low: float, width: float, most: int) -> None:
+    """Marks lie between the ends, at most one more than asked for, and there is one at least where
+    floats reach.
+    """
+    marks = logarithmic_marks(low, low + width, most)
+    assert len(marks) <= most + 1
+    assert all(low - 1e-6 <= x.at <= low + width + 1e-6 for x in marks)
+    assert marks or width < 0.5
+
+
 def test_a_figure_of_one_method_names_it() -> None:
     """In its title, a long name in lines of their own; dollars are no formula."""
     figure = convergence_figure(result_of("rk4"), "$the$ method " * 8)
-    *names, last = figure.axes[0].get_title().splitlines()
+    *names, last = figure.get_suptitle().splitlines()
     assert last == "Oscillator to t = 4: observed order 4.00"
     assert names[0].startswith("$the$ method")
     assert max(map(len, names)) <= 60

@@ -21,7 +21,8 @@ from hypothesis import strategies as st
 from garkcli import analyse, loads
 from garkcli.errors import MethodFileError, UsageProblem
 from garkcli.exact.apart import start_method
-from garkcli.plots.sweep_plot import sweep_figure
+from garkcli.plots.scene import Curve
+from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
 from garkcli.report.sweep import SweepReport
 from garkcli.sweep import run as running
@@ -311,8 +312,8 @@ def test_the_plot(spec: Path) -> None:
     report = SweepReport(
         str(spec), load_plan(str(spec)), {str(x["key"]): x for x in rows_in(rows)}, 1
     )
-    (axes,) = sweep_figure(report, "order", "stages").axes
-    drawn = [list(zip(*line.get_data(), strict=True)) for line in axes.lines]
+    (panel,) = sweep_scene(report, "order", "stages").panels
+    drawn = [curve.points for curve in panel.legend if isinstance(curve, Curve)]
     everything = [(x["order"], x["stages"]) for x in kept(report.done)]
     assert drawn == [everything, [(x["order"], x["stages"]) for x in report.front]]
     rows.unlink()

@@ -1,0 +1,83 @@
+"""Conserved quantities over a long time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isfinite
+
+from garkcli.longtime.history import InvariantHistory, LongRun
+from garkcli.page.figures import measured
+from garkcli.plots.scales import common_exponent, in_words, power_of_ten
+from garkcli.plots.scene import Axis, Curve, Panel, Point, Rule, Scene, capitalized
+from garkcli.report.problem_json import name_of
+
+_TITLE = "Energy error over a long time"
+_HEIGHT, _LOWER = 200, 110
+"""Of the panel of the energy, and of the others."""
+_WORDS = {
+    "exact": "conserved exactly",
+    "round-off": "not above round-off",
+    "bounded": "no drift can be told",
+    "drifts": "it drifts",
+    "unstable": "it blows up, or the orbit escapes",
+    "undecided": "the run does not tell whether it drifts",
+}
+
+
+def energy_scene(run: LongRun) -> Scene:
+    """The energy error against time, and below it a panel for the error of each other invariant."""
+    title = f"{capitalized(name_of(run.problem))}, h = {run.step}, {run.steps} steps"
+    return Scene(title, [history_panel(run, history) for history in run.invariants])
+
+
+def history_panel(run: LongRun, history: InvariantHistory) -> Panel:
+    """One quantity against time, with the line of its drift where it has one."""
+    pairs = zip(run.times, history.errors, strict=True)
+    points = [(t, error) for t, error in pairs if isfinite(error)]
+    exponent = common_exponent([error for _, error in points] or [0.0])
+    factor = 10.0**-exponent
+    errors = Curve(0, _scaled(points, factor), width=1.1, is_dense=True)
+    start, end = 0.0, run.end
+    shapes = [errors]
+    if history.verdict == "drifts" and history.shape == "line" and history.drift is not None:
+        drift = history.drift
+        # in the middle of what the errors do besides
+        left = [error - drift * t for t, error in points]
+        middle = (max(left) + min(left)) / 2
+        line = [(t, middle + drift * t) for t in (start, end)]
+        label = f"its drift, {in_words(f'{drift:.2e}')} per unit of time"
+        shapes = [
+            replace(errors, label=f"{history.name} error"),
+            Curve(1, _scaled(line, factor), label),
+        ]
+    is_first = history is run.invariants[0]
+    label = f"error of {history.name}" if is_first else "error"
+    if history.name == "energy":
+        label = "H(t) − H(0)"
+    if exponent:
+        label += f" in {power_of_ten(exponent)}"
+    became = became_of(history)
+    y = Axis.around(label, [0.0, *(error for _, error in errors.points)])
+    return Panel(
+        _TITLE,
+        f"{capitalized(history.name)} error against time, from 0 to {end:g}: {became}.",
+        Axis("time t", start, end),
+        y,
+        [*shapes, Rule((start, 0.0), (end, 0.0))],
+        f"{history.name}: {became}",
+        _HEIGHT if is_first else _LOWER,
+        has_grid=True,
+    )
+
+
+def became_of(history: InvariantHistory) -> str:
+    """The largest error, with the digits that are certain, and the verdict."""
+    words = _WORDS[history.verdict]
+    if history.verdict in ("exact", "round-off") or not isfinite(history.max_error):
+        return words
+    largest = in_words(measured(history.max_error, history.round_off, 2))
+    return f"the largest error is {largest}; {words}"
+
+
+def _scaled(points: list[Point], factor: float) -> list[Point]:
+    return [(t, error * factor) for t, error in points]

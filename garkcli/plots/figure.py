@@ -1,0 +1,171 @@
+"""Scenes as figures of matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from textwrap import wrap
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+
+from garkcli.plots.scene import (
+    COLOURS,
+    DASHES,
+    WIDTH,
+    Area,
+    Axis,
+    Curve,
+    Panel,
+    Rule,
+    Scene,
+    shortened,
+)
+
+_MARKS = "os^DvXP*"
+"""By style; every second one is open."""
+_INCH = WIDTH / 6.4
+"""Units of a picture in an inch."""
+_BESIDE, _ABOVE, _LEGEND_ROW = 0.95, 0.35, 0.21
+"""Inches around the axes of a panel, above all of them, and of a line below."""
+_TITLE_WIDTH = 60  # characters of a line of a title
+_LONGEST = 72  # characters of a name
+_MOST_ACROSS, _MOST_UP = 8, 8
+"""Marks on the axes."""
+_BELOW_AXES, _BELOW_LABEL = 0.5, 4.2
+"""How far below the axes a legend is, in letters."""
+_TEXT = "0.15"
+
+
+def figure(scene: Scene) -> Figure:
+    """A scene drawn, with the legend of each panel below it."""
+    panels = scene.panels
+    heights = [_BESIDE + x.height / _INCH + _LEGEND_ROW * len(x.legend) for x in panels]
+    title = [line for text in scene.title.splitlines() for line in wrap(text, _TITLE_WIDTH)]
+    rows, columns = (1, len(panels)) if scene.is_row else (len(panels), 1)
+    high = max(heights) if scene.is_row else sum(heights)
+    size = (WIDTH / _INCH * columns, high + _ABOVE * len(title))
+    made = Figure(figsize=size, layout="constrained")
+    grid = made.subplots(
+        rows,
+        columns,
+        squeeze=False,
+        sharex=not scene.is_row,
+        height_ratios=None if scene.is_row else heights,
+    )
+    made.suptitle("\n".join(title), fontsize=11, parse_math=False)
+    for panel, axes in zip(panels, grid.flat, strict=True):
+        draw(axes, panel, has_label=scene.is_row or panel is panels[-1])
+    return made
+
+
+def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
+    """A panel on axes of a figure, with numbers and a label below them or without."""
+    _set_axis(axes.xaxis, panel.x, _MOST_ACROSS)
+    _set_axis(axes.yaxis, panel.y, _MOST_UP)
+    axes.set_xlim(panel.x.low, panel.x.high)
+    axes.set_ylim(panel.y.low, panel.y.high)
+    if panel.is_plane:
+        axes.set_aspect("equal")
+    if panel.has_grid:
+        axes.grid(True, color="0.88", linewidth=0.6)
+    note = "\n".join(wrap(panel.note, _TITLE_WIDTH + 10))
+    axes.set_title(note, fontsize=10, loc="left", parse_math=False)
+    for shape in panel.shapes:
+        if isinstance(shape, Curve):
+            xs = [x for x, _ in shape.points]
+            ys = [y for _, y in shape.points]
+            axes.plot(xs, ys, **_line(shape))
+        elif isinstance(shape, Area):
+            _fill(axes, shape)
+        else:
+            _rule(axes, shape)
+    _add_legend(axes, panel.legend, _BELOW_LABEL if has_label else _BELOW_AXES)
+    if not has_label:
+        axes.set_xlabel("")
+
+
+def _set_axis(drawn: Any, axis: Axis, most: int) -> None:
+    marks = axis.marks(most)
+    drawn.set_ticks([x.at for x in marks], [x.label for x in marks], parse_math=False)
+    drawn.set_label_text(axis.label, parse_math=False)
+
+
+def _line(shape: Curve | Area) -> dict[str, Any]:
+    """How matplotlib draws the line of a shape; marks and dashes are combined anew once all have
+    been used.
+    """
+    style = shape.style or 0
+    rounds, place = divmod(style, len(COLOURS))
+    dashes = DASHES[(style + rounds) % len(DASHES)]
+    width = 0.9 * (shape.width if isinstance(shape, Curve) else 1.6)
+    drawn = {
+        "color": COLOURS[place],
+        "linewidth": width,
+        "linestyle": (0, tuple(x / 1.6 for x in dashes)) if dashes else "-",
+    }
+    if isinstance(shape, Curve) and shape.is_dense:
+        drawn["alpha"] = 0.6
+    if isinstance(shape, Curve) and shape.has_dots:
+        drawn |= {"marker": _MARKS[place], "markersize": 5.5}
+        if place % 2:
+            drawn["markerfacecolor"] = "white"
+    if isinstance(shape, Curve) and not shape.has_line:
+        drawn["linestyle"] = "none"
+    return drawn
+
+
+def _fill(axes: Axes, area: Area) -> None:
+    """An area as one patch, so that there are no seams; outlines of holes turn the other way."""
+    if not area.loops:
+        return
+    whole = Path.make_compound_path(*(Path([*loop, loop[0]], closed=True) for loop in area.loops))
+    colour = _TEXT if area.style is None else COLOURS[area.style % len(COLOURS)]
+    axes.add_patch(PathPatch(whole, facecolor=colour, alpha=area.opacity, linewidth=0))
+    if area.has_outline:
+        line = _line(area)
+        line["edgecolor"] = line.pop("color")
+        axes.add_patch(PathPatch(whole, fill=False, **line))
+
+
+def _rule(axes: Axes, rule: Rule) -> None:
+    """A thin line, its label on the far side from the curve that it is beside."""
+    xs, ys = zip(rule.start, rule.end, strict=True)
+    axes.plot(xs, ys, color=_TEXT, linewidth=0.8)
+    if not rule.label:
+        return
+    axes.annotate(
+        rule.label,
+        (sum(xs) / 2, sum(ys) / 2),
+        (3 if rule.is_right else -3, -3 if rule.is_below else 3),
+        textcoords="offset points",
+        ha="left" if rule.is_right else "right",
+        va="top" if rule.is_below else "bottom",
+        fontsize=9,
+        color=_TEXT,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+    )
+
+
+def _add_legend(axes: Axes, named: Sequence[Curve | Area], distance: float) -> None:
+    """The names below the axes, where no curve can be."""
+    if not named:
+        return
+    handles = [Line2D([], [], **_line(shape)) for shape in named]
+    legend = axes.legend(
+        handles,
+        ["name"] * len(named),
+        loc="upper left",
+        bbox_to_anchor=(0, 0),
+        borderaxespad=distance,
+        frameon=False,
+        handlelength=3.5,
+        fontsize=9,
+    )
+    # names are no formulas, and may begin with _, which would hide them
+    for text, shape in zip(legend.get_texts(), named, strict=True):
+        text.set_parse_math(False)
+        text.set_text(shortened(shape.label, _LONGEST))

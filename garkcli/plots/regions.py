@@ -1,0 +1,195 @@
+"""Regions of stability in the complex plane.
+
+They illustrate what was decided exactly and decide nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby, pairwise
+from math import hypot
+from typing import TypeAlias
+
+import numpy as np
+from flint import fmpq
+
+from garkcli.plots.oscillator import springs_panel, trace_panel
+from garkcli.plots.plane import Window, log_modulus, modulus, outlined, window_of
+from garkcli.plots.scene import Area, Axis, Panel, Point, Rule, Scene
+from garkcli.report.stability_data import StabilityReport
+from garkcli.stability.damping import ImexPair
+from garkcli.stability.linear import StabilityFunction
+
+Named: TypeAlias = tuple[str, StabilityFunction]
+"""A stability function and what the legend calls it."""
+FILLED = "Filled: |R(z)| ≤ 1."
+_STAR = "Order star, filled: |R(z)| > |exp z|."
+_HEIGHT = 300
+_SQUARES = 120
+"""A side of a region whose squares are decided one by one, even: the lower half is the upper one
+upside down.
+"""
+_ABOVE_ONE = 1.001
+"""Where |R(z_E, 0)| is larger there is nothing to decide: z_I = 0 is not damped."""
+_MOST_ZOOMS = 6
+_BLINDLY = 20
+_MUCH = 2.5
+"""How many times as large a window may be as what is around 0."""
+_AROUND = 1.3
+
+
+def stability_scene(reports: Sequence[StabilityReport], is_order_star: bool = False) -> Scene:
+    """What there is to draw of one or several methods.
+
+    Args:
+        reports: all with a linear part, or all with an oscillator.
+        is_order_star: draw |R(z)| > |e^z| instead of |R(z)| ≤ 1.
+    """
+    first = reports[0]
+    found = first.found
+    title = first.name if len(reports) == 1 else f"{len(reports)} methods"
+    planes = [report.plane for report in reports if report.plane is not None]
+    if planes:
+        return Scene(title, [springs_panel(planes[0])])
+    if not all(report.found.linear for report in reports):
+        oscillators = [(report.name, report.found.oscillator) for report in reports]
+        return Scene(title, [trace_panel([(name, x) for name, x in oscillators if x is not None])])
+    if len(reports) > 1:
+        named = [(report.name, report.found.linear[0].R) for report in reports]
+    else:
+        named = of_directions([(x.name, x.R) for x in found.linear])
+    panels = [region_panel(named, is_order_star)]
+    if len(reports) == 1 and not is_order_star and found.colours is not None:
+        pair = found.colours.pair
+        if pair is not None and found.colours.explicit_alone is not None:
+            panels.append(pair_panel(pair, found.colours.explicit_alone))
+    return Scene(title, panels, is_row=True)
+
+
+def of_directions(found: Sequence[Named]) -> list[Named]:
+    """The functions of a method, "all" first, by what the legend calls them."""
+    if len(found) == 1:
+        return [("", R) for _, R in found]
+    return [
+        ("all colours alike" if name == "all" else f"colour {name} alone", R) for name, R in found
+    ]
+
+
+def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
+    """The regions |R(z)| ≤ 1, or the order stars, of some stability functions."""
+    functions = [R for _, R in named]
+    window = whole = window_of(functions, is_order_star)
+    if not is_order_star:
+        window = _nearer(whole, functions)
+    labels = [name if len(named) > 1 else "" for name, _ in named]
+    areas = [
+        Area(style, _loops(window, R, is_order_star), 0.16, label=label)
+        for style, (label, R) in enumerate(zip(labels, functions, strict=True))
+    ]
+    note = _STAR if is_order_star else FILLED
+    if window != whole:
+        note += " Islands around zeros of R that are far away are not in the picture."
+    what = "|R(z)| is larger than |exp z|" if is_order_star else "|R(z)| is at most 1"
+    description = (
+        f"The complex plane from {window.left:.3g} to {window.right:.3g} and from "
+        f"{-window.top:.3g} i to {window.top:.3g} i, filled where {what}"
+    )
+    if len(named) > 1:
+        description += f", one outline each for: {', '.join(labels)}"
+    title = "Order star" if is_order_star else "Stability region"
+    return _in_plane(title, f"{description}.", window, areas, note, "z")
+
+
+def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
+    """The z_E for which every z_I in the left half plane is damped, each square decided at its
+    centre, and the outline with z_I = 0.
+    """
+    window = window_of([explicit], is_symmetric=False)
+    columns = np.linspace(window.left, window.right, _SQUARES + 1).tolist()
+    rows = np.linspace(0.0, window.top, _SQUARES // 2 + 1).tolist()
+    squares = []
+    for bottom, top in pairwise(rows):
+        for low, high in _damped(pair, explicit, columns, (bottom + top) / 2):
+            for b, t in ((bottom, top), (-top, -bottom)):
+                squares.append([(low, b), (high, b), (high, t), (low, t)])
+    e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
+    areas = [
+        Area(0, squares, 0.35, has_outline=False, label=f"{e} with every {i} damped"),
+        Area(1, _loops(window, explicit), 0.0, label=f"the same with {i} = 0 alone"),
+    ]
+    description = (
+        f"The complex plane of {e}, filled where |R({e}, {i})| is at most 1 for all {i} in the "
+        f"left half plane; outlined where it is for {i} = 0."
+    )
+    note = (
+        f"Filled: the {e} of the explicit colour for which |R({e}, {i})| ≤ 1 for all {i} in "
+        "the left half plane, each square decided exactly at its centre."
+    )
+    return _in_plane("Implicit-explicit pair", description, window, areas, note, e)
+
+
+def _in_plane(
+    title: str, description: str, window: Window, areas: Sequence[Area], note: str, z: str
+) -> Panel:
+    """Areas with both axes of the complex plane."""
+    left, right, top = window.left, window.right, window.top
+    axes = [Rule((left, 0.0), (right, 0.0)), Rule((0.0, -top), (0.0, top))]
+    x, y = Axis(f"Re {z}", left, right), Axis(f"Im {z}", -top, top)
+    return Panel(title, description, x, y, [*areas, *axes], note, _HEIGHT, is_plane=True)
+
+
+def _damped(
+    pair: ImexPair, explicit: StabilityFunction, columns: Sequence[float], b: float
+) -> Iterator[tuple[float, float]]:
+    """The ends of each run of squares of a row that are damped."""
+    centres = [(x + y) / 2 for x, y in pairwise(columns)]
+    sizes = modulus(explicit, np.array(centres) + 1j * b).tolist()
+    found = [
+        size <= _ABOVE_ONE and pair.is_damped(_exact(a), _exact(b))
+        for a, size in zip(centres, sizes, strict=True)
+    ]
+    for is_damped, run in groupby(range(len(found)), found.__getitem__):
+        squares = list(run)
+        if is_damped:
+            yield columns[squares[0]], columns[squares[-1] + 1]
+
+
+def _exact(x: float) -> fmpq:
+    return fmpq(*x.as_integer_ratio())
+
+
+def _loops(window: Window, R: StabilityFunction, is_order_star: bool = False) -> list[list[Point]]:
+    """The outlines of where |R(z)| ≤ 1, or where |R(z)| > |e^z|."""
+    x, y = window.grid()
+    z = x + 1j * y[:, np.newaxis]
+    level = log_modulus(R, z)
+    if is_order_star:
+        level = z.real - level
+    return outlined(x, y, level)
+
+
+def _nearer(window: Window, functions: Sequence[StabilityFunction]) -> Window:
+    """A part of the window where the regions around 0 fill too little of it, for zeros of R that
+    are far away.
+    """
+    for _ in range(_MOST_ZOOMS):
+        reach = max(_reach(window, R) for R in functions)
+        # nothing is seen of what is smaller than a cell
+        top = _AROUND * reach or window.top / _BLINDLY
+        if top > window.top / _MUCH:
+            return window
+        # both sides keep their share
+        shrunk = top / window.top
+        window = Window(window.left * shrunk, window.right * shrunk, top)
+    return window
+
+
+def _reach(window: Window, R: StabilityFunction) -> float:
+    """How far from 0 the largest part of a region goes."""
+    largest = max(_loops(window, R), key=_extent, default=[])
+    return max((hypot(x, y) for x, y in largest), default=0.0)
+
+
+def _extent(loop: Sequence[Point]) -> float:
+    """From its left to its right end."""
+    return max(x for x, _ in loop) - min(x for x, _ in loop)

@@ -1,0 +1,193 @@
+"""What a picture shows, in the coordinates of its axes; ``svg`` and ``figure`` draw it.
+
+Curves and areas have a style, a number: of a colour, of dashes and of marks, so that they can be
+told apart in grey too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from garkcli.errors import printable
+from garkcli.plots.scales import Mark, linear_marks, logarithmic_marks
+
+Point: TypeAlias = tuple[float, float]
+COLOURS = ("#24558f", "#a02417", "#35702f", "#76439a", "#8a6d1a", "#30777a", "#1d1f24", "#8c8c8c")
+"""By style, on white; all but the last at least 4.5 to 1."""
+DASHES: tuple[tuple[float, ...], ...] = (
+    (),
+    (7, 3),
+    (2, 2.5),
+    (8, 2.5, 2, 2.5),
+    (12, 3),
+    (8, 2, 2, 2, 2, 2),
+    (1.5, 4),
+    (4, 1.5),
+)
+"""By style: lengths of dashes and of gaps, in units of a picture."""
+WIDTH = 360
+"""Of a picture, in units of which a letter is 12 high: about those of a phone."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis from ``low`` to ``high``.
+
+    Attributes:
+        label: what it shows.
+        low, high: its ends, not equal.
+        is_logarithmic: whether coordinates are decimal logarithms of the numbers.
+        given: the marks on it; none for round numbers.
+    """
+
+    label: str
+    low: float
+    high: float
+    is_logarithmic: bool = False
+    given: Sequence[Mark] = ()
+
+    @staticmethod
+    def around(
+        label: str,
+        coordinates: Iterable[float],
+        is_logarithmic: bool = False,
+        given: Sequence[Mark] = (),
+    ) -> Axis:
+        """An axis with a twentieth of its length beside the coordinates on both sides."""
+        found = [*coordinates] or [0.0]
+        low, high = min(found), max(found)
+        beside = 0.05 * (high - low) or 0.5
+        return Axis(label, low - beside, high + beside, is_logarithmic, given)
+
+    def marks(self, most: int) -> Sequence[Mark]:
+        """Marks with labels, about ``most`` of them at most."""
+        if self.given:
+            return self.given
+        make = logarithmic_marks if self.is_logarithmic else linear_marks
+        return make(self.low, self.high, most)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points, and lines between them.
+
+    Attributes:
+        style: a number from 0.
+        points: from the first to the last.
+        label: in the legend; empty for none.
+        has_dots: whether the points are marked.
+        has_line: whether there are lines between them.
+        width: of the lines.
+        is_dense: whether they may fill a band, which is pale on white paper, so that other lines
+            can be seen on it.
+    """
+
+    style: int
+    points: Sequence[Point]
+    label: str = ""
+    has_dots: bool = False
+    has_line: bool = True
+    width: float = 1.6
+    is_dense: bool = False
+
+
+@dataclass(frozen=True)
+class Area:
+    """What lies on the left of closed outlines.
+
+    Attributes:
+        style: that of a curve; None for the colour of text.
+        loops: the corners of the outlines; those of holes turn the other way.
+        opacity: of what is filled, from 0 to 1.
+        has_outline: whether the outlines are drawn.
+        label: in the legend; empty for none.
+    """
+
+    style: int | None
+    loops: Sequence[Sequence[Point]]
+    opacity: float
+    has_outline: bool = True
+    label: str = ""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A thin straight line in the colour of text.
+
+    Attributes:
+        start, end: its ends.
+        label: beside its middle; empty for none.
+        is_right, is_below: on which side of the middle the label is.
+    """
+
+    start: Point
+    end: Point
+    label: str = ""
+    is_right: bool = False
+    is_below: bool = False
+
+
+Shape: TypeAlias = Curve | Area | Rule
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Axes and what is drawn between them.
+
+    Attributes:
+        title: its heading, a few words.
+        description: what one sees, for those who do not see it.
+        x, y: the horizontal and the vertical axis.
+        shapes: what is drawn, the last ones on top.
+        note: what is drawn, in a sentence beside it; empty for none.
+        height: of the space between the axes.
+        is_plane: whether the scales of both axes are alike; the height is then the largest.
+        has_grid: whether there are lines at the marks where there is space for them.
+    """
+
+    title: str
+    description: str
+    x: Axis
+    y: Axis
+    shapes: Sequence[Shape]
+    note: str = ""
+    height: float = 200
+    is_plane: bool = False
+    has_grid: bool = False
+
+    @property
+    def legend(self) -> list[Curve | Area]:
+        """What is named."""
+        named = [shape for shape in self.shapes if not isinstance(shape, Rule)]
+        return [shape for shape in named if shape.label]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A picture in a file: panels with a common title.
+
+    Attributes:
+        title: above all.
+        panels: at least one.
+        is_row: whether they are side by side; otherwise they are one below the other, and share
+            their horizontal axis.
+    """
+
+    title: str
+    panels: Sequence[Panel]
+    is_row: bool = False
+
+
+def capitalized(name: str) -> str:
+    """A name at the beginning of a sentence."""
+    return name[:1].upper() + name[1:]
+
+
+def shortened(name: str, longest: int) -> str:
+    """A name from outside on one line of so many characters."""
+    shown = printable(name)
+    if len(shown) <= longest:
+        return shown
+    return f"{shown[: longest - 1]}…"

@@ -1,0 +1,243 @@
+"""Panels as elements of SVG, in the colours of the page they stand in.
+
+Text, axes and marks have the colour of the text around them. Curves have the colours --picture-1 to
+--picture-4 of the page, which STYLE sets for light and dark backgrounds; they differ in dashes too,
+so that they can be told apart in grey. There are no ids: any number of pictures fit on a page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from typing import TypeAlias
+
+from garkcli.plots.scene import (
+    COLOURS,
+    DASHES,
+    WIDTH,
+    Area,
+    Curve,
+    Panel,
+    Point,
+    Rule,
+    Shape,
+    shortened,
+)
+
+Value: TypeAlias = str | float | None
+"""Of an attribute; numbers are lengths, None is for those that are left out."""
+_LEFT, _RIGHT, _TOP, _BOTTOM = 58, 12, 10, 40
+"""Around the frame: numbers and a label on the left and below."""
+_INSIDE = WIDTH - _LEFT - _RIGHT
+ON_ANY = ("#2f7dc8", "#d24a3a", "#3f8f36", "#9b6ac0")
+"""Of a page without STYLE, a notebook for instance, light or dark: 3 to 1 and more on both."""
+_DARK_COLOURS = ("#8ab8f5", "#ff9d8c", "#8fd08a", "#d3a6f2")
+_LEGEND_ROW = 18
+_LONGEST = 46  # characters of a name
+_RADIUS = 3
+_MOST_ACROSS, _MOST_UP = 6, 7
+"""Marks on the axes."""
+
+
+def _variables(colours: Sequence[str]) -> str:
+    return ";".join(f"--picture-{k}:{colour}" for k, colour in enumerate(colours, start=1))
+
+
+def _style() -> str:
+    light = _variables(COLOURS[: len(ON_ANY)])
+    dark = _variables(_DARK_COLOURS)
+    return (
+        f":root{{{light}}}\n"
+        f"@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}\n"
+        "svg.plot{display:block;width:100%;max-width:30rem;height:auto}\n"
+    )
+
+
+STYLE = _style()
+"""What a page with pictures has among its styles."""
+
+
+def colour(style: int | None) -> str:
+    """The colour of a style, that of the page or else one for any page."""
+    if style is None:
+        return "currentColor"
+    place = style % len(ON_ANY)
+    return f"var(--picture-{place + 1},{ON_ANY[place]})"
+
+
+def svg(panel: Panel) -> str:
+    """A panel as an element, with its title and description for those who do not see it."""
+    frame = _Frame(panel)
+    foot = frame.bottom + _BOTTOM
+    height = _number(foot + _LEGEND_ROW * len(panel.legend))
+    head = _opened(
+        "svg",
+        **{"class": "plot"},
+        role="img",
+        viewBox=f"0 0 {WIDTH} {height}",
+        font_size="12",
+        fill="currentColor",
+        stroke_linejoin="round",
+    )
+    lines = [
+        head,
+        element("title", panel.title),
+        element("desc", panel.description),
+        *frame.axes(panel),
+        *frame.cut_off(panel.shapes),
+        *_legend_rows(panel.legend, foot + 6),
+        "</svg>",
+    ]
+    return "\n".join(lines)
+
+
+class _Frame:
+    """The axes in units of the picture."""
+
+    def __init__(self, panel: Panel) -> None:
+        x, y = panel.x, panel.y
+        self._x, self._y = x, y
+        width, height = float(_INSIDE), panel.height
+        if panel.is_plane:
+            unit = min(width / (x.high - x.low), height / (y.high - y.low))
+            width, height = (x.high - x.low) * unit, (y.high - y.low) * unit
+        self.left = _LEFT + (_INSIDE - width) / 2
+        self.top = float(_TOP)
+        self.width, self.height = width, height
+        self.bottom = self.top + height
+
+    def across(self, x: float) -> float:
+        """How far right a coordinate is."""
+        return self.left + self.width * (x - self._x.low) / (self._x.high - self._x.low)
+
+    def down(self, y: float) -> float:
+        """How far down a coordinate is."""
+        return self.bottom - self.height * (y - self._y.low) / (self._y.high - self._y.low)
+
+    def path(self, points: Iterable[Point]) -> str:
+        """A line through points as the data of a path."""
+        return _path((self.across(x), self.down(y)) for x, y in points)
+
+    def axes(self, panel: Panel) -> Iterator[str]:
+        """The frame, the marks and the labels of both axes."""
+        left, bottom = self.left, self.bottom
+        middle = left + self.width / 2, self.top + self.height / 2
+        box = {"x": left, "y": self.top, "width": self.width, "height": self.height}
+        yield element("rect", **box, fill="none", stroke="currentColor")
+        for mark in panel.x.marks(_MOST_ACROSS):
+            x = self.across(mark.at)
+            yield element("path", d=_path([(x, bottom), (x, bottom + 4)]), stroke="currentColor")
+            yield element("text", mark.label, x=x, y=bottom + 16, text_anchor="middle")
+        for mark in panel.y.marks(_MOST_UP):
+            y = self.down(mark.at)
+            yield element("path", d=_path([(left - 4, y), (left, y)]), stroke="currentColor")
+            yield element("text", mark.label, x=left - 7, y=y + 4, text_anchor="end")
+        yield element("text", panel.x.label, x=middle[0], y=bottom + 33, text_anchor="middle")
+        start = left - _LEFT + 12
+        turned = f"rotate(-90 {_number(start)} {_number(middle[1])})"
+        yield element(
+            "text", panel.y.label, x=start, y=middle[1], text_anchor="middle", transform=turned
+        )
+
+    def cut_off(self, shapes: Sequence[Shape]) -> Iterator[str]:
+        """A nested picture cuts off what is outside of it, and needs no id for that."""
+        box = {"x": self.left, "y": self.top, "width": self.width, "height": self.height}
+        yield _opened("svg", **box, viewBox=" ".join(map(_number, box.values())))
+        for shape in shapes:
+            if isinstance(shape, Curve):
+                yield from self._curve(shape)
+            elif isinstance(shape, Area):
+                yield from self._area(shape)
+            else:
+                yield from self._rule(shape)
+        yield "</svg>"
+
+    def _curve(self, curve: Curve) -> Iterator[str]:
+        if curve.has_line and curve.points:
+            yield element("path", d=self.path(curve.points), fill="none", **_stroke(curve))
+        if curve.has_dots:
+            for x, y in curve.points:
+                place = {"cx": self.across(x), "cy": self.down(y), "r": _RADIUS}
+                yield element("circle", **place, style=f"fill:{colour(curve.style)}")
+
+    def _area(self, area: Area) -> Iterator[str]:
+        if not area.loops:
+            return
+        data = "".join(self.path(loop) + "Z" for loop in area.loops)
+        stroke = _stroke(area) if area.has_outline else {}
+        style = f"fill:{colour(area.style)};{stroke.pop('style', '')}".removesuffix(";")
+        opacity = f"{area.opacity:g}"
+        yield element(
+            "path", d=data, style=style, fill_opacity=opacity, fill_rule="evenodd", **stroke
+        )
+
+    def _rule(self, rule: Rule) -> Iterator[str]:
+        ends = [rule.start, rule.end]
+        yield element("path", d=self.path(ends), stroke="currentColor", stroke_width=0.7)
+        if not rule.label:
+            return
+        x = self.across((rule.start[0] + rule.end[0]) / 2)
+        y = self.down((rule.start[1] + rule.end[1]) / 2)
+        yield element(
+            "text",
+            rule.label,
+            x=x + (3 if rule.is_right else -3),
+            y=y + (11 if rule.is_below else -4),
+            text_anchor="start" if rule.is_right else "end",
+            font_size="10",
+        )
+
+
+def _legend_rows(named: Sequence[Curve | Area], y: float) -> Iterator[str]:
+    for shape in named:
+        start, end = (_LEFT - 46, y), (_LEFT - 12, y)
+        if not isinstance(shape, Curve) or shape.has_line:
+            yield element("path", d=_path([start, end]), **_stroke(shape) | {"stroke_width": 2.0})
+        else:
+            place = {"cx": (start[0] + end[0]) / 2, "cy": y, "r": _RADIUS}
+            yield element("circle", **place, style=f"fill:{colour(shape.style)}")
+        yield element("text", shortened(shape.label, _LONGEST), x=_LEFT - 4, y=y + 4)
+        y += _LEGEND_ROW
+
+
+def _stroke(shape: Curve | Area) -> dict[str, Value]:
+    """The attributes of its line."""
+    dashes = () if shape.style is None else DASHES[shape.style % len(ON_ANY)]
+    return {
+        "style": f"stroke:{colour(shape.style)}",
+        "stroke_width": shape.width if isinstance(shape, Curve) else 1.6,
+        "stroke_dasharray": " ".join(f"{x:g}" for x in dashes) or None,
+    }
+
+
+def element(name: str, words: str | None = None, /, **attributes: Value) -> str:
+    """An element with attributes, and with a text in it or empty.
+
+    >>> element("text", "a < b", x=1.26, text_anchor="end", style=None)
+    '<text x="1.3" text-anchor="end">a &lt; b</text>'
+    """
+    head = _opened(name, **attributes)
+    if words is None:
+        return head.removesuffix(">") + "/>"
+    return f"{head}{escape(words)}</{name}>"
+
+
+def _opened(name: str, **attributes: Value) -> str:
+    """The beginning of an element."""
+    parts = [name]
+    for key, value in attributes.items():
+        if value is not None:
+            written = value if isinstance(value, str) else _number(value)
+            parts.append(f'{key.replace("_", "-")}="{written}"')
+    return f"<{' '.join(parts)}>"
+
+
+def _path(points: Iterable[Point]) -> str:
+    """A polygon or polyline as the data of a path."""
+    return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
+
+
+def _number(x: float) -> str:
+    """A length to a tenth of a unit."""
+    short = f"{x:.1f}".removesuffix(".0")
+    return "0" if short == "-0" else short

@@ -1,0 +1,275 @@
+"""The pictures of a method, and of several together, in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from garkcli.api.runs import converge, long_run
+from garkcli.convergence.default_problem import in_common, seeing_problem
+from garkcli.convergence.result import Convergence
+from garkcli.errors import GarkError
+from garkcli.longtime.history import LongRun
+from garkcli.longtime.longtime import usual
+from garkcli.plots.convergence import comparison_panel, errors_panel
+from garkcli.plots.energy import became_of, history_panel
+from garkcli.plots.oscillator import trace_panel
+from garkcli.plots.regions import of_directions, pair_panel, region_panel
+from garkcli.plots.scene import Panel
+from garkcli.plots.svg import ON_ANY, svg
+from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.oscillator import terms_of
+from garkcli.report.convergence import order_text, predicted
+from garkcli.report.problem_json import name_of
+from garkcli.stability.damping import imex_pair
+from garkcli.stability.fraction import stability_fraction
+from garkcli.stability.linear import stability_function
+from garkcli.stability.summary import directions, usual_oscillator
+from garkcli.stepping.fields import with_joined_terms
+from garkcli.stepping.step import StepFailed
+from garkcli.tableau.garkmethod import GarkMethod, word_for
+
+MOST = len(ON_ANY)
+"""Curves in one picture; more could not be told apart."""
+STEPS = 5000
+_POINTS = 600
+MOST_STAGES = 40
+"""Of a method that is put to work for a picture."""
+MOST_ROUNDED_STAGES = 20
+"""Of one with rounded coefficients, whose order takes longer."""
+MOST_STAGES_OF_PAIR = 14
+"""Of an implicit-explicit pair that is drawn."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture of a method, or of several.
+
+    Attributes:
+        name: what it is of, a word for addresses and classes.
+        title: its heading, a few words.
+        description: what one sees, for those who do not see it.
+        svg: the element, without ids and in the colours of the page; empty where there is no
+            picture.
+        note: a sentence below it; why there is none where it is missing.
+    """
+
+    name: str
+    title: str
+    description: str
+    svg: str
+    note: str
+
+
+class NotDrawn(Exception):
+    """A picture that a method has not. The text says why, as a sentence; it is empty where nobody
+    would expect one.
+    """
+
+
+def pictures(method: GarkMethod) -> list[Picture]:
+    """All pictures of a method. One that is expected and is not there has no SVG, and a note that
+    says why.
+
+    Args:
+        method: with numbers as coefficients.
+    """
+    drawn = []
+    for name, (title, draw) in PICTURES.items():
+        try:
+            drawn.append(_picture(name, *draw(method)))
+        except NotDrawn as error:
+            drawn.append(Picture(name, title, "", "", str(error)))
+        except GarkError as error:
+            # of a problem that the method is not for
+            drawn.append(Picture(name, title, "", "", f"Not drawn: {error}."))
+    return [picture for picture in drawn if picture.svg or picture.note]
+
+
+def compared_pictures(methods: Sequence[GarkMethod]) -> list[Picture]:
+    """The pictures of several methods together, the first of them where they are many; those that
+    cannot be drawn of two of them at least are left out.
+    """
+    chosen = methods[:MOST]
+    first = f" Of the first {MOST} methods." if len(methods) > MOST else ""
+    found = []
+    for name, draw in (("region", _regions), ("convergence", _comparison)):
+        try:
+            panel, note = draw(chosen)
+        except (NotDrawn, GarkError):
+            # the parts of the methods tell why
+            continue
+        found.append(_picture(name, panel, note + first))
+    return found
+
+
+def _picture(name: str, panel: Panel, note: str) -> Picture:
+    return Picture(name, panel.title, panel.description, svg(panel), note)
+
+
+def _region(method: GarkMethod) -> tuple[Panel, str]:
+    """The regions |R(z)| ≤ 1: of all colours alike, and of each alone with the others at 0."""
+    tableau = method.tableau
+    found = directions(tableau)
+    if not found:
+        raise NotDrawn(
+            "There is no stability function: colours drive positions or momenta only, or do not "
+            "see one another."
+        )
+    named = [(name, stability_function(tableau, shares)) for name, shares in found[:MOST]]
+    panel = region_panel(of_directions(named))
+    more = len(found) - len(named)
+    left_out = f" The regions of the last {more} colours alone are left out." if more else ""
+    return panel, panel.note + left_out
+
+
+def _pair(method: GarkMethod) -> tuple[Panel, str]:
+    """The z of the explicit colour for which every z of the implicit one is damped."""
+    alone = directions(method.tableau)[1:]
+    is_small = sum(method.stages) <= MOST_STAGES_OF_PAIR
+    if len(alone) != 2 or not is_small or method.tolerance is not None:
+        raise NotDrawn("")
+    imex = imex_pair(method.tableau, stability_fraction(method.tableau))
+    if imex is None:
+        raise NotDrawn("")
+    _, shares = alone[imex.explicit]
+    panel = pair_panel(imex, stability_function(method.tableau, shares))
+    return panel, panel.note
+
+
+def _oscillator(method: GarkMethod) -> tuple[Panel, str]:
+    """|tr M|/2 over z = hω."""
+    tableau = method.tableau
+    rounded = method.tolerance is not None
+    found = None if rounded else usual_oscillator(tableau)
+    if found is None or not found.determinant.is_one:
+        why = "The steps on the oscillator do not keep areas: the trace alone does not decide."
+        if rounded:
+            why = "With rounded coefficients nothing is decided about the oscillator."
+        elif found is None:
+            why = "The method has no split for the oscillator."
+        # the region tells what there is to tell
+        raise NotDrawn("" if directions(tableau) else why)
+    panel = trace_panel([(method.name, found)])
+    return panel, panel.note
+
+
+def _convergence(method: GarkMethod) -> tuple[Panel, str]:
+    """The convergence test, on the problem that sees every tree of the method."""
+    _refuse_large(method, "gark converge", "be tested")
+    result = converge(method)
+    observed = order_text(result.observed_order)
+    name = name_of(result.problem)
+    note = (
+        f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
+        f"Observed order {observed}, proved order {predicted(result)}: {_VERDICTS[result.verdict]}."
+    )
+    if result.plateau:
+        note += " The last errors are those of the rounded coefficients."
+    return errors(result), note
+
+
+_VERDICTS = {
+    "agree": "they agree",
+    "disagree": "they do not agree",
+    "undecided": "these steps do not decide whether they agree",
+    "reduced": "steps that do not resolve a stiff problem show a smaller one",
+}
+
+
+def errors(result: Convergence) -> Panel:
+    """Errors over step sizes.
+
+    Raises:
+        NotDrawn: there are fewer than two errors.
+    """
+    if sum(row.error > 0 for row in result.rows) < 2:
+        raise NotDrawn("The method makes no error on the problem of the test.")
+    return errors_panel(result)
+
+
+def _energy(method: GarkMethod) -> tuple[Panel, str]:
+    """The energy error over a long time, on an orbit of Kepler's problem."""
+    _refuse_large(method, "gark energy", "be put to work")
+    problem = hamiltonian("kepler", terms_of(with_joined_terms(method.tableau)))
+    step, _ = usual(problem)
+    try:
+        run = long_run(method, problem, STEPS * step, step, points=_POINTS)
+    except StepFailed as error:
+        raise NotDrawn(f"A step fails on Kepler's problem: {error}.") from None
+    where = f"Kepler's problem, {run.steps} steps of {run.step}"
+    return energy(
+        run
+    ), f"Numerical: the {word_for(run.method)} on {where}; {became_of(run.invariants[0])}."
+
+
+def energy(run: LongRun) -> Panel:
+    """The error of the first invariant over time.
+
+    Raises:
+        NotDrawn: it is nowhere above round-off.
+    """
+    history = run.invariants[0]
+    if history.verdict in ("exact", "round-off"):
+        where = f"{run.steps} steps of {run.step} on the problem {name_of(run.problem)}"
+        raise NotDrawn(f"The {history.name} error stays below round-off in {where}.")
+    return history_panel(run, history)
+
+
+def _is_large(method: GarkMethod) -> bool:
+    """Whether steps would take longer than a picture is worth."""
+    most = MOST_STAGES if method.tolerance is None else MOST_ROUNDED_STAGES
+    return sum(method.stages) > most
+
+
+def _refuse_large(method: GarkMethod, command: str, what: str) -> None:
+    if _is_large(method):
+        raise NotDrawn(
+            f"The method has too many stages to {what} for a picture; {command} does it."
+        )
+
+
+PICTURES: dict[str, tuple[str, Callable[[GarkMethod], tuple[Panel, str]]]] = {
+    "region": ("Stability region", _region),
+    "pair": ("Implicit-explicit pair", _pair),
+    "oscillator": ("Oscillator", _oscillator),
+    "convergence": ("Convergence", _convergence),
+    "energy": ("Energy error over a long time", _energy),
+}
+"""Titles of what is not drawn and what draws, by name."""
+
+
+def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
+    """The regions of all colours alike."""
+    named = []
+    without = []
+    for method in methods:
+        tableau = method.tableau
+        found = directions(tableau)
+        if found:
+            named.append((method.name, stability_function(tableau, found[0][1])))
+        else:
+            without.append(method.name)
+    if len(named) < 2:
+        raise NotDrawn("")
+    panel = region_panel(named)
+    none = f" No stability function: {', '.join(without)}." if without else ""
+    return panel, panel.note + none
+
+
+def _comparison(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
+    """The errors on the problem that sees the most trees of all of them."""
+    small = [x for x in methods if not _is_large(x)]
+    if len(small) < 2:
+        raise NotDrawn("")
+    tableaus = [x.tableau for x in small]
+    name = seeing_problem(tableaus)
+    results = [
+        converge(method, problem)
+        for method, problem in zip(small, in_common(name, tableaus, 1), strict=True)
+    ]
+    named = [(x.name, result) for x, result in zip(small, results, strict=True)]
+    panel = comparison_panel(named)
+    if len(panel.legend) < 2:
+        raise NotDrawn("")
+    return panel, f"Numerical: all on the problem {name}."

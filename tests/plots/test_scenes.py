@@ -1,0 +1,145 @@
+"""Scenes, and that both back ends draw the whole of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import exp
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from flint import fmpq
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from garkcli import converge, find_stability, long_run
+from garkcli.plots.convergence import comparison_scene, convergence_scene
+from garkcli.plots.energy import energy_scene
+from garkcli.plots.figure import figure
+from garkcli.plots.regions import stability_scene
+from garkcli.plots.scales import common_exponent
+from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene
+from garkcli.plots.svg import svg
+from garkcli.report.stability_data import StabilityReport
+
+
+def stability_of(*names: str, is_order_star: bool = False) -> Scene:
+    """The scene of the stability of some methods."""
+    reports = [StabilityReport(name, name, find_stability(name)) for name in names]
+    return stability_scene(reports, is_order_star)
+
+
+def scenes() -> list[Scene]:
+    """A scene of each kind that results have."""
+    rk4, euler = converge("rk4"), converge("forward-euler")
+    return [
+        convergence_scene(rk4, "RK4"),
+        comparison_scene([("RK4", rk4), ("Euler", euler)]),
+        energy_scene(long_run("rk4", "kepler", 100, "1/16")),
+        stability_of("forward-euler", "rk4"),
+        stability_of("ark-ars222"),
+        stability_of("gauss-3", is_order_star=True),
+        stability_of("stoermer-verlet"),
+        stability_of("stoermer-verlet", "forest-ruth"),
+    ]
+
+
+def test_both_back_ends_draw_all_of_a_scene() -> None:
+    """Each panel has its labels, the names of its legend and the slopes beside lines, as a figure
+    and as SVG, and one path or line for each shape.
+    """
+    for scene in scenes():
+        axes = figure(scene).axes
+        for panel, drawn in zip(scene.panels, axes, strict=True):
+            root = ET.fromstring(svg(panel))
+            texts = [str(x.text) for x in root.iter("text")]
+            names = [x.label for x in panel.legend]
+            slopes = [x.label for x in panel.shapes if isinstance(x, Rule) and x.label]
+            assert {panel.x.label, panel.y.label, *names, *slopes} <= {*texts}
+            legend = drawn.get_legend()
+            assert names == ([] if legend is None else [x.get_text() for x in legend.get_texts()])
+            assert slopes == [x.get_text() for x in drawn.texts]
+            assert drawn.get_ylabel() == panel.y.label
+            if scene.is_row or panel is scene.panels[-1]:
+                assert drawn.get_xlabel() == panel.x.label
+            areas = [x for x in panel.shapes if isinstance(x, Area) and x.loops]
+            nested = root.find("svg")
+            assert nested is not None
+            assert len(nested.findall("path")) == len(panel.shapes)
+            assert len(drawn.get_lines()) == len(panel.shapes) - len(areas)
+            assert len(drawn.patches) == sum(1 + x.has_outline for x in areas)
+            assert panel.description.endswith(".")
+
+
+def test_the_outline_of_an_order_star() -> None:
+    """Where |R(z)| = |e^z|, out to the ends of its petals."""
+    (panel,) = stability_of("gauss-3", is_order_star=True).panels
+    area = panel.legend or [x for x in panel.shapes if isinstance(x, Area)]
+    assert isinstance(area[0], Area)
+    on_edge = 0
+    reach = 0.0
+    for x, y in (point for loop in area[0].loops for point in loop):
+        if x <= panel.x.low + 0.1 or abs(y) >= panel.y.high - 0.1:
+            continue  # the edge of the picture
+        z = complex(x, y)
+        P = 1 + z / 2 + z**2 / 10 + z**3 / 120
+        Q = 1 - z / 2 + z**2 / 10 - z**3 / 120
+        assert abs(P / Q) / exp(x) == pytest.approx(1, abs=0.02)
+        on_edge += 1
+        reach = max(reach, x)
+    assert on_edge > 50
+    assert reach > 4
+
+
+def test_holes_are_left_out() -> None:
+    """A patch of a figure keeps the hole of an area, whose outline turns the other way."""
+    outer = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)]
+    hole = [(1.0, 1.0), (1.0, 2.0), (2.0, 2.0), (2.0, 1.0)]
+    axis = Axis("x", 0.0, 3.0)
+    panel = Panel("t", "d.", axis, axis, [Area(None, [outer, hole], 1.0, has_outline=False)])
+    drawn = figure(Scene("", [panel]))
+    canvas = FigureCanvasAgg(drawn)
+    canvas.draw()
+    (axes,) = drawn.axes
+    pixels = np.asarray(canvas.buffer_rgba())
+    height = len(pixels)
+
+    def shade(x: float, y: float) -> int:
+        column, row = axes.transData.transform((x, y))
+        return int(pixels[height - 1 - int(row), int(column), 0])
+
+    assert shade(0.5, 1.5) < 100
+    assert shade(1.5, 1.5) > 200
+
+
+def test_little_to_draw() -> None:
+    """A curve without points, an area without outlines, points without lines: elements are
+    well-formed and have no path without data.
+    """
+    axis = Axis("x", 0.0, 1.0)
+    shapes = [Curve(0, []), Area(1, [], 0.5), Curve(2, [(0.5, 0.5)], "dot", True, has_line=False)]
+    panel = Panel("t", "d.", axis, axis, shapes)
+    root = ET.fromstring(svg(panel))
+    assert all("0" in str(x.get("d")) for x in root.iter("path"))
+    assert len(list(root.iter("circle"))) == 2  # the point, and its entry in the legend
+    assert len(figure(Scene("", [panel])).axes) == 1
+
+
+def test_errors_that_are_no_numbers_or_hardly_any() -> None:
+    """A run that has blown up at once, and errors at the lower end of the floats, have a panel."""
+    run = long_run("rk4", "kepler", 100, "1/16")
+    first = run.invariants[0]
+    for errors in ([float("inf")] * len(first.errors), [5e-324] * len(first.errors)):
+        history = replace(
+            first, errors=tuple(errors), max_error=errors[0], drift=None, verdict="unstable"
+        )
+        scene = energy_scene(replace(run, invariants=(history,)))
+        assert len(figure(scene).axes) == 1
+        assert "blows up" in scene.panels[0].description
+    assert common_exponent([5e-324]) == -290
+
+
+def test_steps_of_a_run_are_exact_marks() -> None:
+    """What is below an axis of step sizes are these, at their logarithms."""
+    result = converge("rk4", steps=[fmpq(1, 3), fmpq(1, 9)])
+    (panel,) = convergence_scene(result, "RK4").panels
+    assert [mark.label for mark in panel.x.marks(6)] == ["1/3", "1/9"]
