@@ -70,19 +70,19 @@ class FamilyConditions(Spans):
             TooManyTerms: they are too long.
         """
         for l, forest in self.members(order):
-            refuse_long(_longest(self._cleared.weights[l]), _longest(forest.vector))
+            _refuse_long(self._cleared.weights[l], forest.vector)
             value = dot(self._cleared.weights[l], forest.vector)
             required = forest.scale * self._cleared.E / fmpq(order)
             yield Condition(Tree(l, forest.branches), value - required)
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
-        longest = _longest(chain.from_iterable(self._cleared.blocks[k, m]))
+        block = [*chain.from_iterable(self._cleared.blocks[k, m])]
         for forest in trees:
-            refuse_long(longest, _longest(forest.vector))
+            _refuse_long(block, forest.vector)
         return super()._image(k, m, order, trees)
 
     def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
-        refuse_long(_longest(u), _longest(v))
+        _refuse_long(u, v)
         return super()._product(k, u, v)
 
     def _joined(self, k: int, parts: Iterable[Forests]) -> Forests:  # noqa: ARG002 -- any space
@@ -90,5 +90,8 @@ class FamilyConditions(Spans):
         return [x for x in chain.from_iterable(parts) if span.insert((x.scale, *x.vector))]
 
 
-def _longest(polynomials: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
-    return max(polynomials, key=len)
+def _refuse_long(u: Iterable[object], v: Iterable[object]) -> None:
+    """Refuse products of two rows before they are computed, where the longest is too long."""
+    rows = [[x for x in row if isinstance(x, fmpq_mpoly)] for row in (u, v)]
+    if all(rows):
+        refuse_long(*(max(row, key=len) for row in rows))
