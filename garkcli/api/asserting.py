@@ -215,7 +215,7 @@ def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Ite
         repairs.sort(key=lambda repair: repair.m is not None)
     shown = repair_text(repairs[0], names)
     if part.of is _embedded and repairs[0].m is None:
-        shown = f"embedded{shown.removeprefix('b')}"
+        shown = f"embedded {shown}"
     yield f"order {claimed} would hold with {shown}"
     others = len(repairs) - 1
     if others == 1:

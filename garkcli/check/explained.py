@@ -152,15 +152,19 @@ def repair_text(repair: Repair, names: Sequence[str]) -> str:
 
 
 def place_text(repair: Repair, names: Sequence[str]) -> str:
-    """Where an entry stands, counted from 1; ``names`` of the colours."""
-    entry = f"entry {repair.j + 1},"
-    seer = names[repair.l]
+    """Where an entry is, counted from 1; ``names`` of the colours: ``a[2,1]``, ``a{q,p}[2,1]``."""
     if repair.m is None or repair.i is None:
-        letter = "embedded" if repair.is_embedded else "b"
-        return f"{letter}{{{seer}}}, {entry}"
-    seen = names[repair.m]
-    row = f"row {repair.i + 1}"
-    return f"A{{{seer},{seen}}}, {row}, {entry}"
+        letter, whose, indices = "b", names[repair.l], f"{repair.j + 1}"
+        letter = "embedded b" if repair.is_embedded else letter
+    else:
+        letter, whose = "a", f"{names[repair.l]},{names[repair.m]}"
+        indices = f"{repair.i + 1},{repair.j + 1}"
+    return f"{letter}{f'{{{whose}}}' if len(names) > 1 else ''}[{indices}]"
+
+
+def block_text(letter: str, block: Sequence[int], names: Sequence[str]) -> str:
+    """A block of A, ``A{q,p}``; of one colour ``A``."""
+    return f"{letter}{{{','.join(names[l] for l in block)}}}" if len(names) > 1 else letter
 
 
 def value_text(number: Number, digits: int = 17) -> str:

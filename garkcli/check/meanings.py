@@ -17,6 +17,7 @@ from garkcli.check.senses import (
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.glossary.faults import UNKNOWN, code_of
 from garkcli.glossary.fields import field_entries
+from garkcli.glossary.labels import key_of
 from garkcli.glossary.registry import plain
 
 __all__ = ["Meaning", "claim_meaning", "known_words", "meanings", "term_meaning"]
@@ -49,7 +50,7 @@ def meanings(word: str) -> list[Meaning]:
         else:
             nearly.append(sense.mean(name))
     if not exactly and not nearly:
-        return field_meanings(word) or [_of_message(word)]
+        return field_meanings(word) or field_meanings(key_of(word)) or [_of_message(word)]
     # b is a weight, and B a condition: letters alone are taken at their word
     is_letter = len(plain(word)) == 1
     return exactly if is_letter and exactly else _once(exactly + nearly)

@@ -115,7 +115,7 @@ def command(
         return _compare(outcomes, earlier, output)
     chosen = _format(output)
     render = FORMATS[chosen]
-    report = render(outcomes, output.paint, output.verbosity, digits)
+    report = render(outcomes, output.paint, output.verbosity, digits, output.width)
     output.write(report, chosen)
     return max(outcome.exit_code for outcome in outcomes)
 
@@ -182,9 +182,9 @@ def _compare(outcomes: Sequence[Outcome], earlier: Earlier, output: Output) -> i
     """Write what is worse than in an earlier report."""
     from garkcli.check.baseline import regressions
     from garkcli.report import check_baseline
-    from garkcli.report.check_json import as_data
+    from garkcli.report.checked import REPORT
 
-    worse = regressions(as_data(outcomes), earlier)
+    worse = regressions(REPORT.document(outcomes), earlier)
     output.write(check_baseline.render(worse, len(outcomes)))
     return int(bool(worse))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence, Sized
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -14,6 +14,9 @@ from garkcli.doing import hush
 from garkcli.errors import UsageProblem
 from garkcli.files import note_input
 from garkcli.page.paint import Paint
+
+if TYPE_CHECKING:
+    from garkcli.tell.report import Report
 
 F = TypeVar("F", bound=Callable[..., Any])
 CONTEXT = {"help_option_names": [], "max_content_width": 100}
@@ -228,6 +231,11 @@ class Output:
         from garkcli.page.writing import write_whole
 
         write_whole(self.path, safe_pieces(pieces, format, coloured))
+
+    def tell(self, report: Report[Any], wholes: Sequence[Any], **signs: Any) -> None:
+        """Write results in the format that is asked for."""
+        signs["width"] = self.width
+        self.write(report.render(wholes, self.format, self.paint, self.verbosity, **signs))
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""

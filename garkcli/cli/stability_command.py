@@ -21,13 +21,14 @@ from garkcli.cli.options import (
 )
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
 from garkcli.errors import HasFreeParameters, UsageProblem
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from flint import fmpq
 
-    from garkcli.report.stability_data import StabilityReport
+    from garkcli.report.stability import StabilityReport
     from garkcli.tableau.garkmethod import GarkMethod
 
 
@@ -50,7 +51,7 @@ if TYPE_CHECKING:
 @plot_option("Draw regions or traces into FILE: .png, .svg, .pdf.")
 @click.option("--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead.")
 @settings_option
-@common(["text", "json", "latex"])
+@common(FORMATS)
 def command(
     files: tuple[str, ...],
     which: str | None,
@@ -70,7 +71,7 @@ def command(
     Of a file with free parameters R(z) with these, and for which values it is stable.
     """
     from garkcli.methodfile.load import load
-    from garkcli.report.stability import render
+    from garkcli.report.stability import REPORT
 
     _check_options(slow, fast, plot, order_star)
     ratios = [_ratio(text) for text in ratio]
@@ -92,7 +93,7 @@ def command(
             reports.append(
                 _springs_report(source.source, method, digits, slow, fast, plot is not None)
             )
-    output.write(render(reports, output.format, output.paint))
+    output.tell(REPORT, reports)
     if plot is not None:
         from garkcli.plots.regions import stability_scene
 
@@ -122,12 +123,12 @@ def _for_every_value(
 ) -> int:
     """A file with free parameters: R(z), and for which values it is stable."""
     from garkcli.cli.every import read_family, refuse_numbers
-    from garkcli.report.every_stability import every_stability, render
+    from garkcli.report.every import STABILITY, every_stability
 
     file, family = read_family(error, settings)
     refuse_numbers(family, wants_numbers)
     found = every_stability(file.source, file.name, family)
-    output.write(render(found, output.format))
+    output.tell(STABILITY, [found])
     return 0
 
 
@@ -151,7 +152,7 @@ def _ratio(text: str) -> fmpq:
 def _whole_report(
     file: str, method: GarkMethod, digits: int, ratios: Sequence[fmpq]
 ) -> StabilityReport:
-    from garkcli.report.stability_data import StabilityReport
+    from garkcli.report.stability import StabilityReport
     from garkcli.stability.summary import stability, stability_of_rounded
 
     if method.tolerance is None:
@@ -168,7 +169,7 @@ def _springs_report(
 ) -> StabilityReport:
     """The two springs that the options ask for."""
     from garkcli.cli.stepping import term_of
-    from garkcli.report.stability_data import StabilityReport
+    from garkcli.report.stability import StabilityReport
     from garkcli.stability.slow_interval import slow_interval
     from garkcli.stability.summary import Stability
     from garkcli.stability.two_frequencies import springs, two_frequencies

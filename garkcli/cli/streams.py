@@ -126,10 +126,10 @@ def complain(error: GarkError) -> None:
 def say_faults(outcome: Outcome) -> None:
     """Say every fault of a file that cannot be read."""
     from garkcli.page.paint import Paint
-    from garkcli.report.check_text import faults_text
+    from garkcli.report.check_text import faults_lines
 
     paint = Paint(wants_colour(sys.stderr))
-    say(faults_text(outcome, paint), paint.color)
+    say("\n".join(faults_lines(outcome, paint)), paint.color)
 
 
 def drop(stream: io.TextIOBase | object) -> None:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 
 from flint import fmpq
 
+from garkcli.exact.display import decimal
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.order.certificate import StageSpans, Witness
@@ -26,6 +27,7 @@ from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.meant import AnyTableau, meant, printed, tolerance_of
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ class DenseWitness:
     witness: Witness
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DenseOrder:
     """The order of dense output.
 
@@ -56,6 +58,15 @@ class DenseOrder:
     def is_lower_bound(self) -> bool:
         """Whether nothing is known to fail."""
         return self.witness is None
+
+    def __repr__(self) -> str:
+        least = "at least " if self.is_lower_bound else ""
+        within = "" if self.tolerance is None else f" within {decimal(self.tolerance)}"
+        return f"<DenseOrder {least}{self.order}{within}>"
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "dense_order_html")(self)
+        return html
 
 
 def dense_order(

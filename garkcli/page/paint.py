@@ -9,6 +9,8 @@ from itertools import zip_longest
 
 _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
+_STYLE = re.compile("\x1b\\[[0-9;]*m")
+"""What starts or ends a style."""
 _DOT = re.compile("●([0-9]+)")
 """A dot of a drawn tree, with the number of its colour."""
 _DOTS = (34, 33, 32, 35, 36, 31)
@@ -94,6 +96,15 @@ _JOINTS = re.compile(r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)")
 """Pieces of a formula or of a tree, each up to a place where a line may end."""
 
 
+def shown_width(text: str) -> int:
+    """The columns of a text: codes of colours take none.
+
+    >>> shown_width(Paint(True)("good", "yes"))
+    3
+    """
+    return len(_STYLE.sub("", text))
+
+
 def folded(text: str, width: int, indent: str = "      ") -> list[str]:
     """A formula or a tree in lines of at most ``width``, where it has places to break; those after
     the first are indented.
@@ -105,8 +116,8 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
     for piece in _JOINTS.findall(text):
         longer = lines[-1] + piece
         is_begun = bool(lines[-1].strip())
-        if is_begun and len(longer.rstrip()) > width:
-            longer = indent + piece
+        if is_begun and shown_width(longer.rstrip()) > width:
+            longer = indent + piece.lstrip()
             lines.append("")
         lines[-1] = longer
     return [line.rstrip() for line in lines]

@@ -15,7 +15,7 @@ from garkcli.plots.energy import energy_scene
 from garkcli.plots.saving import check_suffix, need_matplotlib, save
 from garkcli.plots.scene import Scene
 from garkcli.plots.sweep import sweep_scene
-from garkcli.report.stability_data import StabilityReport
+from garkcli.report.stability import StabilityReport
 from garkcli.report.sweep import SweepReport
 from garkcli.stability.summary import Stability
 

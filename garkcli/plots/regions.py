@@ -16,7 +16,7 @@ from flint import fmpq
 from garkcli.plots.oscillator import springs_panel, trace_panel
 from garkcli.plots.plane import Window, log_modulus, modulus, outlined, window_of
 from garkcli.plots.scene import Area, Axis, Panel, Point, Rule, Scene
-from garkcli.report.stability_data import StabilityReport
+from garkcli.report.stability import StabilityReport
 from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 

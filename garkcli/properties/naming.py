@@ -23,25 +23,26 @@ def number_text(number: Number) -> str:
 
 
 def entry_name(tableau: Tableau, space: int, m: int, i: int, j: int) -> str:
-    """An entry of a block.
+    """An entry of a block, ``a[2,1]``; of several colours ``a{q,p}[2,1]``.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
     >>> entry_name(gark([diagonal_method("heun", None)], {}), 0, 0, 1, 0)
-    'A{1,1}, row 2, entry 1,'
+    'a[2,1]'
     """
     seer, *_ = _names_of(tableau, space)
-    seen = tableau.colours[m].name
-    row = i + 1
-    entry = j + 1
-    return f"A{{{seer},{seen}}}, row {row}, entry {entry},"
+    return place_name("a", tableau, [seer, tableau.colours[m].name], i, j)
 
 
 def weight_name(tableau: Tableau, m: int, j: int) -> str:
-    """A weight of a colour."""
-    name = tableau.colours[m].name
-    entry = j + 1
-    return f"b{{{name}}}, entry {entry},"
+    """A weight of a colour, ``b[1]``."""
+    return place_name("b", tableau, [tableau.colours[m].name], j)
+
+
+def place_name(letter: str, tableau: Tableau, colours: Sequence[str], *indices: int) -> str:
+    """An entry of a block or a row, counted from 0; its colours where there are several."""
+    whose = f"{{{','.join(colours)}}}" if tableau.size > 1 else ""
+    return f"{letter}{whose}[{','.join(str(i + 1) for i in indices)}]"
 
 
 def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:

@@ -14,7 +14,7 @@ from garkcli.page.plain import printable
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import COUNT, POSITION, TEXT, Schema, nullable, published
 from garkcli.report import check_github, check_sarif
-from garkcli.report.check_markdown import table_cell
+from garkcli.report.check_findings import table_cell
 
 SCHEMA = "gark/audit/1"
 _WIDTH = 80

@@ -10,22 +10,39 @@ if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
     from garkcli.page.paint import Paint
 
-Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None], str]"
+Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None, int], str]"
 
 
-def _text(outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None) -> str:
+def _text(
+    outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
+) -> str:
     from garkcli.report import check_text
 
-    return check_text.render(outcomes, paint, verbosity, digits)
+    return check_text.render(outcomes, paint, verbosity, digits, width)
+
+
+def _told(format: str) -> Renderer:
+    """A format of all results; findings follow a table."""
+
+    def render(
+        outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
+    ) -> str:
+        from garkcli.report.check_findings import markdown_findings
+        from garkcli.report.checked import REPORT
+
+        text = REPORT.render(outcomes, format, paint, verbosity, places=digits, width=width)
+        return text + markdown_findings(outcomes) if format == "markdown" else text
+
+    return render
 
 
 def _machine(module: str) -> Renderer:
     """A format that is always the same: the ``render`` of its file, which is imported when used."""
 
     def render(
-        outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None
+        outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
     ) -> str:
-        del paint, verbosity, digits  # for people
+        del paint, verbosity, digits, width  # for people
         text: str = import_module(f"garkcli.report.{module}").render(outcomes)
         return text
 
@@ -34,10 +51,11 @@ def _machine(module: str) -> Renderer:
 
 FORMATS: Mapping[str, Renderer] = {
     "text": _text,
-    "json": _machine("check_json"),
+    "json": _told("json"),
     "sarif": _machine("check_sarif"),
     "junit": _machine("check_junit"),
     "github": _machine("check_github"),
-    "markdown": _machine("check_markdown"),
+    "markdown": _told("markdown"),
+    "latex": _told("latex"),
 }
 """Each choice of ``--format`` with what writes it."""

@@ -17,13 +17,14 @@ from garkcli.trees.svg import draw_svg_sheet
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
-    from garkcli.check.outcome import Claim, Outcome
-    from garkcli.errors import Fault
-    from garkcli.order.certificate import Order, Witness
+    from garkcli.check.outcome import Outcome
+    from garkcli.order.certificate import Witness
     from garkcli.order.conditions import Condition
     from garkcli.order.deciding import AnyOrder
+    from garkcli.order.dense import DenseOrder
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.pointwise import Cell, Entries
+    from garkcli.tell.facts import Answer, Kind
 
 MAX_COLUMNS = 24
 """Most stages side by side; a larger tableau is named, not shown."""
@@ -131,13 +132,34 @@ def witness_html(witness: Witness) -> str:
     return f"{picture}<p>{_text(text)}</p>"
 
 
-def order_html(order: Order) -> str:
+def order_html(order: AnyOrder) -> str:
     """The order in a sentence, and the tree at which it ends."""
-    if order.witness is None:
-        holding = f"every condition up to order {order.order} holds"
-        return f"<p>order at least {order.order}: {holding}</p>"
-    failing = f"a condition of order {order.order + 1} fails"
-    return f"<p>order {order.order}: {failing}</p>{witness_html(order.witness)}"
+    from garkcli.tell.kinds import ORDER, order_answer
+
+    return _said("order", ORDER, order_answer(order)) + _drawn(order.witness)
+
+
+def dense_order_html(order: DenseOrder) -> str:
+    """The same of dense output."""
+    from garkcli.report.check import dense_answer
+    from garkcli.tell.kinds import COUNT
+
+    witness = None if order.witness is None else order.witness.witness
+    has_colours = witness is not None and len(witness.tree.colours) > 1
+    return _said("dense order", COUNT, dense_answer(order, has_colours)) + _drawn(witness)
+
+
+def _said(label: str, kind: Kind, answer: Answer) -> str:
+    from garkcli.tell.facts import Row
+    from garkcli.tell.html import Html
+    from garkcli.tell.outputs import phrase
+
+    row = Row("order", kind, lambda _: answer, label=label)
+    return f"<p>{phrase(row.fact(None), Html())}</p>"
+
+
+def _drawn(witness: Witness | None) -> str:
+    return "" if witness is None else witness_html(witness)
 
 
 def condition_html(condition: Condition) -> str:
@@ -151,74 +173,18 @@ def condition_html(condition: Condition) -> str:
 
 
 def analysis_html(found: Analysis) -> str:
-    """What is found of a method, a row each."""
-    return _table("", map(_pair, _facts(found)))
+    """What is found of a method."""
+    from garkcli.check.outcome import Outcome
+    from garkcli.report.checked import REPORT
+
+    return REPORT.html(Outcome("", "", analysis=found))
 
 
 def outcome_html(outcome: Outcome) -> str:
     """What became of a file: what is found, and its claims or its faults."""
-    facts: list[Fact] = []
-    if outcome.analysis is not None:
-        facts += _facts(outcome.analysis)
-    every = outcome.every
-    if every is not None:
-        parameters = ", ".join(every.parameters)
-        order = str(every.order.order)
-        facts.append((f"order for every {parameters}", order))
-    facts += map(_claim, outcome.claims)
-    facts += map(_fault, outcome.faults)
-    return _table(outcome.name, map(_pair, facts))
+    from garkcli.report.checked import REPORT
 
-
-def _fault(fault: Fault) -> Fact:
-    """Where a file is at fault, what is wrong, and the cure."""
-    place = "fault"
-    if fault.line:
-        place = f"line {fault.line}"
-    text = fault.message
-    if fault.help:
-        text += f"; {fault.help}"
-    return place, text
-
-
-def _claim(claim: Claim) -> Fact:
-    """A claim, and whether it holds."""
-    label = f"claim {claim.claim}: {claim.expected}"
-    if claim.holds:
-        return label, "holds"
-    why = f", {claim.why}" if claim.why else ""
-    return label, f"fails: found {claim.found}{why}"
-
-
-def _facts(found: Analysis) -> Iterator[Fact]:
-    """What ``gark check`` says first, label and text."""
-    many = found.tableau.size > 1
-    yield "order", _order(found.order, many)
-    if found.embedded is not None:
-        yield "embedded order", _order(found.embedded.order, many)
-    if found.conjugate_order is not None:
-        yield "conjugate order", _order(found.conjugate_order, many)
-    if found.pair_order is not None:
-        yield "pair order", _order(found.pair_order, True)
-    if found.obstacle:
-        yield "no conjugate", found.obstacle
-    yield "bound", f"order ≥ {found.bound}"
-    yield "symplectic", "yes" if found.symplectic else "no"
-    if found.tolerance is not None:
-        yield "within", str(found.tolerance)
-
-
-def _order(order: AnyOrder, many: bool) -> str:
-    """An order, and the tree at which it ends."""
-    if order.is_lower_bound or order.witness is None:
-        return f"at least {order.order}"
-    return f"{order.order}; {witness_text(order.witness, many)}"
-
-
-def _pair(fact: Fact) -> str:
-    label, text = map(_text, fact)
-    left = "text-align:left"
-    return f'<tr><th scope="row" style="{left}">{label}</th><td style="{left}">{text}</td></tr>'
+    return REPORT.html(outcome)
 
 
 def _table(title: str, rows: Iterable[str]) -> str:

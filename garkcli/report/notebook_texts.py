@@ -28,20 +28,18 @@ _PLAIN = Paint()
 
 
 def stability_html(found: Stability) -> str:
-    """What ``gark stability`` prints."""
-    from garkcli.report.stability_data import StabilityReport
-    from garkcli.report.stability_text import text_of
+    """What ``gark stability`` tells."""
+    from garkcli.report.stability import REPORT, StabilityReport
 
-    report = StabilityReport("", "", found)
-    return preformatted(text_of(report, _PLAIN))
+    return REPORT.html(StabilityReport("", "", found))
 
 
 def stability_latex(found: Stability) -> str:
-    """What ``gark stability --format latex`` prints."""
-    from garkcli.report.stability import render
-    from garkcli.report.stability_data import StabilityReport
+    """R(z), and the step matrix on the oscillator, as formulas."""
+    from garkcli.report.stability import formulas
 
-    return render([StabilityReport("", "", found)], "latex", _PLAIN)
+    lines = " \\\\\n".join(f"{name} &= {value}" for name, value in formulas(found))
+    return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 
 def function_latex(R: StabilityFunction) -> str:

@@ -22,6 +22,7 @@ from garkcli.report.audited import FORMATS as AUDIT_FORMATS
 from garkcli.report.sweep import SweepReport
 from garkcli.stability.summary import Stability
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tell.report import FORMATS
 
 Writer: TypeAlias = "Callable[[Any, str, str], str]"
 """Of a value, a format, and what to call the method."""
@@ -110,7 +111,7 @@ def _outcomes(value: Any, format: str, _: str) -> str:
     from garkcli.report.check_formats import FORMATS
 
     outcomes = value if isinstance(value, (list, tuple)) else [value]
-    return FORMATS[format](outcomes, _PLAIN, 0, None)
+    return FORMATS[format](outcomes, _PLAIN, 0, None, WIDTH)
 
 
 def _analysis(found: Analysis, format: str, name: str) -> str:
@@ -118,10 +119,9 @@ def _analysis(found: Analysis, format: str, name: str) -> str:
 
 
 def _stability(found: Stability, format: str, name: str) -> str:
-    from garkcli.report.stability import render as written
-    from garkcli.report.stability_data import StabilityReport
+    from garkcli.report.stability import REPORT, StabilityReport
 
-    return written([StabilityReport(name, name, found)], format, _PLAIN)
+    return REPORT.render([StabilityReport(name, name, found)], format)
 
 
 def _convergence(result: Convergence, format: str, name: str) -> str:
@@ -204,9 +204,9 @@ def _audited(value: Any, format: str, _: str) -> str:
 
 _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     GarkMethod: (_method, ("text", "json", "latex")),
-    Outcome: (_outcomes, ("text", "json", "sarif", "junit", "github", "markdown")),
-    Analysis: (_analysis, ("text", "json")),
-    Stability: (_stability, ("text", "json", "latex")),
+    Outcome: (_outcomes, ("text", "json", "sarif", "junit", "github", "markdown", "latex")),
+    Analysis: (_analysis, FORMATS),
+    Stability: (_stability, FORMATS),
     Convergence: (_convergence, ("text", "json", "csv")),
     LongRun: (_long_run, ("text", "json", "csv")),
     Comparison: (_comparison, ("text", "json", "markdown")),

@@ -10,10 +10,11 @@ from typing import Any
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.report.field_texts import told
+from garkcli.tell.report import Report
 
 _TABLEAU = "garkcli.report.tableau_json:tableau_report_schema"
 REPORTS = {
-    "check": "garkcli.report.check_json:check_report_schema",
+    "check": "garkcli.report.checked:REPORT",
     "claims": "garkcli.report.claims:claims_report_schema",
     "explain": "garkcli.report.meaning:explain_report_schema",
     "trees": "garkcli.report.symplectic:trees_report_schema",
@@ -23,8 +24,8 @@ REPORTS = {
     "reduce": _TABLEAU,
     "convert": _TABLEAU,
     "diff": "garkcli.report.diff_json:diff_report_schema",
-    "stability": "garkcli.report.stability_json:stability_report_schema",
-    "stability-every": "garkcli.report.every_stability:every_stability_schema",
+    "stability": "garkcli.report.stability:REPORT",
+    "stability-every": "garkcli.report.every:STABILITY",
     "design": "garkcli.report.design_data:design_report_schema",
     "design-search": "garkcli.report.search_data:search_report_schema",
     "design-stability": "garkcli.report.stable_values:stable_values_schema",
@@ -43,7 +44,7 @@ REPORTS = {
     "import": "garkcli.report.imported:import_report_schema",
     "sweep": "garkcli.report.sweep:sweep_report_schema",
 }
-"""Where the function is that makes the schema of a command's report."""
+"""Where a report is declared, or the function is that makes its schema."""
 
 
 def report_schema(command: str) -> dict[str, Any]:
@@ -61,5 +62,6 @@ def report_schema(command: str) -> dict[str, Any]:
     if command not in REPORTS:
         raise UsageProblem(f"no schema of a report of {command!r}", did_you_mean(command, REPORTS))
     module, function = REPORTS[command].split(":")
-    schema: dict[str, Any] = getattr(import_module(module), function)()
+    maker = getattr(import_module(module), function)
+    schema: dict[str, Any] = maker.schema if isinstance(maker, Report) else maker()
     return told(schema, command)

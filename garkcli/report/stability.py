@@ -1,64 +1,606 @@
-"""``gark stability`` as text, JSON or LaTeX."""
+"""``gark stability``: what is found, declared once."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import TYPE_CHECKING, Any
 
-from garkcli.errors import UsageProblem
+from flint import arb, ctx
+
+from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import integral
-from garkcli.page.exactly import polynomial_latex
-from garkcli.page.paint import Paint
-from garkcli.report.stability_colours import fraction_latex
-from garkcli.report.stability_data import StabilityReport
-from garkcli.report.stability_text import text_of
+from garkcli.exact.polynomial_text import (
+    BITS_A_DIGIT,
+    ball_decimal,
+    integral,
+    integral_scale,
+    multivariate_text,
+    polynomial_text,
+)
+from garkcli.exact.roots import RealRoot
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.report.stability_region import damped_lines, region_lines
+from garkcli.stability.bounds import Bounds
+from garkcli.stability.fraction import MOST_LINES, Fraction
+from garkcli.stability.linear import poles_are_right
+from garkcli.stability.slow_interval import SlowInterval
+from garkcli.stability.summary import Stability
+from garkcli.stability.two_frequencies import TwoFrequencies
+from garkcli.tableau.garkmethod import Derivation, derived_name
+from garkcli.tell.facts import (
+    NO_REASON,
+    Answer,
+    Kind,
+    Level,
+    Reason,
+    Row,
+    Section,
+    Status,
+    part,
+    parts,
+    picture,
+    via,
+)
+from garkcli.tell.kinds import (
+    BOUNDS,
+    EXACT,
+    EXACTS,
+    POSITION,
+    RADIUS,
+    ROOTS,
+    TEXT,
+    TOLERANCE,
+    TRUTH,
+    bounds_data,
+    constant,
+    intervals,
+    polynomial,
+    ratio,
+    record,
+    term,
+    truth,
+)
+from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.stability.springs_plane import SpringsPlane
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
 
 
-def render(reports: Sequence[StabilityReport], format: str, paint: Paint) -> str:
-    """All reports in one format."""
-    if format == "json":
-        from garkcli.report.stability_json import json_of
+@dataclass(frozen=True)
+class StabilityReport:
+    """What is told of one file.
 
-        return json_of(reports)
-    if format == "latex":
-        return "\n".join(_latex(report) for report in reports)
-    return "\n".join("\n".join(text_of(report, paint)) + "\n" for report in reports)
+    Attributes:
+        file: its path as given.
+        name: the name of the method.
+        found: its stability.
+        springs: the two-frequency problem where it was asked for.
+        digits: decimals of algebraic numbers.
+        plane: both frequencies in floats, for a picture.
+        slow: the two-frequency problem for an interval of slow frequencies.
+        derivation: whether the method is the pair or the conjugate of what the file gives.
+    """
+
+    file: str
+    name: str
+    found: Stability
+    springs: TwoFrequencies | None = None
+    digits: int = 12
+    plane: SpringsPlane | None = None
+    slow: SlowInterval | None = None
+    derivation: Derivation = ""
 
 
-def _latex(report: StabilityReport) -> str:
-    lines = []
-    if report.slow is not None:
-        raise UsageProblem(
-            "an interval of slow frequencies has no formula", "give --slow A for one"
+# kinds
+
+
+def _decimals(value: Callable[[int], arb], digits: int) -> str:
+    """A number in decimals, from its balls."""
+    bits, before = int(digits * BITS_A_DIGIT) + 64, ctx.prec
+    try:
+        ctx.prec = bits
+        return ball_decimal(value(bits), digits)
+    finally:
+        ctx.prec = before
+
+
+def _degrees(cosine: RealRoot, digits: int) -> str:
+    """The angle of a cosine."""
+    return _decimals(lambda bits: cosine.ball(bits).acos() * 180 / arb.pi(), digits)
+
+
+def _square_root(root: RealRoot, digits: int) -> str:
+    return _decimals(lambda bits: root.ball(bits).sqrt(), digits)
+
+
+def _further(found: Sequence[Any]) -> str:
+    return " and further intervals" if len(found) > 1 else ""
+
+
+def _reach_words(found: Any, d: Plain) -> str:
+    """The interval of the negative real axis that begins at 0."""
+    if isinstance(found, Bounds):
+        return d.bounds(found, "−z ≤ ")
+    first = found[0] if found else None
+    if first is None or first.is_point or first.start is None or first.start.exact != 0:
+        return "z = 0 only"
+    if first.end is None:
+        return d.prose("z ≤ 0")
+    return d.upto("−z", first.end) + _further(found)
+
+
+def _height_words(found: Any, d: Plain) -> str:
+    """The interval of the imaginary axis around 0, from intervals of y²."""
+    if isinstance(found, Bounds):
+        return d.bounds(found, "y² ≤ ")
+    first = found[0] if found else None
+    if first is None or first.is_point or first.start is None or first.start.exact != 0:
+        return "y = 0 only"
+    if first.end is None:
+        return "all y"
+    end = _square_root(first.end, d.digits)
+    return d.prose(f"|y| ≤ {end}, y² ≤ ") + d.root(first.end) + _further(found)
+
+
+def _end_data(found: Any, d: Plain) -> dict[str, Any]:
+    """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
+    if isinstance(found, Bounds):
+        return bounds_data(found)
+    if not found:
+        return {"to": "0"}
+    return {"to": None if found[0].end is None else root_data(found[0].end, d.digits)}
+
+
+_END = record(to=S.nullable(ALGEBRAIC))
+REAL = Kind(S.one_of(_END, BOUNDS), _end_data, _reach_words)
+IMAGINARY = Kind(S.one_of(_END, BOUNDS), _end_data, _height_words)
+SSP = Kind(
+    S.one_of(S.TEXT, ROOT_OF, BOUNDS),
+    lambda x, d: bounds_data(x) if isinstance(x, Bounds) else RADIUS.data(x, d),
+    lambda x, d: d.bounds(x) if isinstance(x, Bounds) else _radius_words(x, d),
+)
+
+
+def _radius_words(x: Any, d: Plain) -> str:
+    return d.infinity if x.value is None else d.root(x.value)
+
+
+SECTOR = Kind(
+    record(degrees=S.TEXT, cosine=ALGEBRAIC),
+    lambda x, d: {"degrees": _degrees(x.cosine, d.digits), "cosine": root_data(x.cosine, d.digits)},
+    lambda x, d: d.prose(f"α = {_degrees(x.cosine, d.digits)}°, cos α = ") + d.root(x.cosine),
+)
+
+
+def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
+    """Numerator and denominator with integers as coefficients, where they are rational."""
+    P, Q = R.numerator, R.denominator
+    scale = integral_scale([coefficient for _, coefficient in (*P.terms, *Q.terms)])
+    constant_term = Multivariate.of(P.variables, {(0,) * P.variables: scale})
+    return P * constant_term, Q * constant_term
+
+
+def _fraction_data(R: Fraction, _: Plain) -> dict[str, Any]:
+    over, under = (
+        multivariate_text(p, [f"z{k + 1}" for k in range(p.variables)]) for p in integral_parts(R)
+    )
+    return {"numerator": over, "denominator": under, "lowest_terms": R.is_reduced}
+
+
+FRACTION = Kind(
+    record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG),
+    _fraction_data,
+    lambda R, d: (
+        d.fraction(*integral_parts(R)) + ("" if R.is_reduced else "; perhaps not in lowest terms")
+    ),
+)
+
+
+def _conserved_words(form: Any, d: Plain) -> str:
+    terms = []
+    for p, name in zip(integral(form), ("(ωq)²", "ωq p", "p²"), strict=True):
+        factor = d.polynomial(p, "z")
+        if len(p.coefficients) > 1:
+            terms.append(f"({factor}) {d.prose(name)}")
+        elif p:
+            terms.append(d.prose(name) if factor.strip("$") == "1" else f"{factor} {d.prose(name)}")
+    return " + ".join(terms)
+
+
+CONSERVED = Kind(
+    record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
+    lambda form, _: dict(
+        zip(("qq", "qp", "pp"), (polynomial_text(p, "z") for p in integral(form)), strict=True)
+    ),
+    _conserved_words,
+)
+FROM_TO = Kind(
+    record(**{"from": S.EXACT, "to": S.EXACT}),
+    lambda x, _: {"from": str(x.low), "to": str(x.high)},
+    lambda x, _: f"every a = (hω_slow)² from {x.low} to {x.high}",
+)
+SQUARE = Kind(S.EXACT, lambda x, _: str(x), lambda x, d: f"a = (hω_slow)² = {d.number(x)}")
+
+
+# what is found
+
+ROUNDED = "coefficients are rounded"
+
+
+def a_stable(x: Any) -> Answer:
+    """Whether |R| ≤ 1 in the left half plane, and why not."""
+    if x.a_stable is not False or x.real is None:
+        return truth(x.a_stable, open_because=ROUNDED)
+    if x.R.at_infinity() is None:
+        return truth(False, "R is unbounded")
+    if not poles_are_right(x.R.denominator):
+        return truth(False, "a pole is not in the right half plane")
+    E = polynomial("x")(x.e_polynomial)
+    return truth(False, Reason("|R(iy)| > 1 where E(y²) < 0, E = {}", E))
+
+
+def sector(x: Any) -> Any:
+    """A(α)-stability."""
+    if x.within is not None:
+        return None
+    if x.sector is None:
+        return Answer(None, Status(open=Reason("too many stages")))
+    return Answer(None, reason=Reason("no")) if x.sector.cosine is None else x.sector
+
+
+def _less_than_all(answer: Answer) -> Level:
+    """A sector is told where it is not the left half plane, which A-stable says."""
+    return USUAL if answer.value is not None and answer.value.cosine.exact != 0 else DETAIL
+
+
+PRINTED = Reason("of the digits as printed, not of all methods within the tolerance")
+
+
+def limit(x: Any) -> Answer:
+    """R(∞)."""
+    found = x.R.at_infinity()
+    if found is None:
+        return Answer(None, reason=Reason("unbounded"))
+    if x.within is not None:
+        return Answer(found, reason=PRINTED, level=DETAIL)
+    return Answer(found)
+
+
+def either(exact: str) -> Callable[[Any], Any]:
+    """Of exact coefficients, or of rounded ones."""
+    return lambda x: getattr(x if x.within is None else x.within, exact)
+
+
+def ssp(x: Any) -> Any:
+    """The SSP coefficient."""
+    found = x.ssp if x.within is None else x.within.ssp
+    return found or Answer(None, Status(open=Reason("the nodes have no simple radicals")))
+
+
+LINEAR = [
+    Row(
+        "R",
+        ratio("z"),
+        lambda x: Answer(
+            x.R, reason=PRINTED if x.within else NO_REASON, level=DETAIL if x.within else USUAL
+        ),
+    ),
+    Row("R_infinity", EXACT, limit, has_null=True),
+    Row("a_stable", TRUTH, a_stable, HEADLINE, has_null=True),
+    Row(
+        "l_stable",
+        TRUTH,
+        lambda x: truth(x.l_stable, open_because=ROUNDED),
+        lambda a: HEADLINE if a.value else DETAIL,
+        has_null=True,
+    ),
+    Row("A_alpha", SECTOR, sector, _less_than_all, has_null=True),
+    Row("real_interval", REAL, either("real"), has_null=True),
+    Row("imaginary_interval", IMAGINARY, either("imaginary"), has_null=True),
+    Row("ssp", SSP, ssp, has_null=True),
+]
+OF_COLOUR = Section(
+    Row("name", TEXT, level=DATA), *LINEAR, title=lambda x, d: f"colour {d.prose(x.name)} alone"
+)
+
+
+def conserved(o: Any) -> Answer:
+    """The quadratic form that a step keeps."""
+    if not o.determinant.is_one:
+        return Answer(None, reason=Reason("none: the determinant is not 1"))
+    if o.conserved is None:
+        return Answer(None, reason=Reason("every one: the step is a multiple of the identity"))
+    return Answer(o.conserved)
+
+
+def p_stable(o: Any) -> Answer:
+    """Stability for every step size on the oscillator, and where it ends."""
+    if o.is_p_stable:
+        return truth(True)
+    first = o.stable[0] if o.stable else None
+    if first is None or not first.has_start or first.is_point:
+        return truth(False, "unstable for small step sizes")
+    where = "beyond" if first.has_end else "at"
+    return truth(False, Reason(f"not stable {where} x = {{}}", ROOT_ALONE(first.end)))
+
+
+ROOT_ALONE = Kind(ALGEBRAIC, words=lambda x, d: d.root(x))
+
+
+def phase(o: Any) -> Answer:
+    """The order of the phase lag."""
+    if o.phase.order is None:
+        return Answer(None, reason=Reason("none: the frequency is exact"))
+    if o.phase.constant is None:
+        reason = Reason("the frequency is wrong for small step sizes")
+        return Answer(o.phase.order, reason=reason)
+    lag = term("z", o.phase.order + 1)
+    return Answer(o.phase.order, reason=Reason("{}", lag(o.phase.constant)))
+
+
+PHASE = Kind(S.COUNT, words=lambda n, _: f"of order {n}")
+_X = intervals("x")
+STABLE = Kind(
+    _X.schema, _X.data, lambda xs, d: " or ".join(_zone(x, d) for x in xs) if xs else "for no x"
+)
+
+
+def _zone(x: Any, d: Plain) -> str:
+    """An interval of x = z², with its end in z."""
+    end = "" if x.is_point or x.end is None else f", z to {_square_root(x.end, d.digits)}"
+    return d.interval(x, "x") + end
+
+
+OSCILLATOR = [
+    Row("trace", ratio("x"), level=DETAIL),
+    Row("determinant", ratio("x"), level=DETAIL),
+    Row("discriminant", polynomial("x"), level=DETAIL),
+    Row("stable", STABLE, label="oscillator stable, x = (hω)²"),
+    Row("p_stable", TRUTH, p_stable, has_null=True),
+    Row("phase_order", PHASE, phase, has_null=True),
+    Row("phase_constant", EXACT, lambda o: o.phase.constant, DATA, has_null=True),
+    Row("conserved", CONSERVED, conserved, DETAIL, has_null=True),
+]
+
+
+def algebraic(x: Any) -> Answer:
+    """Algebraic stability, and why not."""
+    found = x.found
+    if found.algebraic is None:
+        if found.tolerance is None:
+            return Answer(None, reason=Reason("has no meaning: colours do not see one another"))
+        return truth(found.algebraic_within, open_because=ROUNDED)
+    why = [] if found.algebraic.weights_are_positive else ["a weight is negative"]
+    if not found.algebraic.form_is_positive:
+        why.append("B A + Aᵀ B − b bᵀ is not positive semidefinite")
+    return truth(found.algebraic.holds, ", ".join(why))
+
+
+def title(x: Any, d: Plain) -> str:
+    """What a report is about."""
+    within = x.found.tolerance
+    given = x.file or x.name
+    name = d.prose(derived_name(x.derivation, given) if x.derivation else given)
+    return name if within is None else d.known(f"{name}, all methods", Status(within))
+
+
+def named(x: Any) -> Answer:
+    """The name, told where it says more than the file."""
+    return Answer(x.name, level=DETAIL if x.name != x.file else DATA)
+
+
+def head(kind: str) -> list[Row]:
+    """The first fields of every report."""
+    return [
+        Row("file", TEXT, level=DATA),
+        Row("name", TEXT, named, DETAIL),
+        Row("derivation", Kind(S.DERIVATION), level=DATA),
+        Row("kind", constant(kind), lambda _: kind, DATA),
+        Row("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),
+    ]
+
+
+RADII = Section(Row("direction", EXACTS, lambda r: r.ratios), Row("radius", RADIUS, has_null=True))
+
+
+def _radii_words(found: Any, d: Plain) -> str:
+    """How far the region of absolute monotonicity reaches in each direction."""
+    texts = []
+    for r in found:
+        if r.radius is None:
+            return "not decided: the nodes have no simple radicals"
+        direction = ", ".join({0: "0", 1: "r"}.get(q, f"{q} r") for q in r.ratios)
+        texts.append(f"({direction}), {d.prose('r ≤')} {_radius_words(r.radius, d)}")
+    return "; ".join(texts)
+
+
+def _ray_words(sign: str) -> Callable[[Any, Plain], str]:
+    def words(ray: Any, d: Plain) -> str:
+        if ray.end is None:
+            return "no limit"
+        return "none" if ray.end.exact == 0 else d.upto(sign, ray.end)
+
+    return words
+
+
+def _ray(sign: str) -> Kind:
+    return Kind(
+        _END,
+        lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)},
+        _ray_words(sign),
+    )
+
+
+IMEX = Section(
+    Row("explicit", TEXT, lambda c: c.names[c.pair.explicit], DATA),
+    Row("implicit", TEXT, lambda c: c.names[c.pair.implicit], DATA),
+    Row("real_interval", _ray("−z"), lambda c: c.real, has_null=True),
+    Row("imaginary_interval", _ray("|z|"), lambda c: c.imaginary, has_null=True),
+    Row(
+        "region",
+        picture(lambda c, _: list(damped_lines(c.pair, c.explicit_alone))),
+        lambda c: c,
+        DETAIL,
+    ),
+    title=lambda c, d: d.prose(
+        f"implicit-explicit pair, z{c.pair.explicit + 1} with |R| ≤ 1 for every"
+        f" z{c.pair.implicit + 1} with Re ≤ 0"
+    ),
+)
+REGION = Row(
+    "region",
+    picture(lambda R, _: list(region_lines(R))),
+    lambda x: x.found.linear[0].R if x.found.tolerance is None else None,
+    DETAIL,
+)
+
+
+def fraction(x: Any) -> Any:
+    """R of all colours."""
+    found = x.found.colours
+    if found.R is None:
+        reason = Reason(f"too large: {found.lines} lines determine it (limit {MOST_LINES})")
+        return Answer(None, reason=reason)
+    return found.R
+
+
+ALIKE = via(lambda x: x.found.linear[0], LINEAR)
+ALONE = Row("colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL)
+SEVERAL = [
+    Row("R", FRACTION, fraction, has_null=True, label="R(z1, z2, …)"),
+    *ALIKE[1:],
+    ALONE,
+    Row("R_alike", ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
+    REGION,
+    Row("ssp_radii", parts(RADII, _radii_words), lambda x: x.found.colours.radii),
+    Row(
+        "pair",
+        part(IMEX),
+        lambda x: x.found.colours if x.found.colours.pair else None,
+        has_null=True,
+    ),
+]
+
+
+def _waves(linear: str, has_waves: bool) -> list[Row]:
+    """The rows of the oscillator; first where there is no other test equation."""
+    if not has_waves:
+        return []
+    if linear != "none":
+        return WAVES
+    return [replace(row, level=HEADLINE) if row.key == "stable" else row for row in WAVES]
+
+
+WAVES = via(lambda x: x.found.oscillator, OSCILLATOR)
+TAIL = Row("algebraically_stable", TRUTH, algebraic, has_null=True)
+LINEARS = {
+    "none": [*head("oscillator")],
+    "alike": [*head("linear"), *ALIKE, REGION, ALONE],
+    "several": [*head("linear"), *SEVERAL],
+}
+"""By what the colours do on the linear test equation: ``R`` has a z for each colour, or one."""
+COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
+FORMS = {
+    (linear, waves): Section(*rows, *_waves(linear, waves), TAIL, title=title, columns=COLUMNS)
+    for (linear, rows), waves in product(LINEARS.items(), (False, True))
+}
+
+
+def factors(p: Polynomial) -> list[tuple[Polynomial, int]]:
+    """The irreducible factors over ℚ, with their multiplicities; p itself over a number field."""
+    if not p.is_rational or not p:
+        return [(p, 1)]
+    found = p.to_flint().numer().factor()[1]
+    return [(Polynomial.from_flint(factor), power) for factor, power in found]
+
+
+FACTOR = Section(
+    Row("factor", polynomial("x"), lambda f: f[0]), Row("multiplicity", POSITION, lambda f: f[1])
+)
+
+
+def _factors_words(found: Any, d: Plain) -> str:
+    texts = (d.polynomial(p, "x") + (f", {k} times" if k > 1 else "") for p, k in found)
+    return "; ".join(texts)
+
+
+SPRINGS = Section(
+    *head("two-frequencies"),
+    *via(
+        lambda x: x.springs,
+        [
+            Row("slow", SQUARE, label="two springs, x = (hω_fast)²"),
+            Row("trace", ratio("x"), level=DETAIL),
+            Row("determinant", ratio("x"), level=DETAIL),
+            Row("factors", parts(FACTOR, _factors_words), lambda s: factors(s.discriminant)),
+            Row("stable", STABLE),
+        ],
+    ),
+    title=title,
+)
+SLOW = Section(
+    *head("slow-interval"),
+    *via(
+        lambda x: x.slow,
+        [
+            Row("slow", FROM_TO, lambda s: s, label="two springs, x = (hω_fast)²"),
+            Row("stable", STABLE),
+            Row(
+                "stable_for_every_fast",
+                TRUTH,
+                lambda s: truth(s.is_stable_for_all, open_because="at the x below"),
+                has_null=True,
+            ),
+            Row("open_points", ROOTS),
+        ],
+    ),
+    title=title,
+)
+
+
+def form(x: StabilityReport) -> Section:
+    """The rows of a report: fields are there by what the method is."""
+    if x.slow is not None:
+        return SLOW
+    if x.springs is not None:
+        return SPRINGS
+    linear = "none" if not x.found.linear else "alike" if x.found.colours is None else "several"
+    return FORMS[linear, x.found.oscillator is not None]
+
+
+REPORT: Report[StabilityReport] = Report(
+    "gark/stability/1",
+    "report of gark stability",
+    lambda: (SLOW, SPRINGS, *FORMS.values()),
+    form,
+    lambda x: {"digits": x.digits, "colours": [c.name for c in x.found.tableau.colours]},
+)
+
+
+def formulas(found: Stability) -> Iterator[tuple[str, str]]:
+    """Names and values in LaTeX of what decides stability."""
+    from garkcli.page.exactly import multivariate_latex, polynomial_latex
+
+    def quotient(x: Any, variable: str) -> str:
+        over, under = (
+            polynomial_latex(p, variable) for p in integral([x.numerator, x.denominator])
         )
-    if report.springs is not None:
-        trace = report.springs.trace
-        lines.append(
-            _latex_line(r"\operatorname{tr} M(x)", trace.numerator, trace.denominator, "x")
-        )
-    else:
-        colours = report.found.colours
-        fraction = None if colours is None else fraction_latex(colours)
-        if fraction is not None:
-            lines.append(fraction)
-        for one in report.found.linear:
+        return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+
+    if found.colours is not None and found.colours.R is not None:
+        names = [f"z_{{{k + 1}}}" for k in range(found.colours.size)]
+        over, under = (multivariate_latex(p, names) for p in integral_parts(found.colours.R))
+        yield f"R({', '.join(names)})", over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+    if found.tolerance is None:
+        for one in found.linear:
             name = "R(z)" if one.name == "all" else rf"R_{{\mathrm{{{one.name}}}}}(z)"
-            lines.append(_latex_line(name, one.R.numerator, one.R.denominator, "z"))
-        oscillator = report.found.oscillator
-        if oscillator is not None:
-            trace, area = oscillator.trace, oscillator.determinant
-            name = r"\operatorname{tr} M(x)"
-            lines.append(_latex_line(name, trace.numerator, trace.denominator, "x"))
-            lines.append(_latex_line(r"\det M(x)", area.numerator, area.denominator, "x"))
-    return "\\begin{align*}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
-
-
-def _latex_line(name: str, numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
-    quotient = quotient_latex(numerator, denominator, variable)
-    return f"  {name} &= {quotient}"
-
-
-def quotient_latex(numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
-    """A rational function in LaTeX."""
-    over, under = (polynomial_latex(p, variable) for p in integral([numerator, denominator]))
-    return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+            yield name, quotient(one.R, "z")
+    if found.oscillator is not None:
+        yield r"\operatorname{tr} M(x)", quotient(found.oscillator.trace, "x")
+        yield r"\det M(x)", quotient(found.oscillator.determinant, "x")

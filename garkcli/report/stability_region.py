@@ -8,13 +8,11 @@ from flint import fmpq
 
 from garkcli.exact.display import to_float
 from garkcli.page.asciiplot import terminal_region
-from garkcli.page.paint import indented
 from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 
 COLUMNS, LINES = 51, 15
 """A picture with its margin is below 60 columns wide."""
-MARGIN = " " * 4
 EDGE = 1 + 1e-9
 """Keeps points on the very edge inside on every machine."""
 
@@ -29,8 +27,8 @@ def region_lines(R: StabilityFunction) -> Iterator[str]:
         return _is_bounded(P, Q, z)
 
     picture = terminal_region(is_inside, -reach, right, reach, COLUMNS, LINES)
-    yield "    |R(z)| ≤ 1, roughly"
-    yield from indented(picture.splitlines(), MARGIN)
+    yield "|R(z)| ≤ 1, roughly"
+    yield from picture.splitlines()
 
 
 def damped_lines(pair: ImexPair, explicit: StabilityFunction) -> Iterator[str]:
@@ -53,9 +51,9 @@ def damped_lines(pair: ImexPair, explicit: StabilityFunction) -> Iterator[str]:
     picture = terminal_region(is_damped, -reach, reach / 3, reach, COLUMNS, LINES, is_bounded)
     e = f"z{pair.explicit + 1}"
     i = f"z{pair.implicit + 1}"
-    yield f"    █ {e} with every {i} damped, decided at each sign"
-    yield f"    : further {e} damped where {i} = 0, roughly"
-    yield from indented(picture.splitlines(), MARGIN)
+    yield f"█ {e} with every {i} damped, decided at each sign"
+    yield f": further {e} damped where {i} = 0, roughly"
+    yield from picture.splitlines()
 
 
 def _rational(x: float) -> fmpq:

@@ -24,10 +24,11 @@ from garkcli.page.schema import (
     nullable,
     published,
 )
-from garkcli.report.check_json import COLOUR, colours_data
+from garkcli.report.check import COLOURS, colours_of
 from garkcli.tableau.garkmethod import Derivation
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
+from garkcli.tell.dialect import Plain
 
 SCHEMA = "gark/tableau/1"
 
@@ -102,7 +103,11 @@ REPORT: Record[_Shown] = Record(
     Field("name", TEXT, lambda x: x.name),
     Field("derivation", DERIVATION, lambda x: x.derivation),
     Field("exact", FLAG, lambda x: x.entries.is_exact),
-    Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),
+    Field(
+        "colours",
+        array(COLOURS.schema),
+        lambda x: [COLOURS.data(x, Plain()) for x in colours_of(x.tableau)],
+    ),
     *inside(lambda x: x.entries, _EXACT),
     Field("float", _FLOATS.schema, lambda x: _FLOATS.data(x.entries)),
 )

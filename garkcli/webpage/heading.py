@@ -10,11 +10,11 @@ from garkcli.check.every_value import EveryValue
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
 from garkcli.exact.display import decimal
-from garkcli.report.check_orders import order_number
-from garkcli.report.check_text import kind_text
-from garkcli.report.every_text import every_kind_text
+from garkcli.report.check import METHOD
+from garkcli.tell.dialect import Plain
+from garkcli.tell.outputs import words
 from garkcli.webpage.reported import Reported
-from garkcli.webpage.sections.orders import said
+from garkcli.webpage.sections.orders import order_number, said
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
 """The class of a verdict, by the exit code of ``gark check``."""
@@ -59,12 +59,8 @@ def _mark(outcome: Outcome) -> str:
 
 
 def _about(outcome: Outcome) -> str:
-    analysis = outcome.analysis
-    if outcome.every is not None:
-        return every_kind_text(outcome.every)
-    if analysis is None:
-        return ""
-    return kind_text(analysis.tableau, outcome.structure, analysis.tolerance)
+    """What is judged, and in which arithmetic."""
+    return words(METHOD.fact(outcome), Plain()) if outcome.is_read else ""
 
 
 def _verdict(outcome: Outcome) -> str:

@@ -21,7 +21,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import NO_SETTINGS, load
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.reference import Reference
-from garkcli.report.check_json import as_data
+from garkcli.report.checked import REPORT
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
@@ -61,9 +61,7 @@ class Reported:
     @cached_property
     def data(self) -> dict[str, Any]:
         """What ``gark check --format json`` says of it."""
-        (found,) = as_data([self.outcome])["files"]
-        data: dict[str, Any] = found
-        return data
+        return REPORT.data(self.outcome)
 
     @property
     def tableau(self) -> Tableau | None:

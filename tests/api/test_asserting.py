@@ -76,7 +76,7 @@ def test_a_failure_shows_what_speaks_against_it() -> None:
     assert str(caught.value).splitlines() == [
         "the method has order 1, not 4",
         "  fails at order 2: [[]]: 2/3 instead of 1/2, off by 1/6",
-        "  order 4 would hold with A{1,1}, row 4, entry 3, = 1 instead of 2",
+        "  order 4 would hold with a[4,3] = 1 instead of 2",
     ]
 
 
@@ -92,7 +92,7 @@ def test_every_order_that_fails_is_told() -> None:
     assert "pair" not in told
     with pytest.raises(AssertionError) as caught:
         assert_order((*HEUN[:3], ["1/2", "1/3"]), 2, embedded=2)
-    assert "embedded{1}, entry 2, = 1/2 instead of 1/3" in str(caught.value)
+    assert "embedded b[2] = 1/2 instead of 1/3" in str(caught.value)
     assert_order(HEUN, embedded=1)
 
 

@@ -28,7 +28,10 @@ ARK = "methods/ark-ars222.gark.yaml"
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 INVALID = "tests/examples/invalid/many-faults.gark.yaml"
 RUNS = [
-    (("check", COLLOCATION), ("auto", "text", "json", "github", "sarif", "junit", "markdown")),
+    (
+        ("check", COLLOCATION),
+        ("auto", "text", "json", "github", "sarif", "junit", "markdown", "latex"),
+    ),
     (("trees", "-N", "2", "-n", "3"), ("text", "json", "ndjson", "csv", "latex")),
     (
         ("trees", "-N", "2", "-n", "3", "--count", "--upto"),
@@ -40,7 +43,7 @@ RUNS = [
     (("tableau", COLLOCATION), ("text", "yaml", "json", "latex")),
     (("conjugate", VERLET), ("text", "yaml", "json", "latex")),
     (("conjugate", COLLOCATION, "--pair"), ("text", "yaml", "json", "latex")),
-    (("stability", COLLOCATION), ("text", "json", "latex")),
+    (("stability", COLLOCATION), ("text", "json", "markdown", "latex")),
     (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
     (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
     (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
@@ -269,10 +272,10 @@ def test_quiet_says_only_what_fails() -> None:
 
 
 def test_verbose_shows_every_file_in_full() -> None:
-    """With ``-v`` several files are reported as one would be."""
+    """With ``-v`` several files are reported as one would be with it."""
     both = gark("check", COLLOCATION, VERLET, "-v").out
     for path in (COLLOCATION, VERLET):
-        assert gark("check", path).out.rstrip() in both
+        assert gark("check", path, "-v").out.rstrip() in both
 
 
 def test_colour_is_asked_for() -> None:
@@ -569,6 +572,8 @@ def test_numbers_beyond_floats_are_no_infinity(command: str, tmp_path: Path) -> 
 
 def test_digits_of_a_check() -> None:
     """Values and residuals in decimals where they are asked for."""
-    run = gark("check", COLLOCATION, "--digits", "4")
-    assert "0.006944 instead of 0.008333, off by -0.001389" in run.out
+    run = gark("check", COLLOCATION, "--digits", "4", "-v")
+    assert " by about -0.001389\n" in run.out
+    assert ": about 0.006944 instead of about 0.008333\n" in run.out
     assert "1/144" not in run.out
+    assert "-1/720" not in run.out

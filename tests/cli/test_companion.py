@@ -135,7 +135,7 @@ def test_json_says_which_method_it_is(command: str, which: tuple[str, ...], word
             "symplectic pair of the classical",
             "yes, by its coefficients",
         ),
-        (("stability", "rk4", "--conjugate"), "rk4: symplectic conjugate of the", "R(z)"),
+        (("stability", "rk4", "--conjugate"), "symplectic conjugate of rk4: not A-stable", "R(z)"),
         (("tableau", "rk4", "--conjugate"), "symplectic conjugate of the classical", "-2/3"),
         (
             ("energy", "rk4", "--pair", "--modified", "3", "--problem", "pendulum"),

@@ -136,7 +136,8 @@ def test_stability_as_a_command(tmp_path: Path) -> None:
     assert data["functions"][0]["R_infinity"] == "(g^2 - 2*g + 1/2)/(g^2)"
     assert data["stability"]["p_stable"]["where"][0]["from"] == "1/4"
     formula = gark("stability", str(path), "--format", "latex").out
-    assert r"\frac{1+\left(-2g+1\right)z" in formula
+    assert r"$\frac{1+\left(-2g+1\right)z" in formula
+    assert r"}{1-2gz+g^{2}z^{2}}$" in formula
     refused = gark("stability", str(path), "--plot", str(tmp_path / "x.png"))
     assert (refused.code, "--set g=1/2" in refused.err) == (2, True)
     path.write_text(SEVERAL, encoding="utf-8")

@@ -179,15 +179,6 @@ def test_a_text_fits_80_columns_in_ascii_too(
     assert too_wide == []
 
 
-def test_a_repair_too_wide_for_its_line_has_one_of_its_own(tmp_path: Path) -> None:
-    """The wrong entry is named whole, in a line that is searched for as it stands."""
-    broken = RK4.replace("1/2, 0, 0]", "1/3, 0, 0]")
-    (tmp_path / "m.yaml").write_text(broken, encoding="utf-8")
-    lines = gark("check", "m.yaml", cwd=tmp_path).out.splitlines()
-    at = lines.index("        the claimed order would hold with")
-    assert lines[at + 1] == "          A{1,1}, row 3, entry 2, = 1/2 instead of 1/3"
-
-
 def test_the_lists_are_columns() -> None:
     """Every entry of gark list begins in the column of its section, and fits 80 columns."""
     sections = gark("list").out.split("\n\n")[1:3]

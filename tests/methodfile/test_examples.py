@@ -17,7 +17,7 @@ from garkcli.methodfile.load import load
 from garkcli.methodfile.reader import KEYS
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.page.paint import Paint
-from garkcli.report.check_text import faults_text
+from garkcli.report.check_text import faults_lines
 from tests.examples.snapshots import assert_recorded
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -62,7 +62,9 @@ def test_an_invalid_file_is_refused_with_its_faults(
     assert places == sorted(places)
     assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
     outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
-    assert_recorded(path.with_name(f"{stem(path)}.txt"), faults_text(outcome, Paint()) + "\n")
+    assert_recorded(
+        path.with_name(f"{stem(path)}.txt"), "\n".join(faults_lines(outcome, Paint())) + "\n"
+    )
 
 
 def test_every_record_belongs_to_an_example() -> None:

@@ -11,7 +11,7 @@ from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.source import Source
 from garkcli.page.paint import Paint
-from garkcli.report.check_text import faults_text
+from garkcli.report.check_text import faults_lines
 
 
 def faults(text: str) -> tuple[Fault, ...]:
@@ -26,7 +26,7 @@ def under_caret(text: str) -> list[str]:
     report.
     """
     found = faults(text)
-    lines = faults_text(Outcome("m", "m", faults=found, text=text), Paint()).splitlines()
+    lines = list(faults_lines(Outcome("m", "m", faults=found, text=text), Paint()))
     carets = [i for i, line in enumerate(lines) if line.lstrip(" |") == "^"]
     return [lines[i - 1][lines[i].index("^") :] for i in carets]
 

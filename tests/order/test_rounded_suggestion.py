@@ -98,7 +98,7 @@ def test_no_tolerance_swallows_a_misprint() -> None:
     assert [(x.i, x.j) for x in found.misprint.repairs] == [(1, 0)]
     shown = render([Outcome("f", "f", analysis=found)], Paint())
     assert "an entry looks misprinted" in shown
-    assert "row 2, entry 1, = 0.538675134594812" in shown
+    assert "a[2,1] = 0.538675134594812" in shown
     assert "tolerance:" not in shown
 
 

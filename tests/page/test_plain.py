@@ -10,7 +10,8 @@ from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
 from garkcli.page.paint import Paint
 from garkcli.page.plain import csv_cell, inert, printable
-from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
+from garkcli.report import check_github, check_junit, check_sarif, check_text
+from garkcli.report.check_formats import FORMATS
 
 TURNED = "a\N{RIGHT-TO-LEFT OVERRIDE}b\x1b[2J\x9b1m"
 """A name that turns text, clears a terminal, and colours it by a control character of one byte."""
@@ -48,7 +49,7 @@ def test_every_format_writes_faults_without_controls() -> None:
     texts = [
         check_text.render([outcome], Paint()),
         check_github.render([outcome]),
-        check_markdown.render([outcome]),
+        FORMATS["markdown"]([outcome], Paint(), 0, None, 80),
         check_junit.render([outcome]),
         check_sarif.render([outcome]),
     ]

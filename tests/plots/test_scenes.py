@@ -19,7 +19,7 @@ from garkcli.plots.regions import stability_scene
 from garkcli.plots.scales import common_exponent
 from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene
 from garkcli.plots.svg import svg
-from garkcli.report.stability_data import StabilityReport
+from garkcli.report.stability import StabilityReport
 
 
 def stability_of(*names: str, is_order_star: bool = False) -> Scene:

@@ -145,18 +145,8 @@ def test_what_is_known_of_classical_methods(text: str) -> None:
             "false",
             "|R(iy)| > 1 at x = y² = 1: there -x < 0",
         ),
-        (
-            "{A: [[], [1]], b: [3/2, -1/2]}",
-            "positive-weights: true",
-            "false",
-            "b{1}, entry 2, is -1/2",
-        ),
-        (
-            "{A: [[], [1]], b: [3/2, -1/2]}",
-            "algebraically-stable: true",
-            "false",
-            "b{1}, entry 2, is -1/2",
-        ),
+        ("{A: [[], [1]], b: [3/2, -1/2]}", "positive-weights: true", "false", "b[2] is -1/2"),
+        ("{A: [[], [1]], b: [3/2, -1/2]}", "algebraically-stable: true", "false", "b[2] is -1/2"),
         (
             "{A: [[], [1/2]], b: [1/2, 1/2]}",
             "algebraically-stable: true",
@@ -175,23 +165,13 @@ def test_what_is_known_of_classical_methods(text: str) -> None:
             "no meaning",
             "stages depend on themselves by 1/2 and by 1/3",
         ),
-        (
-            "{A: [[], [2]], b: [1/2, 1/2]}",
-            "nodes-in-unit-interval: true",
-            "false",
-            "c{1}, entry 2, is 2",
-        ),
-        (
-            "{A: [[], [-1]], b: [1/2, 1/2]}",
-            "ssp-coefficient: 1",
-            "0",
-            "A{1,1}, row 2, entry 1, is -1",
-        ),
+        ("{A: [[], [2]], b: [1/2, 1/2]}", "nodes-in-unit-interval: true", "false", "c[2] is 2"),
+        ("{A: [[], [-1]], b: [1/2, 1/2]}", "ssp-coefficient: 1", "0", "a[2,1] is -1"),
         (
             "{A: [[], [1/2]], b: [0, 1]}",
             "stiffly-accurate: true",
             "false",
-            "A{1,1}, row 2, entry 1, is 1/2, b{1}, entry 1, is 0",
+            "a[2,1] is 1/2, b[1] is 0",
         ),
         (
             "{A: [[], [1]], b: [1/2, 1/2]}",
@@ -359,7 +339,7 @@ def test_an_imex_method() -> None:
     assert str(subject.verdict("gamma").value) == "1 - sqrt(2)/2"
     assert subject.verdict("stiffly-accurate").value is True
     assert subject.verdict("implicit-stages").value == 2
-    assert subject.verdict("positive-weights").why == "b{1}, entry 1, is -sqrt(2)/2"
+    assert subject.verdict("positive-weights").why == "b{1}[1] is -sqrt(2)/2"
 
 
 def test_stages_of_several_methods_that_are_solved_together() -> None:

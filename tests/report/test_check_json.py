@@ -13,10 +13,10 @@ import pytest
 from jsonschema import Draft7Validator
 
 from garkcli.check.check_file import check_file
-from garkcli.report.check_json import check_report_schema, render
+from garkcli.report.checked import REPORT
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = check_report_schema()
+SCHEMA = REPORT.schema
 VALIDATOR = Draft7Validator(SCHEMA)
 READABLE = sorted(
     [*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]
@@ -31,7 +31,7 @@ MISPRINTED = ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 def report(*paths: Path, limit: int = 60, constants: bool = False) -> dict[str, Any]:
     """The report on some files, as JSON read back."""
-    found = json.loads(render([check_file(str(path), limit, constants) for path in paths]))
+    found = json.loads(REPORT.json([check_file(str(path), limit, constants) for path in paths]))
     assert isinstance(found, dict)
     return found
 

@@ -14,7 +14,7 @@ from garkcli.order.blame import find_blame
 from garkcli.order.constants import error_constants
 from garkcli.page.paint import Paint, aligned, beside
 from garkcli.report.check_text import render
-from garkcli.report.hints import blame_lines
+from garkcli.report.hints import blame_text
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -38,59 +38,83 @@ def tableau(entry: str, weight: str = "1") -> str:
     return f"tableau: {{A: [[[[{entry}]]]], b: [[{weight}]]}}"
 
 
+def everything(text: str) -> str:
+    """The same with every fact, each on lines of its own."""
+    return render([outcome(text)], Paint(), verbosity=1)
+
+
+def words(text: str) -> str:
+    """A text without its line ends and margins."""
+    return " ".join(text.split())
+
+
 @pytest.mark.parametrize(
-    ("text", "line"),
+    ("text", "value", "residual"),
     [
-        (tableau("-1/2"), "-1/2 instead of 1/2, off by -1"),
-        (tableau("0"), "0 instead of 1/2, off by -1/2"),
-        (tableau("sqrt(2)/2"), "sqrt(2)/2 instead of 1/2, off by -1/2 + sqrt(2)/2"),
-        (tableau("1/2", "0"), "0 instead of 1, off by -1"),
-        (tableau("1/2", "-sqrt(3)"), "-sqrt(3) instead of 1, off by -1 - sqrt(3)"),
-        (tableau("1/2", "cbrt(2)"), "cbrt(2) instead of 1, off by -1 + cbrt(2)"),
+        (tableau("-1/2"), "-1/2 instead of 1/2", "-1"),
+        (tableau("0"), "0 instead of 1/2", "-1/2"),
+        (tableau("sqrt(2)/2"), "sqrt(2)/2 instead of 1/2", "-1/2 + sqrt(2)/2"),
+        (tableau("1/2", "0"), "0 instead of 1", "-1"),
+        (tableau("1/2", "-sqrt(3)"), "-sqrt(3) instead of 1", "-1 - sqrt(3)"),
+        (tableau("1/2", "cbrt(2)"), "cbrt(2) instead of 1", "-1 + cbrt(2)"),
     ],
 )
-def test_a_residual_is_written_exactly(text: str, line: str) -> None:
-    """Negative, zero and irrational values stand in the report as exact numbers, with their
-    difference.
+def test_a_residual_is_written_exactly(text: str, value: str, residual: str) -> None:
+    """Negative, zero and irrational residuals end the first line as exact numbers; with details
+    the value and what it should be are there too.
     """
-    assert line in report(text)
+    assert report(text).splitlines()[0].endswith(f"] by {residual}")
+    assert re.search(rf"^  \[.*\]: {re.escape(value)}$", everything(text), re.MULTILINE)
 
 
-def test_long_values_get_lines_of_their_own() -> None:
-    """A value too long for a sentence is written as value, required, residual, one below the
-    other.
-    """
-    found = report(tableau("123456789012345678901234567890/11"))
-    assert "value    123456789012345678901234567890/11" in found
-    assert "required 1/2" in found
+def test_long_values_are_whole_and_fit_a_screen() -> None:
+    """A number of thirty digits is shown whole, in lines of at most 80 columns."""
+    entry = "123456789012345678901234567890/11"
+    found = report(tableau(entry))
+    assert "by 246913578024691357802469135769/22 SDIRK" in words(found)
+    assert f"γ {entry}" in words(found)
+    assert f"[[]]: {entry} instead of 1/2\n" in everything(tableau(entry))
+    assert max(map(len, (found + everything(tableau(entry))).splitlines())) <= 80
 
 
 def test_a_method_of_no_order_has_order_zero() -> None:
     """Weights that do not sum to 1 fail at order 1, at the single vertex."""
     found = report(tableau("1/2", "2"))
-    assert re.search(r"^  order +0$", found, re.MULTILINE)
-    assert "fails at order 1: []" in found
+    assert found.startswith("m.gark.yaml: order 0, proved; order 1 fails at [] by 1\n")
 
 
 def test_a_zero_weight_is_named() -> None:
-    """Where there is no conjugate the report says which weight is in the way, and goes on."""
-    found = report("methods: [{family: explicit-midpoint}]")
-    assert re.search(r"^  order +2$", found, re.MULTILINE)
-    assert "b_1 = 0" in found
-    assert "symplectic       no" in found
+    """Where there is no conjugate the report says so at once, and with details which weight is in
+    the way; the order of the method is told all the same.
+    """
+    text = "methods: [{family: explicit-midpoint}]"
+    found = report(text)
+    assert found.startswith("m.gark.yaml: order 2, proved; ")
+    assert "not symplectic; not all weights positive\n" in found
+    for label in ("conjugate order", "pair order"):
+        reason = "colour 1: the symplectic conjugate divides by the weights b, b_1 = 0"
+        assert f" {label} {reason} " in words(everything(text))
 
 
 def test_an_absent_block_is_a_dash() -> None:
     """C and D of a block that does not exist are shown as -."""
-    found = report(
+    found = everything(
         "tableau: {c: [[1/2], [0, 1]], A: [[null, [[1/2, 0]]], [[[0], [1]], ~]], b: [[1], [1/2, 1/2]]}"
     )
-    assert re.search(r"^  C\(eta\) +-  1$", found, re.MULTILINE)
+    assert re.search(r"^    C\(η\) +- 1 / 2 -$", found, re.MULTILINE)
+    assert re.search(r"^    D\(ζ\) +- 2 / 1 -$", found, re.MULTILINE)
 
 
 def test_inconsistent_blocks_are_named() -> None:
-    """A block whose rows do not sum to the nodes is named, in the paper's terms."""
-    assert "no: A{1,1}𝟙 differs from c" in report("tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}")
+    """A block whose rows do not sum to the nodes is named: of one colour A, of several with its
+    place.
+    """
+    found = report("tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}")
+    assert "consistent            no: A𝟙 differs from c\n" in found
+    both = (
+        "tableau: {c: [[1/2], [1/3]], A: [[[[1/2]], [[1/2]]], [[[1/2]], [[1/3]]]], b: [[1], [1]]}"
+    )
+    assert "no: A{2,1}𝟙 differs from c" in words(report(both))
 
 
 def test_claims_are_listed_with_their_place() -> None:
@@ -148,29 +172,38 @@ def test_columns_line_up() -> None:
 
 
 def test_long_requirements_are_shortened() -> None:
-    """Where the value is shown in decimals, a required value of many digits is too."""
-    found = report("methods: [{family: gauss, stages: 24}]")
-    assert re.search(
-        r"about [0-9.]+e-63 instead of about [0-9.]+e-63, off by -?[0-9.]+e-[0-9]+\n", found
-    )
+    """Where the value is shown in decimals, a required value of many digits is too; no line is
+    wider than 80 columns but a tree that is.
+    """
+    text = "methods: [{family: gauss, stages: 24}]"
+    assert re.search(r"by about -5\.0979748e-77\n", report(text))
+    found = everything(text)
+    assert re.search(r"\]: about [0-9.]+e-63 instead of about [0-9.]+e-63 ", words(found))
+    assert all(len(line) <= 80 for line in found.splitlines() if "[" * 30 not in line)
+
+
+ONE_ENTRY = "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
 
 
 def test_hints_and_constants_of_one_colour() -> None:
-    """One failing condition is one condition; the trees of one colour show none and no coupling."""
-    text = "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
-    method = loads(text)
+    """One failing condition is one condition, an entry has no block; the trees of one colour show
+    no colours and no coupling.
+    """
+    method = loads(ONE_ENTRY)
     analysis = analyse(method.tableau)
-    lines = blame_lines(find_blame(method.tableau, 2, 2), method.tableau, Paint())
-    assert lines[0] == "  hint: the one condition of order 2 fails"
-    assert any(line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3") for line in lines)
+    blame = find_blame(method.tableau, 2, 2)
+    assert blame is not None
+    hint = blame_text(blame, ["1"])
+    assert hint.startswith("the one condition of order 2 fails; ")
+    assert "would hold with a[2,1] = 1/2 instead of 1/3, or a[2,2] = 1/6 instead of 0" in hint
     found = Outcome("m", "m", analysis=analysis, constants=error_constants(method.tableau, 2))
-    shown = render([found], Paint())
-    assert "largest 0.166667 at [[]]\n" in shown
+    shown = words(render([found], Paint()))
+    assert "of order 2: 2-norm 0.166667, largest 0.166667 at [[]], of 1 tree" in shown
     assert "coupling" not in shown
 
 
-def test_long_hints_fit_a_screen(tmp_path: Path) -> None:
-    """Sentences and lists of blocks go on in the next line, further in."""
+def test_hints_of_several_colours_name_blocks(tmp_path: Path) -> None:
+    """Blocks have the names of the colours; sentences go on in the next line, below the first."""
     method = """
 methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 4}]
 transfer: collocation
@@ -178,28 +211,33 @@ expect: {pair-order: 4}
 """
     path = tmp_path / "pair.gark.yaml"
     path.write_text(method, encoding="utf-8")
-    text = render([check_file(str(path))], Paint())
-    _, hint = text.split("  hint: ")
-    lines = f"  hint: {hint}".rstrip().splitlines()
-    assert max(map(len, lines)) <= 80
-    assert lines[1] == "          conditions"
-    assert " ".join(hint.split()).endswith("A{V2,V2}, A{V2,F2}")
+    for verbosity in (0, 1):
+        text = render([check_file(str(path))], Paint(), verbosity)
+        _, _, hint = text.partition("  hint ")
+        assert max(len(line) for line in text.splitlines() if str(path) not in line) <= 80
+        assert "all of them coupling conditions; A{V2,F1} takes part" in words(hint)
+    assert words(hint.partition("  simplifying")[0]).endswith("A{V2,V2}, A{V2,F2}")
 
 
-def test_long_places_have_a_line_of_their_own() -> None:
-    """Where the file is long the name of the method and the place of a failed claim go on in the
-    next line, and what was found fits 80 columns.
+def test_long_places_fit_a_screen() -> None:
+    """Where the folder is long the answer and the place of a failed claim go on in the next line,
+    below what they belong to.
     """
-    text = "name: {}\nmethods: [{{family: gauss, stages: 2}}]\nexpect: {{symplectic: false}}\n"
-    folder = "a-folder-with-a-long-name/long/"
-    long = outcome(text.format("Gauss with two stages, copied by hand"), f"{folder}m.gark.yaml")
-    found = render([long], Paint()).splitlines()
-    assert found[:2] == [f"{folder}m.gark.yaml:", "  Gauss with two stages, copied by hand"]
-    claim = found.index("  CLAIM FAILS      symplectic: expected false, found true")
-    assert found[claim + 1] == " " * 19 + f"({folder}m.gark.yaml:3:22)"
+    text = "methods: [{family: gauss, stages: 2}]\nexpect: {symplectic: false}\n"
+    file = "a-folder-with-a-long-name/long/and-deeper/m.gark.yaml"
+    found = render([outcome(text, file)], Paint()).splitlines()
     assert max(map(len, found)) <= 80
-    short = outcome(text.format("Gauss"))
-    assert render([short], Paint()).splitlines()[0] == "m.gark.yaml: Gauss"
+    assert found[0].startswith(f"{file}: order 4")
+    assert found[1].startswith("  ")
+    (claim,) = [i for i, line in enumerate(found) if line.startswith("  CLAIM FAILS  symplectic: ")]
+    assert found[claim + 1] == " " * 15 + f"({file}:2:22)"
+
+
+def test_the_name_of_a_method_is_a_detail() -> None:
+    """Usually the file says which method it is; with details its name is there too."""
+    text = "name: Gauss, by hand\nmethods: [{family: gauss, stages: 2}]\n"
+    assert "by hand" not in report(text)
+    assert re.search(r"^  name +Gauss, by hand$", everything(text), re.MULTILINE)
 
 
 DECIMALS = """\
@@ -215,30 +253,22 @@ expect: {order: 4}
 
 
 def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Entries are shown with the digits that a file would have, and no line is wider than 80
-    columns, of a misprint and of a tolerance that is too tight.
+    """Entries are shown with the digits that a file would have, of a misprint; a tolerance that is
+    too tight is told with the line that would do, and so are coefficients that look rounded. No
+    line is wider than 80 columns.
     """
     monkeypatch.chdir(tmp_path)
-    tight = DECIMALS.replace("33333338333333", "33333333333333")
-    tight = tight.replace("1e-12", "1e-19")
+    tight = DECIMALS.replace("33333338333333", "33333333333333").replace("1e-12", "1e-19")
+    gauss = "A: [[0.25, -0.0386751345948], [0.5386751345948, 0.25]]\nb: [0.5, 0.5]\n"
     for text, shown in (
-        (DECIMALS, "instead of -0.33333333338333333\n"),
-        (tight, "the tolerance is too tight;\n"),
+        (DECIMALS, "a[3,1] = -0.33333333333333333 instead of -0.33333333338333333, or "),
+        (tight, "the tolerance is too tight; with the line tolerance: 1e-17 the order is 4"),
+        (
+            f"{gauss}expect: {{order: 4}}",
+            "the coefficients look rounded; with the line tolerance: 1e-13 the order is 4",
+        ),
     ):
         Path("m.gark.yaml").write_text(text, encoding="utf-8")
         found = render([check_file("m.gark.yaml")], Paint())
-        assert shown in found
+        assert shown in words(found)
         assert max(map(len, found.splitlines())) <= 80
-
-
-def test_hints_fit_80_columns() -> None:
-    """The line that a rounded method lacks is shown on a line of its own, and none is too long."""
-    text = """
-A: [[0.25, -0.0386751345948], [0.5386751345948, 0.25]]
-b: [0.5, 0.5]
-expect: {order: 4}
-"""
-    lines = report(text).splitlines()
-    place = lines.index("        the coefficients look rounded;")
-    assert "with the line  tolerance: 1e-13  the order is 4" in lines[place + 1]
-    assert max(map(len, lines)) <= 80

@@ -28,9 +28,9 @@ from garkcli.cli.main import gark as commands
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
-from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
+from garkcli.report import check_github, check_junit, check_sarif, check_text
 from garkcli.report.check_formats import FORMATS
-from garkcli.report.check_json import as_data
+from garkcli.report.checked import REPORT
 from tests.cli.harness import ROOT, gark
 
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
@@ -155,410 +155,17 @@ def sarif(*outcomes: Outcome) -> dict[str, Any]:
     return run
 
 
+def words(text: str) -> str:
+    """A text without its line ends and margins."""
+    return " ".join(text.split())
+
+
 def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
     """The fingerprints of all findings about a text."""
     return [x["partialFingerprints"]["gark/v1"] for x in sarif(outcome(text, file))["results"]]
 
 
-# -- SARIF
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-#
-# --------------------------------------------------------------------------------------------------------
+# -- SARIF ---------------------------------------------------------------------------------------
 
 
 def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
@@ -764,7 +371,7 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
     found = check_file(str(file))
     assert found.blame is not None
     assert found.blame.restores == ("conjugate-order", "symplectic")
-    repair = "A{1,1}, row 2, entry 2, = 1/4 instead of 1/3"
+    repair = "a[2,2] = 1/4 instead of 1/3"
     consequence = f"it fails with order, and would hold with {repair}"
     assert [(x.message.partition(":")[0], x.help) for x in findings(found)] == [
         ("order", f"the claimed order would hold with {repair}"),
@@ -774,8 +381,8 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
         ("B", ""),
     ]
     text = check_text.render([found], Paint())
-    assert "and so would conjugate-order, symplectic\n" in text
-    (data,) = as_data([found])["files"]
+    assert f"would hold with {repair}, and so would conjugate-order, symplectic" in words(text)
+    (data,) = REPORT.document([found])["files"]
     assert data["blame"]["restores"] == ["conjugate-order", "symplectic"]
 
 
@@ -835,7 +442,7 @@ def test_the_format_auto_knows_where_it_runs() -> None:
 
 def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The cells of the table, where a pipe after a backslash belongs to a cell."""
-    lines = check_markdown.render(outcomes).split("\n")
+    lines = FORMATS["markdown"](outcomes, Paint(), 0, None, 80).split("\n")
     table = [line for line in lines if line.startswith("|")]
     return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table]
 
@@ -843,32 +450,53 @@ def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
 def test_markdown_has_a_row_a_file() -> None:
     """Orders, bound and claims stand under their heads; what fails is set off."""
     head, rule, wrong, right, bad = rows([outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")])
-    assert head == ["file", "order", "conjugate", "pair", "bound", "symplectic", "claims"]
+    labels = ["file", "order", "conjugate order", "pair order", "bound", "symplectic", "claims"]
+    assert head == labels
     assert set(rule) == {"---"}
-    assert wrong == ["`m.gark.yaml`", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
+    assert wrong == ["m.gark.yaml", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
     assert right[-1] == "none"
-    assert bad == ["`m.gark.yaml`", "unreadable", "", "", "", "", ""]
+    assert bad == ["m.gark.yaml", "", "", "", "", "", "cannot be read"]
+
+
+def test_markdown_of_one_file_is_its_report() -> None:
+    """The answer is set off, labels and words are a table, findings with their places follow."""
+    text = FORMATS["markdown"]([outcome(WRONG)], Paint(), 0, None, 80)
+    first, *_ = text.splitlines()
+    assert first == "**m.gark.yaml: order 2, proved; order 3 fails at `[[[]]]` by 1/12**"
+    failing = "| CLAIM FAILS | order: expected 3, found 2"
+    assert len([line for line in text.splitlines() if line.startswith(failing)]) == 1
+    assert len([line for line in text.splitlines() if line.startswith("- `m.gark.yaml:2:")]) == 3
 
 
 def test_markdown_says_what_is_a_lower_bound() -> None:
     """An order at which the search stopped is not shown as the order."""
-    _, _, row = rows([outcome("methods: [{family: gauss, stages: 3}]", limit=2)])
+    limited = outcome("methods: [{family: gauss, stages: 3}]", limit=2)
+    _, _, row, _ = rows([limited, outcome(MIDPOINT)])
     assert row[1:4] == ["at least 2"] * 3
+    alone = FORMATS["markdown"]([limited], Paint(), 0, None, 80)
+    assert alone.startswith("**m.gark.yaml: order at least 2: ")
 
 
-@pytest.mark.parametrize("file", [AWKWARD, "|", "a`b", "a\nb|c"])
+@pytest.mark.parametrize("file", [AWKWARD, "|", "a`b", "a\nb|c", "<b>", "*a*_b_[c](d)"])
 def test_markdown_cells_hold_any_file_name(file: str) -> None:
-    """Pipes, backticks and line ends of a file name stay inside their cell and their code."""
-    text = check_markdown.render([outcome(WRONG, file)])
-    _, _, row = rows([outcome(WRONG, file)])
+    """Pipes, backticks and line ends of a file name stay inside their cell and their code, and no
+    sign of it is markup.
+    """
+    pair = [outcome(WRONG, file), outcome(MIDPOINT)]
+    text = FORMATS["markdown"](pair, Paint(), 0, None, 80)
+    _, _, row, _ = rows(pair)
     assert len(row) == 7
-    assert row[0].count("`") == 2
+    shown = row[0].replace("&lt;", "<")
+    assert re.sub(r"\\([^a-z])", r"\1", shown) == file.replace("\n", "\\n")
+    assert not re.search(r"[|*_`\[\]<]", re.sub(r"\\[^a-z]", "", row[0]))
     assert len([line for line in text.split("\n") if line.startswith("- `")]) == 3
 
 
 def test_markdown_escapes_messages() -> None:
     """A message cannot start a tag or a column, and is one line."""
-    text = check_markdown.render([Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))])
+    text = FORMATS["markdown"](
+        [Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))], Paint(), 0, None, 80
+    )
     assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
 
 
@@ -889,7 +517,7 @@ def test_no_format_forgets_a_finding() -> None:
     shown = [text for _, text in annotations(*outcomes)]
     for said in (results, shown):
         assert all(x.startswith(message) for x, message in zip(said, messages, strict=True))
-    markdown = check_markdown.render(outcomes)
+    markdown = FORMATS["markdown"](outcomes, Paint(), 0, None, 80)
     assert all(message in markdown for message in messages)
     text = check_text.render(outcomes, Paint(False))
     assert all(message.partition("; ")[0] in text for message in messages)
@@ -916,15 +544,15 @@ def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
         ],
         "junit": ET.fromstring(check_junit.render([found])).find(".//failure").text,  # type: ignore[union-attr]
         "github": check_github.render([found]).splitlines()[0],
-        "markdown": check_markdown.render([found]),
-        "json": json.dumps(as_data([found])),
+        "markdown": FORMATS["markdown"]([found], Paint(), 0, None, 80),
+        "json": json.dumps(REPORT.document([found])),
     }
     for name, text in texts.items():
         assert text is not None, name
         assert "[[]]" in text or "[[]_1]_1" in text, name
         assert "-1/6" in text, name
         assert "1/2" in text, name
-    assert "A{1,1}, row 2, entry 1, = 1/2 instead of 1/3" in texts["sarif"]
+    assert "a[2,1] = 1/2 instead of 1/3" in texts["sarif"]
 
 
 def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from garkcli import (
 from garkcli.exact.display import to_text
 from garkcli.page.tableau_latex import displays
 from garkcli.tableau.pointwise import entries
+from garkcli.trees.notation import format_tree
 from garkcli.trees.svg import draw_svg_sheet
 
 HOSTILE = '<script>alert("x")</script> & \x1b[2J'
@@ -118,43 +119,61 @@ def test_a_tree_is_its_picture() -> None:
     assert Tree(0)._repr_svg_() != picture
 
 
+def sentences(html: str) -> list[str]:
+    """The texts of the paragraphs, the first one the answer."""
+    root = ET.fromstring(f"<div>{html}</div>")
+    return ["".join(part.itertext()) for part in root.iter("p")]
+
+
 @pytest.mark.parametrize("method", [EMBEDDED, TWO, load("rk4")])
-def test_an_analysis_is_a_table(method: GarkMethod) -> None:
-    """Every order with the tree at which it ends."""
+def test_an_analysis_is_its_report(method: GarkMethod) -> None:
+    """The order with the tree at which it ends is the first paragraph; the other orders, the bound
+    and symplecticity follow, of several colours in rows.
+    """
     found = analyse(method)
-    rows = {row[0]: row[1] for row in cells(found._repr_html_())}
-    assert rows["order"].startswith(f"{found.order.order}; fails at order")
-    for label, order in (
-        ("conjugate order", found.conjugate_order),
-        ("pair order", found.pair_order),
-    ):
-        assert order is not None
-        assert rows[label].startswith(f"{order.order}; ")
-    assert rows["bound"] == f"order ≥ {found.bound}"
-    assert rows["symplectic"] == ("yes" if found.symplectic else "no")
+    html = found._repr_html_()
+    answer, *more = sentences(html)
+    order, witness = found.order, found.order.witness
+    assert witness is not None
+    tree = format_tree(witness.tree, len(found.tableau.colours) > 1)
+    assert answer.startswith(
+        f"order {order.order}, proved; order {order.order + 1} fails at {tree}"
+    )
+    said = " ".join(more)
+    assert f"give at least order {found.bound}" in said
+    assert ("not symplectic" in said) is not found.symplectic
+    assert found.pair_order is not None
+    assert found.conjugate_order is not None
+    if found.tableau.size == 1:
+        assert f"the symplectic pair has order {found.pair_order.order}" in said
+        return
+    rows = {row[0]: row[1] for row in cells(html)}
+    for label, of in (("conjugate order", found.conjugate_order), ("pair order", found.pair_order)):
+        assert rows[label].startswith(f"{of.order}, proved; ")
 
 
 def test_claims_and_faults_have_rows(tmp_path: Path) -> None:
-    """Which claims hold, which fail and what is found; where a file is at fault."""
+    """Which claims hold, which fail and what is found; where a file is at fault, and the cure."""
     path = tmp_path / "a.gark.yaml"
     path.write_text("A: [[1/2]]\nb: [1]\nexpect: {order: 3, symplectic: true}\n", encoding="utf-8")
     found = check_file(str(path))
     rows = {row[0]: row[1] for row in cells(found._repr_html_())}
-    assert rows["claim order: 3"].startswith("fails: found 2")
-    assert rows["claim symplectic: true"] == "holds"
+    assert rows["CLAIM FAILS"].startswith("order: expected 3, found 2")
+    assert rows["claim holds"] == "symplectic: true"
     assert repr(found).endswith(": 2 claims, 1 failed>")
     path.write_text("A: [[1/0]]\nb: [1]\n", encoding="utf-8")
     found = check_file(str(path))
-    assert cells(found._repr_html_()) == [
-        ["line 1", "A, row 1, entry 1: division by zero;"
-         " the divisor is exactly zero"],
-    ]  # fmt: skip
+    html = found._repr_html_()
+    assert sentences(html)[0].endswith("a.gark.yaml: cannot be read as a method")
+    ((_, text),) = cells(html)
+    for part in ("line 1", "A, row 1, entry 1: division by zero", "the divisor is exactly zero"):
+        assert part in text
     assert repr(found).endswith(": 1 fault>")
 
 
 def test_a_file_with_free_parameters_says_what_holds_for_all(tmp_path: Path) -> None:
     """There is no analysis of one method, but an order for every value; a claim is one of
-    every value too.
+    every value too. No mark of the page shows as text.
     """
     path = tmp_path / "a.gark.yaml"
     path.write_text(
@@ -163,7 +182,21 @@ def test_a_file_with_free_parameters_says_what_holds_for_all(tmp_path: Path) -> 
     )
     found = check_file(str(path))
     assert found.analysis is None
-    assert cells(found._repr_html_()) == [
-        ["order for every t", "1"],
-        ["claim order: 1", "fails: found 1; 2 where t = 1"],
-    ]
+    html = found._repr_html_()
+    answer = sentences(html)[0]
+    assert f"{path}, every value of t: order 1; order 2 fails at [[]] by " in answer
+    assert answer.endswith("; order 2 where t = 1")
+    rows = {row[0]: row[1] for row in cells(html)}
+    assert rows["CLAIM FAILS"].startswith("order: expected 1, found 1; 2 where t = 1")
+    assert rows["symplectic"] == "no"
+
+
+def test_orders_within_a_tolerance_and_of_dense_output_say_how_they_are_known() -> None:
+    """The tolerance is part of what a notebook and a console show of them."""
+    rounded = analyse(load("tests/examples/valid/rounded.gark.yaml"))
+    assert "4 within 1e-14" in rounded.order._repr_html_()
+    assert repr(rounded.order) == "<RoundedOrder 4 within 1e-14>"
+    dense = analyse(load("tests/examples/valid/embedded-and-dense.gark.yaml")).dense
+    assert dense is not None
+    assert repr(dense.order) == "<DenseOrder 3>"
+    assert dense.order._repr_html_().startswith("<p>dense order 3: fails at order 4")

@@ -25,7 +25,7 @@ from garkcli.errors import MethodError, printable
 from garkcli.order.listing import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.keys import KEYS
-from garkcli.report.check_json import as_data
+from garkcli.report.checked import REPORT
 from garkcli.webpage import page as page_module
 from garkcli.webpage import reported as reported_module
 from garkcli.webpage.calls import report_page
@@ -66,7 +66,7 @@ def page(*methods: str) -> Element:
 @cache
 def checked(method: str) -> dict[str, Any]:
     """What ``gark check --format json`` says of a method."""
-    (found,) = as_data([check_file(method)])["files"]
+    (found,) = REPORT.document([check_file(method)])["files"]
     data: dict[str, Any] = found
     return data
 
@@ -161,7 +161,9 @@ def test_orders_are_those_of_the_check(method: str) -> None:
             continue
         shown, card = found[prefix]
         bound = data.get(f"{prefix}_order_is_lower_bound".lstrip("_"))
-        assert shown == (f"at least {number}" if bound else str(number))
+        near = data.get(f"{prefix}_order_tolerance".lstrip("_"))
+        known = f"at least {number}" if bound else str(number)
+        assert shown == (f"{known} within {near}" if near else known)
         witness = data.get(f"{prefix}_witness".lstrip("_"))
         if witness is not None:
             said = text_of(card)
@@ -503,26 +505,30 @@ def test_a_section_is_a_file_with_its_template() -> None:
 
 
 def test_hints_are_those_of_the_check() -> None:
-    """What the failing conditions of a misprinted method tell, line by line."""
-    printed = gark("check", FAILING).out
-    (shown,) = elements(section(FAILING, "orders"), "pre")
-    lines = (shown.text or "").splitlines()
-    assert "hint:" in lines[0]
-    for line in lines:
-        assert line.strip() in printed
+    """What the failing conditions of a misprinted method tell, sentence by sentence."""
+    printed = " ".join(gark("check", FAILING).out.split())
+    (shown,) = [x for x in elements(section(FAILING, "orders"), "ul") if x.get("class") == "hints"]
+    told = [text_of(x) for x in elements(shown, "li")]
+    assert told
+    for one in told:
+        assert f" hint {one}" in printed
 
 
 def test_stability_is_that_of_its_command() -> None:
-    """Each fact as it is printed, and the stability function typeset."""
-    printed = " ".join(gark("stability", RECTANGULAR, "rk4").out.split())
+    """Each fact as it is printed, usually or with details, and the stability function typeset."""
+    runs = [gark("stability", RECTANGULAR, "rk4", *more).out for more in ([], ["-v"])]
+    printed = " ".join(" ".join(runs).split())
     for method in (RECTANGULAR, "rk4"):
         shown = section(method, "stability")
-        facts = [text_of(x) for x in elements(shown, "dd")]
-        assert len(facts) > 4
-        for fact in facts:
-            assert fact in printed, fact
-    heads = [text_of(x) for x in elements(section("rk4", "stability"), "h3")]
-    assert heads[0] == "Linear test equation"
+        facts = [[text_of(x) for x in elements(shown, tag)] for tag in ("dt", "dd")]
+        assert len(facts[0]) > 4
+        for label, fact in zip(*facts, strict=True):
+            answer = f": {label}" if fact == "yes" else f": not {label}{fact.removeprefix('no')}"
+            assert f"{label} {fact}" in printed or answer in printed, (label, fact)
+    heads = [
+        text_of(x) for x in elements(section("methods/collocation.gark.yaml", "stability"), "h3")
+    ]
+    assert heads == ["colour 1 alone", "colour 2 alone"]
     formula = next(elements(section("rk4", "stability"), "math"))
     assert text_of(formula) == "R(z)=z4+4z3+12z2+24z+2424"
 
@@ -537,7 +543,10 @@ def test_what_takes_long_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not reported("rk4").is_slow
     content = stability.SECTION.content(slow)
     assert content is not None
-    assert content["parts"] == []
+    assert "parts" not in content
+    shown = read(report_page(ROUNDED, order=1, pictures=False))
+    said = text_of(by_id(shown, "m1-stability"))
+    assert f"takes long for this method: gark stability {ROUNDED}" in said
     left_out = properties.SECTION.content(slow)
     assert left_out is not None
     assert "real-stability" in left_out["left_out"]

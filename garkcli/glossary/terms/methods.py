@@ -79,7 +79,7 @@ TERMS = (
         " nodes; others have another order where f depends on t.",
         "c_i = Σ_j a_ij",
         paper(_GARK),
-        ("c", "nodes"),
+        ("c", "nodes", "nodes in [0, 1]"),
         ("consistent", "non-autonomous order"),
     ),
     Term(

@@ -101,7 +101,7 @@ TERMS = (
         "c_i ≠ Σ_j a_ij",
         "this project; E. Hairer, S. Nørsett, G. Wanner, Solving Ordinary Differential Equations I,"
         " section II.2",
-        ("non-autonomous", "nonautonomous"),
+        ("non-autonomous", "nonautonomous", "embedded non-autonomous order"),
         ("node", "consistent"),
     ),
     Term(

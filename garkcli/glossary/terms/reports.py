@@ -17,7 +17,7 @@ TERMS = (
         " with what was found instead, and the exit code is 1.",
         "",
         _CHECK,
-        ("claim holds", "CLAIM FAILS", "claims", "FAIL", "all hold"),
+        ("claim holds", "claims hold", "CLAIM FAILS", "claims", "FAIL", "all hold"),
         ("tolerance",),
     ),
     Term(

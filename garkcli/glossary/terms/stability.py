@@ -13,7 +13,7 @@ TERMS = (
         " colours y' = Σ λ_l y and a function of all z_l.",
         "R(z) = 1 + z bᵀ (I − zA)⁻¹ 𝟙",
         f"{_STIFF}, section IV.2",
-        ("R(z)", "R", "R(z1, z2)", "R(∞)", "R(infinity)"),
+        ("R(z)", "R", "R(z1, z2)", "R(z1, z2, …)", "R(∞)", "R(infinity)"),
         ("A-stable", "L-stable"),
     ),
     Term(
@@ -55,7 +55,7 @@ TERMS = (
         " where its determinant is 1.",
         "tr R(x), det R(x), x = (hω)²",
         _OURS,
-        ("determinant", "stable"),
+        ("determinant", "stable", "oscillator stable, x = (hω)²", "two springs, x = (hω_fast)²"),
         ("P-stable", "phase lag"),
     ),
     Term(

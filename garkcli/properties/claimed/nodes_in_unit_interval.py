@@ -4,7 +4,7 @@ from flint import fmpq_poly
 
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.signs import roots_below, sign
-from garkcli.properties.naming import number_text
+from garkcli.properties.naming import number_text, place_name
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.subject import Subject
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -35,7 +35,7 @@ def _beyond(c: Number) -> Number:
 
 def _outside(tableau: Tableau, l: int, i: int) -> str:
     colour = tableau.colours[l]
-    return f"c{{{colour.name}}}, entry {i + 1}, is {number_text(colour.c[i])}"
+    return f"{place_name('c', tableau, [colour.name], i)} is {number_text(colour.c[i])}"
 
 
 PROPERTY = Property(

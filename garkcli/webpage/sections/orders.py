@@ -4,30 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from textwrap import dedent
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.every_facts import Fact
 from garkcli.check.every_orders import EveryOrder
 from garkcli.check.every_value import EveryValue
-from garkcli.check.every_words import fact_text
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
 from garkcli.order.certificate import Order, Witness
 from garkcli.order.deciding import AnyOrder
 from garkcli.order.dense import DenseOrder
-from garkcli.page.paint import Paint
-from garkcli.report.check_further import estimate_text, fit_text
-from garkcli.report.check_orders import doubt_text, order_number, size, suggestion_lines
-from garkcli.report.hints import blame_lines, misprint_lines
+from garkcli.report.check import dense_words, estimate_words, hints
+from garkcli.report.every import higher_text
+from garkcli.report.hints import size
 from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Row
+from garkcli.tell.kinds import ORDER, order_answer
+from garkcli.tell.outputs import cell
 from garkcli.trees.notation import condition_latex, format_tree
 from garkcli.trees.tree import Tree
 from garkcli.webpage.mathml import typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.tree_picture import tree_picture
+
+ORDER_ROW = Row("order", ORDER, order_answer)
 
 
 @dataclass(frozen=True)
@@ -65,22 +67,9 @@ def _content(method: Reported) -> Content | None:
     return {"orders": list(_told_once(found)), "hints": _hints(outcome), "left_behind": left_behind}
 
 
-def _hints(outcome: Outcome) -> str:
-    """What failing conditions tell, in the lines of ``gark check``; empty where that is nothing."""
-    analysis = outcome.analysis
-    if analysis is None:
-        return ""
-    paint = Paint(False)
-    tableau = analysis.tableau
-    lines: list[str] = []
-    if analysis.suggestion is not None:
-        near = analysis.tolerance
-        lines += suggestion_lines(analysis.suggestion, near, paint)
-    if analysis.misprint is not None:
-        lines += misprint_lines(analysis.misprint, tableau, paint)
-    if outcome.blame is not None:
-        lines += blame_lines(outcome.blame, tableau, paint)
-    return dedent("\n".join(lines))
+def _hints(outcome: Outcome) -> list[str]:
+    """What failing conditions tell, as ``gark check`` has it."""
+    return [] if outcome.analysis is None else hints(outcome)
 
 
 def _told_once(found: Sequence[Shown]) -> Iterator[Shown]:
@@ -118,7 +107,7 @@ def _further(analysis: Analysis, clock: str) -> Iterator[Shown]:
     embedded, dense = analysis.embedded, analysis.dense
     has_colours = analysis.tableau.size > 1
     if embedded is not None:
-        estimate = estimate_text(embedded.estimator)
+        estimate = estimate_words(embedded.estimator, Plain())
         note = f"Error estimate: {estimate}."
         yield _order("embedded order", embedded.order, embedded.tableau, note)
         order = embedded.nonautonomous_order
@@ -126,9 +115,9 @@ def _further(analysis: Analysis, clock: str) -> Iterator[Shown]:
         if order is not None and clock and timed is not None:
             yield _order("embedded non-autonomous order", order, timed, clock)
     if dense is not None:
-        fit = f"The output is {fit_text(dense)}."
+        fit = f"The output is {dense_words(dense, Plain())}."
         if not dense.ends_at_step:
-            fit = f"The output {fit_text(dense)}."
+            fit = f"The output {dense_words(dense, Plain())}."
         yield _dense(dense.order, dense.degree, has_colours, fit)
 
 
@@ -154,7 +143,8 @@ def said(order: AnyOrder) -> tuple[str, str]:
     text = f"{every} is met within {tolerance}, residuals up to {largest}"
     how = f"within {tolerance}"
     if order.undecided:
-        return f"{text}; {doubt_text(order)}.", f"{how}, next not decided"
+        doubt = f"order {number + 1} is not decided: {order.undecided}"
+        return f"{text}; {doubt}.", f"{how}, next not decided"
     if order.witness is None:
         return f"{text}; no further was looked.", f"{how}, at least"
     return f"{text}; one of order {number + 1} fails.", how
@@ -168,6 +158,11 @@ def _witness(witness: Witness, has_colours: bool) -> Content:
         "required": typeset_number(witness.required),
         "residual": typeset_number(witness.residual),
     }
+
+
+def order_number(order: AnyOrder) -> str:
+    """An order as it is known."""
+    return cell(ORDER_ROW.fact(order), Plain())
 
 
 def _tree(tree: Tree, has_colours: bool) -> Content:
@@ -228,29 +223,9 @@ def _every(label: str, order: EveryOrder, name: str) -> Shown:
         **_tree(order.witness, order.tableau.size > 1),
         "residual": typeset_number(order.residual),
     }
-    higher = _higher(order, name)
+    higher = higher_text(order, name)
+    higher = f"{higher[:1].upper()}{higher[1:]}."
     return Shown(label, number, "for every value", text, witness, (higher,))
-
-
-def _higher(order: EveryOrder, name: str) -> str:
-    """For which values the order is higher."""
-    next_order = order.order + 1
-    if order.dimension is not None and order.dimension < 0:
-        return f"No value has order {next_order}."
-    special = tuple(x for x in order.fact.special if x[1] is not None)
-    if special:
-        found = fact_text(Fact(order.order, special), name, _in_words)
-    elif order.fact.zeros:
-        found = fact_text(Fact(order.order, zeros=order.fact.zeros), "")
-        return f"Order {found.split('; ', 1)[1]}."
-    else:
-        return f"No real value of the file has order {next_order}."
-    told = found.split("; ", 1)[1]
-    return told[:1].upper() + told[1:] + "."
-
-
-def _in_words(value: object) -> str:
-    return f"order {value}"
 
 
 SECTION = Section("orders", "Orders", _content)

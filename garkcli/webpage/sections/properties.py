@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from garkcli.check.analysis import Analysis
+from garkcli.check.every_facts import told
 from garkcli.check.every_value import EveryValue
 from garkcli.check.every_words import fact_text
-from garkcli.exact.display import decimal
-from garkcli.page.paint import Paint
+from garkcli.check.outcome import Outcome
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import every_property
-from garkcli.report.check_conditions import consistent_text
-from garkcli.report.check_properties import property_lines, verdict_text
-from garkcli.report.every_text import property_text
+from garkcli.report.check import CHECKED, verdict_words
+from garkcli.report.checked import REPORT
+from garkcli.tell.outputs import label, words
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -24,7 +24,7 @@ def _content(method: Reported) -> Content | None:
     if analysis is not None:
         keys, left_out = _keys(method)
         return {
-            "lines": _lines(analysis),
+            "lines": _lines(method.outcome),
             "verdicts": [_verdict(analysis, key) for key in keys],
             "left_out": left_out,
             "file": method.outcome.file,
@@ -48,30 +48,18 @@ def _keys(method: Reported) -> tuple[list[str], list[str]]:
     return [key for key in KEYS if key not in slow], slow
 
 
-def _lines(analysis: Analysis) -> list[tuple[str, str]]:
-    """What is worth a word, as ``gark check`` tells it, symplecticity and row sums before it."""
-    symplectic = "no"
-    names = [colour.name for colour in analysis.tableau.colours]
-    near = ""
-    if analysis.tolerance is not None:
-        near = f" within {decimal(analysis.tolerance)}"
-    wrong = analysis.inconsistent
-    consistent = consistent_text(wrong, names, "A", near, Paint(False))
-    if analysis.symplectic:
-        symplectic = f"yes{near}"
-    has_further = analysis.embedded is not None or analysis.dense is not None
-    return [
-        ("symplectic", symplectic),
-        ("consistent", consistent),
-        *property_lines(analysis.subject, has_further),
-    ]
+def _lines(outcome: Outcome) -> list[tuple[str, str]]:
+    """What the method is like, in lines of ``gark check``."""
+    d = REPORT.dialect(outcome, "text")
+    facts = CHECKED.named(outcome, ("symplectic", "consistent", "method", "by_colour"))
+    return [(label(x, d), words(x, d)) for x in facts.values() if x.is_something]
 
 
 def _verdict(analysis: Analysis, key: str) -> Content:
     """A property, what is true of it, and why."""
     verdict = analysis.subject.verdict(key)
     why = "" if verdict.value is True else verdict.why
-    text = verdict_text(verdict)
+    text = verdict_words(verdict)
     return {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
 
 
@@ -87,7 +75,7 @@ def _mark(verdict: Verdict) -> str:
 def _of_every_value(every: EveryValue) -> Iterator[Content]:
     name = next(iter(every.parameters), "")
     for key in KEYS:
-        text = fact_text(every.verdict(key), name, property_text)
+        text = fact_text(every.verdict(key), name, told)
         yield {"key": key, "text": text, "why": "", "mark": "value"}
 
 

@@ -1,0 +1,53 @@
+"""What people read in place of the keys of results, where that is not the key with spaces."""
+
+from __future__ import annotations
+
+LABELS = {
+    "A_alpha": "A(α)-stable",
+    "B": "B(r)",
+    "C": "C(η)",
+    "D": "D(ζ)",
+    "R": "R(z)",
+    "R_alike": "R(z), all colours alike",
+    "R_infinity": "R(∞)",
+    "a_stable": "A-stable",
+    "l_stable": "L-stable",
+    "p_stable": "P-stable",
+    "conserved": "conserved form",
+    "discriminant": "4D² − N²",
+    "e_polynomial": "E(x), x = y²",
+    "esdirk": "ESDIRK",
+    "factors": "factors of 4D² − N²",
+    "fsal": "first same as last",
+    "gamma": "γ",
+    "imaginary_interval": "imaginary axis",
+    "inconsistent_blocks": "row sums that differ",
+    "nodes_in_unit_interval": "nodes in [0, 1]",
+    "nonautonomous_order": "non-autonomous order",
+    "open_points": "not decided",
+    "phase_order": "phase lag",
+    "real_interval": "real axis",
+    "sdirk": "SDIRK",
+    "ssp": "SSP coefficient",
+    "ssp_radii": "additive SSP radii",
+    "stable_for_every_fast": "stable for all x > 0",
+}
+
+
+def key_of(label: str) -> str:
+    """The key that people read a label in place of.
+
+    >>> key_of("A-stable"), key_of("pair order")
+    ('a_stable', 'pair_order')
+    """
+    keys = {label: key for key, label in LABELS.items()}
+    return keys.get(label) or label.replace(" ", "_")
+
+
+def label_of(key: str) -> str:
+    """What people read in place of a key.
+
+    >>> label_of("a_stable"), label_of("pair_order")
+    ('A-stable', 'pair order')
+    """
+    return LABELS.get(key) or key.replace("_", " ")

@@ -1,0 +1,888 @@
+"""``gark check``: what is found of a method, declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from garkcli.check.explained import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text
+from garkcli.check.findings import CLAIM as CLAIM_CURE
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.exactly import ROOT_OF, root_data
+from garkcli.page.paint import counted, folded
+from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import find
+from garkcli.tell.facts import (
+    NO_REASON,
+    Answer,
+    Kind,
+    Level,
+    Reason,
+    Row,
+    Section,
+    Status,
+    part,
+    parts,
+    picture,
+    rows_of,
+    told,
+    via,
+)
+from garkcli.tell.kinds import (
+    BLOCK,
+    BLOCKS,
+    COUNT,
+    EXACT,
+    EXACTS,
+    FLOAT,
+    ORDER,
+    POSITION,
+    ROW_OF_COUNTS,
+    TABLE,
+    TEXT,
+    TEXTS,
+    TOLERANCE,
+    TREE,
+    TRUE,
+    TRUTH,
+    UPPER,
+    Table,
+    choice,
+    order_answer,
+    order_cell,
+    record,
+)
+from garkcli.trees.drawing import draw_text, text_width
+from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.order.dense import DenseOrder
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+
+
+# the method
+
+
+def stages_text(tableau: Any) -> str:
+    """``4 stages``; ``2 colours, 2 + 3 stages``."""
+    if tableau.is_partitioned:
+        parts_of = (" + ".join(map(str, tableau.stages_of(x))) for x in "qp")
+        return "{} colours, stages q: {}, p: {}".format(tableau.size, *parts_of)
+    counts = [tableau.space(l).stages for l in range(tableau.size)]
+    stages = " + ".join(map(str, counts)) + (" stage" if counts == [1] else " stages")
+    return stages if len(counts) == 1 else f"{len(counts)} colours, {stages}"
+
+
+def _method_phrase(_: str, answer: Answer, d: Plain) -> str:
+    """``explicit, 4 stages``."""
+    outcome = answer.value
+    structure = "" if outcome.structure == "general" else f"for {outcome.structure} problems, "
+    if outcome.every is not None:
+        return f"{structure}{stages_text(outcome.every.tableau)}"
+    analysis = outcome.analysis
+    return f"{structure}{analysis.subject.shape.name}, {stages_text(analysis.tableau)}"
+
+
+def _method_words(outcome: Any, d: Plain) -> str:
+    text = _method_phrase("", Answer(outcome), d)
+    if outcome.every is not None:
+        return text
+    degree = outcome.analysis.tableau.degree
+    if outcome.analysis.tolerance is not None:
+        return f"{text}; coefficients rounded"
+    field = "rational arithmetic" if degree == 1 else f"a number field of degree {degree}"
+    return f"{text}; decided in {field}"
+
+
+METHOD = Row("method", told(_method_words, _method_phrase), lambda o: o, line="method")
+
+
+def title(outcome: Any, d: Plain) -> str:
+    """What a report is about."""
+    name = d.prose(outcome.file or outcome.name)
+    if outcome.every is None:
+        return name
+    return f"{name}, every value of {d.prose(_some(outcome.every.parameters))}"
+
+
+def _some(names: Sequence[str], most: int = 8) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
+
+
+def named(x: Any) -> Answer:
+    """The name, told where it says more than the file."""
+    return Answer(x.name, level=DETAIL if x.name != x.file else DATA)
+
+
+# orders
+
+
+def order(key: str, of: Callable[[Any], Any], level: Any = USUAL) -> Row:
+    """An order of a method."""
+    return Row(key, ORDER, lambda a: order_answer(of(a)), level, has_null=key != "order")
+
+
+def of_several(key: str) -> Row:
+    """The order of the conjugate or the pair: usual where a method has several colours."""
+
+    def get(a: Any) -> Answer:
+        answer = order_answer(getattr(a, key))
+        is_told = a.tableau.size > 1 and (answer.value or key == "conjugate_order")
+        level = USUAL if is_told else DETAIL  # there is no pair where there is no conjugate
+        return replace(
+            answer, reason=Reason(a.obstacle) if answer.value is None else NO_REASON, level=level
+        )
+
+    return Row(key, ORDER, get, has_null=True)
+
+
+def _pair_in_brief(a: Any) -> Answer:
+    """For one colour that is not symplectic, in a part of a sentence."""
+    is_told = a.tableau.size == 1 and a.pair_order is not None and not a.symplectic
+    return replace(order_answer(a.pair_order), level=USUAL if is_told else DATA)
+
+
+def with_time(a: Any) -> Answer:
+    """The order on problems with time, told where the nodes are not the row sums."""
+    return replace(order_answer(a.nonautonomous_order), level=USUAL if a.inconsistent else DETAIL)
+
+
+def embedded_with_time(a: Any) -> Answer:
+    """The same of the embedded weights."""
+    found = a.embedded and a.embedded.nonautonomous_order
+    return replace(order_answer(found), level=USUAL if a.inconsistent else DETAIL)
+
+
+def witnesses(a: Any) -> list[tuple[Any, Any]]:
+    """The conditions at which orders end, each once, with the tableau that misses it."""
+    found: list[tuple[Any, Any]] = []
+    embedded = a.embedded
+    for one, tableau in (
+        (a.order, a.tableau),
+        (a.conjugate_order, a.conjugate),
+        (a.pair_order, a.pair),
+        (embedded and embedded.order, embedded and embedded.tableau),
+    ):
+        witness = one and one.witness
+        if witness and witness not in [x for x, _ in found]:
+            found.append((witness, tableau))
+    return found
+
+
+def in_a_line(tree: Any) -> list[str]:
+    """A tree without forks, from its root on; empty for others.
+
+    >>> from garkcli.trees.tree import Tree
+    >>> in_a_line(Tree(0, [Tree(0, [Tree(0)])]))
+    ['●─●─●']
+    """
+    colours = [tree.root]
+    while tree.branches:
+        if len(tree.branches) > 1:
+            return []
+        (tree,) = tree.branches
+        colours.append(tree.root)
+    numbers = [str(l + 1) if any(colours) else "" for l in colours]
+    return ["─".join(f"●{number}" for number in numbers)]
+
+
+def drawn(found: Any, d: Plain) -> list[str]:
+    """Trees with the values of their conditions."""
+    lines = []
+    room = d.width - 2
+    for witness, tableau in found:
+        names = [colour.name for colour in tableau.colours]
+        tree = format_tree(witness.tree, len(names) > 1)
+        value, required = d.number(witness.value), d.number(witness.required)
+        lines += folded(f"{tree}: {value} instead of {required}", room, "  ")
+        if names != [str(l + 1) for l in range(len(names))]:
+            used = sorted(witness.tree.colours)
+            lines.append(f"colour {', '.join(f'{l + 1} is {d.prose(names[l])}' for l in used)}")
+        line = in_a_line(witness.tree)
+        fits = line and text_width(line) <= room
+        lines += d.drawing(line if fits else draw_text(witness.tree, len(names) > 1, room))
+    return lines
+
+
+# B, C, D and the bounds
+
+
+def tables(letter: str) -> Row:
+    """B, C or D of all blocks."""
+    kind = ROW_OF_COUNTS if letter == "B" else TABLE
+    return Row(
+        letter, kind, lambda a: Table(getattr(a.simplifying, letter), a.simplifying.limit), DETAIL
+    )
+
+
+def bound(number: str, simple: str, formula: str) -> Callable[[Any], Any]:
+    """A bound of the order, from what it is made."""
+
+    def get(a: Any) -> Any:
+        whose = a.pair_simplifying if number.startswith("pair") else a.simplifying
+        value = getattr(a, number)
+        if value is None or whose is None:
+            return None
+        computed = getattr(whose, simple)
+        doubt = f"; {computed} is not decided within the tolerance" if computed != value else ""
+        return Answer(
+            value,
+            Status(at_least=whose.is_open(computed)),
+            Reason(f"{formula} with {bound_numbers(whose)}{doubt}"),
+        )
+
+    return get
+
+
+def _simplifying_phrase(_: str, answer: Answer, d: Plain) -> str:
+    """``B(4), C(1), D(1) give at least order 3``."""
+    a, found = answer.value, answer.value.simplifying
+    numbers = (("B", found.r), ("C", found.eta), ("D", found.zeta))
+    said = ", ".join(f"{letter}({d.capped(x, found.limit)})" for letter, x in numbers)
+    return f"{said} give at least order {a.bound}"
+
+
+SIMPLIFYING = Section(
+    *map(tables, "BCD"),
+    *(
+        Row(x, COUNT, lambda a, x=x: getattr(a.simplifying, x), DATA)  # type: ignore[misc]
+        for x in ("r", "eta", "zeta", "xi", "chi")
+    ),
+    Row("bound", COUNT, bound("bound", "bound", BOUND), DETAIL),
+    Row(
+        "limit",
+        COUNT,
+        lambda a: a.simplifying.limit if a.simplifying.is_open(a.simplifying.limit) else None,
+        DATA,
+        is_optional=True,
+    ),
+)
+
+
+# properties
+
+
+def wrong(found: Sequence[Any], letter: str, within: Any) -> Answer:
+    """Whether the nodes are the row sums."""
+
+    def words(found: Any, d: Plain) -> str:
+        return d.few([d.place(letter, edge, ()) + d.prose("𝟙") for edge in found])
+
+    blocks = Kind({}, words=words)
+    verb = "differs" if len(found) == 1 else "differ"
+    return Answer(
+        not found,
+        Status(within),
+        Reason(f"{{}} {verb} from c", blocks(found)) if found else NO_REASON,
+    )
+
+
+def consistent(a: Any) -> Answer:
+    """The same of the method, told where they are not."""
+    return replace(
+        wrong(a.inconsistent, "a", a.tolerance), level=USUAL if a.inconsistent else DETAIL
+    )
+
+
+def conjugate_consistent(a: Any) -> Any:
+    """The same of the conjugate of several colours."""
+    if a.conjugate is None:
+        return None
+    is_told = a.conjugate_inconsistent and a.tableau.size > 1
+    found = wrong(a.conjugate_inconsistent, "â", a.tolerance)
+    return replace(found, level=USUAL if is_told else DETAIL)
+
+
+def verdict_answer(v: Any) -> Answer:
+    """What is decided of a property."""
+    status = Status(at_least=v.is_at_least, open=Reason(v.why if v.is_undecided else ""))
+    why = NO_REASON if v.value is True or v.is_undecided else Reason(v.why)
+    return Answer(v.value, status, why)
+
+
+WORTH_A_WORD = {
+    "stiffly-accurate": (True, "stiffly accurate"),
+    "fsal": (True, "first same as last"),
+    "symmetric": (True, "symmetric"),
+    "algebraically-stable": (True, "algebraically stable"),
+    "reducible": (True, "reducible, see gark reduce"),
+    "positive-weights": (False, "not all weights positive"),
+    "nodes-in-unit-interval": (False, "nodes outside [0, 1]"),
+}
+"""Properties that are usually told where they have this value."""
+
+
+def truth(key: str) -> Row:
+    """A property that every check decides."""
+    worthy, words = WORTH_A_WORD.get(key, (None, ""))
+
+    def phrase(label: str, answer: Answer, d: Plain) -> str:
+        return d.prose(words or label)
+
+    def get(a: Any) -> Answer:
+        answer = verdict_answer(a.subject.verdict(key))
+        is_told = worthy is not None and (answer.value is worthy or bool(answer.status.open))
+        if key == "reducible" and (a.embedded is not None or a.dense is not None):
+            answer = replace(
+                answer, reason=Reason("as far as b goes") if answer.value else NO_REASON
+            )
+        return replace(answer, level=USUAL if is_told else DETAIL)
+
+    return Row(find(key).field, replace(TRUTH, phrase=phrase), get, has_null=True)
+
+
+def _names(tableau: Any, space: int) -> list[str]:
+    return [colour.name for colour in tableau.colours if colour.space == space]
+
+
+def together(a: Any) -> list[Any]:
+    """The stages that are solved together, system by system, space by space."""
+    found = []
+    for system in a.subject.shape.systems:
+        by_space: dict[int, list[int]] = {}
+        for space, stage in system:
+            by_space.setdefault(space, []).append(stage + 1)
+        found.append([{"colours": _names(a.tableau, s), "stages": x} for s, x in by_space.items()])
+    return found
+
+
+def _systems_words(found: Any, d: Plain) -> str:
+    def whose(x: Any) -> str:
+        return f" of {d.prose(', '.join(x['colours']))}" if len(d.colours) > 1 else ""
+
+    return "; ".join(
+        " with ".join(", ".join(map(str, x["stages"])) + whose(x) for x in system)
+        for system in found
+    )
+
+
+def renumbering(a: Any) -> list[Any] | None:
+    """How the stages of a symmetric method are renumbered, space by space."""
+    return [
+        {
+            "colours": _names(a.tableau, space),
+            "stages": "1 - x" if r.images is None else [i + 1 for i in r.images],
+        }
+        for space, r in enumerate(a.subject.symmetry.reflections or ())
+    ] or None
+
+
+def _renumbering_words(found: Any, d: Plain) -> str:
+    def one(x: Any) -> str:
+        whose = f"{d.prose(', '.join(x['colours']))}: " if len(d.colours) > 1 else ""
+        if x["stages"] == "1 - x":
+            return whose + d.prose("x → 1 − x")
+        moved = [f"{i}↔{j}" for i, j in enumerate(x["stages"], start=1) if i < j]
+        return whose + d.prose(f"stages {', '.join(moved)}" if moved else "each stage its own")
+
+    return "; ".join(map(one, found))
+
+
+STAGES = record(colours=S.array(S.TEXT), stages=S.array(S.POSITION))
+RENUMBERED = record(
+    colours=S.array(S.TEXT), stages=S.one_of(S.array(S.POSITION), {"const": "1 - x"})
+)
+
+
+def _is_open(subject: Any, l: int) -> bool:
+    return bool(subject.stage_orders[l] >= subject.limit)
+
+
+COLOUR = Section(
+    Row("name", TEXT, lambda x: x[0].tableau.colours[x[1]].name, DATA),
+    Row(
+        "kind",
+        choice("explicit", "diagonally implicit", "fully implicit", None),
+        lambda x: getattr(x[0].shapes[x[1]], "kind", None),
+    ),
+    Row("gamma", EXACT, lambda x: getattr(x[0].shapes[x[1]], "gamma", None), has_null=True),
+    Row(
+        "stage_order",
+        COUNT,
+        lambda x: Answer(x[0].stage_orders[x[1]], Status(at_least=_is_open(*x))),
+    ),
+    Row("stage_order_is_lower_bound", TRUE, lambda x: _is_open(*x) or None, DATA, is_optional=True),
+    title=lambda x, d: f"colour {d.prose(x[0].tableau.colours[x[1]].name)}",
+)
+
+
+def stage_order(a: Any) -> Answer:
+    """The stage order of all colours."""
+    is_open = a.subject.verdict("stage-order").is_at_least
+    return Answer(min(a.subject.stage_orders), Status(at_least=is_open))
+
+
+def colours_apart(a: Any) -> list[Any] | None:
+    """The colours, where they are not alike."""
+    kinds = {getattr(shape, "kind", None) for shape in a.subject.shapes}
+    if len(kinds) == 1 and len({*a.subject.stage_orders}) == 1:
+        return None
+    return [(a.subject, l) for l in range(a.tableau.size)]
+
+
+def _colours_words(found: Any, d: Plain) -> str:
+    texts = []
+    for subject, l in found:
+        shape = subject.shapes[l]
+        gamma = getattr(shape, "gamma", None)
+        said = [] if shape is None else [shape.name]
+        said += [] if gamma is None else [f"γ = {d.number(gamma)}"]
+        said.append(f"stage order {d.capped(subject.stage_orders[l], subject.limit)}")
+        texts.append(f"{d.prose(subject.tableau.colours[l].name)} {', '.join(said)}")
+    return "; ".join(texts)
+
+
+PROPERTIES = Section(
+    *map(truth, ("explicit", "diagonally-implicit", "sdirk", "esdirk")),
+    Row("gamma", EXACT, lambda a: a.subject.shape and a.subject.shape.gamma, has_null=True),
+    truth("fully-implicit"),
+    Row("implicit_stages", COUNT, lambda a: a.subject.shape.implicit_stages, DETAIL, has_null=True),
+    Row("solved_together", Kind(S.array(S.array(STAGES)), words=_systems_words), together, DETAIL),
+    *map(truth, ("stiffly-accurate", "fsal", "symmetric")),
+    Row(
+        "renumbering",
+        Kind(S.array(RENUMBERED), words=_renumbering_words),
+        renumbering,
+        DETAIL,
+        has_null=True,
+    ),
+    Row("symplectic", TRUTH, lambda a: a.symplectic, DATA),
+    truth("reducible"),
+    Row("stage_order", COUNT, stage_order, DETAIL),
+    Row(
+        "stage_order_is_lower_bound",
+        TRUE,
+        lambda a: stage_order(a).status.at_least or None,
+        DATA,
+        is_optional=True,
+    ),
+    *map(truth, ("nodes-in-unit-interval", "positive-weights", "algebraically-stable")),
+    Row(
+        "by_colour",
+        parts(COLOUR),
+        lambda a: [(a.subject, l) for l in range(a.tableau.size)],
+        lambda x: DETAIL if len(x.value) > 1 else DATA,
+    ),
+    Row(
+        "undecided",
+        TEXTS,
+        lambda a: [k for k in KEYS if find(k).is_cheap and a.subject.verdict(k).is_undecided],
+        DATA,
+    ),
+)
+
+
+# hints
+
+
+def _block(*colours: int | None) -> list[int]:
+    return [x + 1 for x in colours if x is not None]
+
+
+def _of_matrix(r: Any) -> bool:
+    return r.m is not None and r.i is not None
+
+
+PLACED = Kind(BLOCK)
+REPAIR = Section(
+    Row(
+        "b",
+        PLACED,
+        lambda r: None if _of_matrix(r) or r.is_embedded else _block(r.l, r.m),
+        is_optional=True,
+    ),
+    Row("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None, is_optional=True),
+    Row("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None, is_optional=True),
+    Row("row", Kind(S.INTEGER), lambda r: None if r.i is None else r.i + 1, has_null=True),
+    Row("entry", POSITION, lambda r: r.j + 1),
+    Row("old", EXACT),
+    Row("new", EXACT),
+)
+BLAME = Section(
+    Row("of", choice("order", "conjugate-order", "pair-order", "embedded-order")),
+    Row("order", POSITION),
+    Row("failing", COUNT),
+    Row("conditions", COUNT, lambda b: b.total),
+    Row("only_coupling", TRUTH),
+    Row(
+        "culprit",
+        PLACED,
+        lambda b: None if b.culprit is None else _block(*b.culprit),
+        has_null=True,
+    ),
+    Row("in_every", BLOCKS),
+    Row("in_none", BLOCKS),
+    Row("repairs", parts(REPAIR)),
+    Row("restores", TEXTS),
+)
+MISPRINT = Section(
+    Row("order", COUNT),
+    Row("residual", UPPER),
+    Row("explained", UPPER),
+    Row("repairs", parts(REPAIR)),
+)
+SUGGESTION = Section(
+    Row("line", TEXT), Row("order", COUNT), Row("rounding", UPPER), Row("genuine", UPPER)
+)
+
+
+def hints(o: Any) -> list[str]:
+    """What failing conditions tell, a sentence or two each."""
+    a = o.analysis
+    if a.suggestion is None and a.misprint is None and o.blame is None:
+        return []
+    from garkcli.report.hints import blame_text, misprint_text, suggestion_text  # few files
+
+    names = [colour.name for colour in a.tableau.colours]
+    return [
+        *([] if a.suggestion is None else [suggestion_text(a.suggestion, a.tolerance)]),
+        *([] if a.misprint is None else [misprint_text(a.misprint, names)]),
+        *([] if o.blame is None else [blame_text(o.blame, names)]),
+    ]
+
+
+HINTS = Row("hints", rows_of(lambda xs, d: [(d.note("hint"), d.prose(x)) for x in xs]), hints)
+
+
+# error constants, further weights
+
+
+def _norms_words(n: Any, d: Plain) -> str:
+    text = f"2-norm {n.two:.6g}, largest {n.largest:.6g}"
+    return (
+        text if n.worst is None else f"{text} at {d.tree(n.worst)}, of {counted(n.trees, 'tree')}"
+    )
+
+
+VALUE_TEXT = Kind(S.TEXT, EXACT.data, EXACT.words)
+NORMS = Section(
+    Row("trees", COUNT),
+    Row("two_norm_squared", VALUE_TEXT, lambda n: n.two_squared, has_null=True),
+    Row("two_norm", FLOAT, lambda n: n.two),
+    Row("inf_norm", FLOAT, lambda n: n.largest),
+    Row("worst", TREE, has_null=True),
+    Row("worst_value", VALUE_TEXT, has_null=True),
+    title=lambda n, d: f"norms over {counted(n.trees, 'tree')}",
+)
+
+
+def _constants_words(c: Any, d: Plain) -> str:
+    how = "" if c.is_exact else " in floats"
+    text = f"of order {c.order}{how}: {_norms_words(c.all, d)}"
+    if len(d.colours) > 1:
+        text += f"; of coupling trees {_norms_words(c.coupling, d)}"
+    return text
+
+
+CONSTANTS = Section(
+    Row("order", POSITION),
+    Row("exact", TRUTH, lambda c: c.is_exact, DATA),
+    Row("all", part(NORMS)),
+    Row("coupling", part(NORMS)),
+)
+
+
+def estimate_words(e: Any, d: Plain) -> str:
+    if e.is_zero:
+        return "zero: the embedded weights are b"
+    order_text = "leading term not found" if e.order is None else f"of order {e.order}"
+    return f"{order_text}, sum of b − embedded {EXACTS.words(e.sums, d)}"  # type: ignore[misc]
+
+
+ESTIMATE = Section(
+    Row("order", POSITION, has_null=True),
+    Row("zero", TRUTH, lambda e: e.is_zero),
+    Row("sums", EXACTS),
+    Row("leading_term", part(CONSTANTS, _constants_words), lambda e: e.constants, has_null=True),
+)
+DENSE_WITNESS = Section(
+    Row("order", POSITION, lambda x: x.witness.tree.order),
+    Row("tree", TREE, lambda x: x.witness.tree),
+    Row("power", POSITION),
+    Row("value", EXACT, lambda x: x.witness.value),
+    Row("required", EXACT, lambda x: x.witness.required),
+    Row("residual", EXACT, lambda x: x.witness.residual),
+)
+
+
+def dense_words(x: Any, d: Plain) -> str:
+    """How the pieces of single steps fit together."""
+    if not x.ends_at_step:
+        return "does not end where the step does: b(1) is not b"
+    slope = {True: "its slope too", False: "its slope is not", None: "its slope is not decided"}
+    return f"of degree {x.degree}, continuous, b(1) = b; {slope[x.slopes.are_continuous]}"
+
+
+def dense_order(a: Any) -> Any:
+    """The order of dense output for every θ."""
+    return None if a.dense is None else dense_answer(a.dense.order, a.tableau.size > 1)
+
+
+def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
+    """An order of dense output as a value with its status."""
+    is_open = (
+        Reason(f"order {found.order + 1} is too much to decide") if found.undecided else NO_REASON
+    )
+    reason = NO_REASON
+    if found.witness is not None:
+        reason = Reason(dense_witness_text(found.witness, has_colours))
+    return Answer(found.order, Status(found.tolerance, found.is_lower_bound, is_open), reason)
+
+
+DENSE = Section(
+    Row("degree", POSITION),
+    Row("witness", part(DENSE_WITNESS), lambda x: x.order.witness, has_null=True),
+    Row("continuous", TRUTH, lambda x: x.ends_at_step),
+    Row("smooth", TRUTH, lambda x: x.is_smooth, has_null=True),
+    Row("slope_at_start", TRUTH, lambda x: x.slopes.at_start, has_null=True),
+    Row("slope_at_end", TRUTH, lambda x: x.slopes.at_end, has_null=True),
+    Row(
+        "order_is_lower_bound",
+        TRUE,
+        lambda x: x.order.is_lower_bound or None,
+        DATA,
+        is_optional=True,
+    ),
+    Row("order_undecided", TRUE, lambda x: x.order.undecided or None, DATA, is_optional=True),
+)
+COLOURS = Section(
+    Row("name", TEXT, lambda x: x[1].name),
+    Row("stages", POSITION, lambda x: x[0].spaces[x[1].space].stages),
+)
+
+
+def colours_of(tableau: Any) -> list[Any]:
+    """The colours with their tableau."""
+    return [(tableau, colour) for colour in tableau.colours]
+
+
+# what is found of a method
+
+ANALYSIS = [
+    Row("exact", TRUTH, lambda a: a.tolerance is None, DATA),
+    Row("tolerance", TOLERANCE, lambda a: a.tolerance, DATA, has_null=True),
+    Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
+    order("order", lambda a: a.order, HEADLINE),
+    Row("stage_order", told(lambda x, d: str(x)), stage_order, line="method", is_short=True),
+    Row(
+        "simplifying",
+        replace(part(SIMPLIFYING), phrase=_simplifying_phrase),
+        lambda a: a,
+        line="method",
+    ),
+    of_several("conjugate_order"),
+    of_several("pair_order"),
+    Row("nonautonomous_order", ORDER, with_time, has_null=True),
+    order("embedded_order", lambda a: a.embedded and a.embedded.order),
+    Row(
+        "embedded_nonautonomous_order",
+        ORDER,
+        embedded_with_time,
+        has_null=True,
+        label="embedded non-autonomous order",
+    ),
+    Row(
+        "error_estimate",
+        part(ESTIMATE, estimate_words),
+        lambda a: a.embedded and a.embedded.estimator,
+        has_null=True,
+    ),
+    Row("dense_order", COUNT, dense_order, has_null=True),
+    Row("dense", part(DENSE, dense_words), lambda a: a.dense, has_null=True, label="dense output"),
+    Row("pair_bound", COUNT, bound("pair_bound", "bound", BOUND), DETAIL, has_null=True),
+    Row("sharp_bound", COUNT, bound("sharp_bound", "sharp_bound", SHARP_BOUND), DETAIL),
+    Row(
+        "pair_sharp_bound",
+        COUNT,
+        bound("pair_sharp_bound", "sharp_bound", SHARP_BOUND),
+        DETAIL,
+        has_null=True,
+    ),
+    Row("consistent", TRUTH, consistent),
+    Row("inconsistent_blocks", BLOCKS, lambda a: a.inconsistent, DATA),
+    Row("bound_in_brief", told(lambda x, d: str(x)), lambda a: a.bound, DATA, label="bound"),
+    Row("conjugate_consistent", TRUTH, conjugate_consistent, has_null=True),
+    Row(
+        "symplectic",
+        TRUTH,
+        lambda a: Answer(a.symplectic, Status(a.tolerance) if a.symplectic else Status()),
+        line="symplectic",
+    ),
+    Row(
+        "pair",
+        told(
+            lambda x, d: str(x.order),
+            lambda _, a, d: f"the symplectic pair has order {order_cell(a.value, d)}",
+        ),
+        _pair_in_brief,
+        line="symplectic",
+        is_short=True,
+    ),
+    Row("properties", part(PROPERTIES), lambda a: a, line="symplectic"),
+    Row("by_colour", told(_colours_words), colours_apart, label="colours", is_short=True),
+    Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
+]
+
+
+# claims
+
+MOST_CLAIMS = 6
+"""More that hold are counted."""
+CLAIM = Section(
+    Row("claim", TEXT),
+    Row("expected", TEXT),
+    Row("found", TEXT),
+    Row("holds", TRUTH),
+    Row("line", POSITION),
+    Row("why", TEXT, lambda c: c.why or None, is_optional=True),
+)
+
+
+def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
+    """The claims that fail, with their places; then those that hold, together."""
+    rows = []
+    for c in outcome.failed_claims:
+        said = f"{c.claim}: expected {c.expected}, found {c.found}"
+        why = f"; {c.why}" if c.why else ""
+        place = f"({outcome.file}:{c.line}:{c.column})"
+        rows.append((d.bad("CLAIM FAILS"), d.prose(f"{said}{why} {place}")))
+    missing = [CLAIM_CURE] if outcome.makes_no_claim else [*outcome.lacks, CLAIM_CURE]
+    if outcome.lacks:
+        rows += [(d.bad("NO CLAIM"), d.prose(message)) for message in missing]
+    held = [f"{c.claim}: {c.expected}" for c in outcome.claims if c.holds]
+    if held:
+        label = "claim holds" if len(held) == 1 else "claims hold"
+        is_long = d.is_brief and len(held) > MOST_CLAIMS
+        rows.append((d.good(label), str(len(held)) if is_long else d.prose(", ".join(held))))
+    return rows
+
+
+def _claims_cell(o: Any, d: Plain) -> str:
+    if not o.is_read:
+        return "cannot be read"
+    if o.failed_claims:
+        return d.strong(f"{len(o.failed_claims)} of {len(o.claims)} fail")
+    held = "1 holds" if len(o.claims) == 1 else f"{len(o.claims)} hold"
+    return held if o.claims else "none"
+
+
+IN_BRIEF = Row("claims_in_brief", told(_claims_cell), lambda o: o, DATA, label="claims")
+CLAIMS = (
+    IN_BRIEF,
+    Row("claims", parts(CLAIM), level=DATA),
+    Row("claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None),
+)
+VALUE = S.one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
+
+
+def verdict_data(v: Any, _: Plain) -> Any:
+    """A value for programs; null where there is none."""
+    from garkcli.properties.property import Size
+
+    if not isinstance(v.value, Size):
+        return v.value
+    return "infinity" if v.value.root is None else root_data(v.value.root)
+
+
+def verdict_words(v: Any) -> str:
+    """A property in a word or a number."""
+    if v.value is None:
+        return "not decided" if v.is_undecided else "no meaning"
+    if isinstance(v.value, bool):
+        return "yes" if v.value else "no"
+    return f"at least {v.value}" if v.is_at_least else str(v.value)
+
+
+VERDICT = Section(
+    Row("property", Kind({"enum": list(KEYS)}), lambda x: x[0]),
+    Row("value", Kind(VALUE, verdict_data), lambda x: x[1]),
+    Row("undecided", TRUTH, lambda x: x[1].is_undecided),
+    Row("why", TEXT, lambda x: x[1].why),
+)
+
+
+def every_property(o: Any) -> Any:
+    """All properties with what decides them, where they were asked for."""
+    if not o.wants_properties:
+        return None
+    return [(key, o.analysis.subject.verdict(key)) for key in KEYS]
+
+
+def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
+    return [
+        (key, d.prose(verdict_words(v) + (f": {v.why}" if v.why and v.value is not True else "")))
+        for key, v in found
+    ]
+
+
+HEAD = (Row("file", TEXT, level=DATA), Row("name", TEXT, named, DETAIL))
+OK = (
+    Row("ok", TRUTH, level=DATA),
+    Row("structure", choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
+    METHOD,
+)
+LEFT_BEHIND = Row(
+    "left_behind",
+    Kind(S.array(S.TEXT), lambda x, _: list(x), lambda x, d: f"{' and '.join(x)} of its parts"),
+    lambda o: o.left_behind or None,
+    is_optional=True,
+)
+COLUMNS = (
+    *("file", "order", "embedded_order", "conjugate_order", "pair_order"),
+    *("bound_in_brief", "symplectic", "claims_in_brief"),
+)
+CHECKED = Section(
+    *HEAD,
+    *OK,
+    *via(lambda o: o.analysis, ANALYSIS),
+    LEFT_BEHIND,
+    Row("every_property", parts(VERDICT), every_property, DATA, is_optional=True),
+    Row("blame", part(BLAME), level=DATA, is_optional=True),
+    Row("misprint", part(MISPRINT), lambda o: o.analysis.misprint, DATA, is_optional=True),
+    Row(
+        "error_constants",
+        part(CONSTANTS, _constants_words),
+        lambda o: o.constants,
+        is_optional=True,
+    ),
+    Row("suggestion", part(SUGGESTION), lambda o: o.analysis.suggestion, DATA, is_optional=True),
+    *CLAIMS,
+    HINTS,
+    Row("properties_in_words", rows_of(_property_rows), every_property),
+    title=title,
+    columns=COLUMNS,
+)
+
+
+def code(fault: Any) -> str:
+    """The code of an error."""
+    from garkcli.glossary.faults import code_of
+
+    return code_of(fault.message)
+
+
+FAULT = Section(
+    Row("line", POSITION, lambda f: f.line or None, has_null=True),
+    Row("column", POSITION, lambda f: f.column or None, has_null=True),
+    Row("code", TEXT, code),
+    Row("message", TEXT),
+    Row("help", TEXT),
+)
+AT_LEAST_ONE = Kind({}, section=FAULT, is_list=True, is_never_empty=True)
+UNREADABLE = Section(
+    *HEAD,
+    Row("ok", Kind({"const": False}), level=DATA),
+    Row("errors", AT_LEAST_ONE, lambda o: o.faults),
+    IN_BRIEF,
+    title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",
+    columns=COLUMNS,
+)
+SUMMARY = Section(
+    Row("files", COUNT, len),
+    Row("failed", COUNT, lambda xs: sum(not x.ok for x in xs)),
+    Row("without_claims", COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
+)

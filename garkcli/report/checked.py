@@ -1,0 +1,50 @@
+"""The report of ``gark check``: which rows tell of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from garkcli.report.check import CHECKED, SUMMARY, UNREADABLE
+from garkcli.tell.facts import Row, Section, part
+from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.check.outcome import Outcome
+
+
+def _signs(outcome: Outcome) -> dict[str, Any]:
+    found = outcome.analysis or outcome.every
+    if found is None:
+        return {}
+    names = {"colours": [colour.name for colour in found.tableau.colours]}
+    if outcome.every is None:
+        return names
+    return {**names, "parameter": next(iter(outcome.every.parameters), "")}
+
+
+def form(outcome: Outcome) -> Section:
+    """The rows of a file: of a method, of a family, of one that cannot be read."""
+    if outcome.every is not None:
+        from garkcli.report.every import EVERY
+
+        return EVERY
+    return UNREADABLE if outcome.analysis is None else CHECKED
+
+
+def forms() -> Iterator[Section]:
+    """All of them."""
+    from garkcli.report.every import EVERY
+
+    yield from (UNREADABLE, CHECKED, EVERY)
+
+
+REPORT: Report[Outcome] = Report(
+    "gark/check/1",
+    "report of gark check",
+    forms,
+    form,
+    _signs,
+    tail=Section(Row("summary", part(SUMMARY), lambda xs: xs)),
+    is_open=True,
+)

@@ -1,0 +1,411 @@
+"""``gark check`` and ``gark stability`` of files with free parameters: the kinds of values, lifted
+to answers with exceptions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from garkcli.check.every_facts import Fact
+from garkcli.check.every_facts import told as told_value
+from garkcli.check.every_family import EveryFamily
+from garkcli.check.every_properties import find_property
+from garkcli.check.every_words import fact_text
+from garkcli.design.stability_functions import FamilyFunction, family_functions
+from garkcli.exact.display import to_latex, to_text
+from garkcli.exact.polynomial_text import power_text
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.exactly import ALGEBRAIC, root_data
+from garkcli.properties.keys import KEYS
+from garkcli.report import check as c
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, rows_of
+from garkcli.tell.kinds import (
+    BLOCKS,
+    COUNT,
+    EXACT,
+    INTERVAL,
+    ROW_OF_COUNTS,
+    TABLE,
+    TEXT,
+    TEXTS,
+    TRUE,
+    TRUTH,
+    Table,
+    interval_data,
+    numbers_from_one,
+    record,
+)
+from garkcli.tell.report import Report
+from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.check.every_orders import EveryOrder
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+MOST = 8
+"""Most polynomials that are named."""
+VALUE: S.Schema = {
+    "type": ["boolean", "integer", "string", "array", "null"],
+    "description": "The answer; null where there is none.",
+}
+FACT: S.Schema = record(
+    decided=S.FLAG,
+    every_value=S.FLAG,
+    value=VALUE,
+    special=S.array(record(at=ALGEBRAIC, value=VALUE)),
+    elsewhere=S.array(record(zero=S.TEXT, value=VALUE)),
+    zeros=S.array(S.TEXT),
+    open=S.array(S.TEXT),
+    unknown=S.array(ALGEBRAIC),
+    where=S.array(INTERVAL),
+    why=S.TEXT,
+)
+FACT["required"] = FACT["required"][:-2]
+
+
+def fact_data(f: Fact, inner: Kind, d: Plain) -> dict[str, Any]:
+    """An answer for every value, its exceptions, what is open."""
+
+    def data(x: Any) -> Any:
+        return None if x is None else inner.data(x, d)
+
+    found = {
+        "decided": not f.is_undecided or f.differs,
+        "every_value": f.is_everywhere,
+        "value": data(f.value),
+        "special": [{"at": root_data(at), "value": data(x)} for at, x in f.special],
+        "elsewhere": [{"zero": p, "value": data(x)} for p, x in f.elsewhere],
+        "zeros": list(f.zeros),
+        "open": list(f.open),
+        "unknown": [root_data(x) for x in f.unknown],
+    }
+    if f.where is not None:
+        found["where"] = [interval_data(x, d) for x in f.where]
+    return {**found, "why": f.why} if f.why else found
+
+
+def lifted(inner: Kind) -> Kind:
+    """The same kind of value for a family: all that is new is what is said of exceptions."""
+
+    def words(f: Fact, d: Plain) -> str:
+        from garkcli.tell.dialect import Plain
+
+        assert inner.words is not None
+        inner_words, plain = inner.words, Plain(colours=d.colours)
+        return d.prose(fact_text(f, d.parameter, lambda x: inner_words(x, plain)))
+
+    return Kind(FACT, lambda f, d: fact_data(f, inner, d), words)
+
+
+ANY = Kind(VALUE, words=lambda x, _: told_value(x))
+WITNESS = record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
+
+
+def _witness(o: EveryOrder, _: Any = None) -> dict[str, Any] | None:
+    if o.witness is None:
+        return None
+    residual = to_text(o.residual)
+    return {"order": o.witness.order, "tree": format_tree(o.witness), "residual": residual}
+
+
+ORDER_PARTS = Section(
+    Row("order", COUNT),
+    Row("witness", Kind(WITNESS), _witness, has_null=True),
+    Row("fact", lifted(COUNT)),
+    Row("dimension", Kind(S.INTEGER), has_null=True),
+    Row("weights", TEXTS, lambda o: list(o.poles)),
+)
+
+
+def higher_text(o: EveryOrder, name: str) -> str:
+    """For which values the order is higher."""
+    higher = o.order + 1
+    if o.dimension is not None and o.dimension < 0:
+        return f"no value has order {higher}"
+    special = tuple(x for x in o.fact.special if x[1] is not None)
+    if special:
+        text = fact_text(Fact(o.order, special), name, lambda x: f"order {x}")
+    elif o.fact.zeros:
+        text = "; order " + fact_text(Fact(o.order, zeros=o.fact.zeros), "").split("; ", 1)[1]
+    else:
+        return f"no real value of the file has order {higher}"
+    return text.split("; ", 1)[1]
+
+
+def _order_words(answer: Answer, d: Plain) -> str:
+    """``2; order 3 is missed at [[]] by …; order 3 where …``."""
+    o = answer.value
+    if o.witness is None:
+        return f"{d.known(str(o.order), Status(at_least=True))}: no further was looked"
+    key = (o.witness, to_text(o.residual))
+    missed = f"{o.order}; order {o.witness.order} fails"
+    if key in d.told:
+        text = f"{missed} as above"
+    else:
+        d.told.append(key)
+        text = f"{missed} at {d.tree(o.witness)} by {d.number(o.residual)}"
+    text += f"; {d.prose(higher_text(o, d.parameter))}"
+    if o.poles:
+        zero = " or ".join(f"{p} = 0" for p in o.poles[:MOST])
+        text += f"; none where a weight is zero: {d.prose(zero)}"
+    return text
+
+
+EVERY_ORDER = Kind(
+    ORDER_PARTS.schema,
+    lambda o, d: ORDER_PARTS.data(o, d),
+    answer_words=_order_words,
+    cell=lambda o, _: f"{o.order} for every value",
+)
+BLOCK_LISTS = Kind(
+    BLOCKS.schema,
+    lambda x, _: numbers_from_one(x),
+    lambda x, d: f"no: {d.few([d.place('a', edge, ()) for edge in x])}" if x else "yes",
+)
+
+
+def of(name: str) -> Callable[[Any], Fact]:
+    """A part of B, C and D."""
+
+    def get(e: Any) -> Fact:
+        def pick(s: Any) -> Any:
+            value = getattr(s, name)
+            return Table(value, s.limit) if name in "BCD" else value
+
+        return e.simplifying.of(pick)  # type: ignore[no-any-return]
+
+    return get
+
+
+def obstacle(get: Callable[[Any], Any]) -> Callable[[Any], Answer]:
+    """An order, or why there is none."""
+
+    def answer(e: Any) -> Answer:
+        from garkcli.tell.facts import Reason
+
+        return Answer(get(e), reason=Reason("" if get(e) is not None else e.obstacle))
+
+    return answer
+
+
+def _with_time(e: Any) -> Any:
+    """The order on problems with time, where the nodes are not the row sums."""
+    return None if e.is_consistent else e.nonautonomous
+
+
+def _embedded_with_time(e: Any) -> Any:
+    return None if e.is_consistent else e.embedded_nonautonomous
+
+
+TOLD_ORDER = replace(EVERY_ORDER, is_data=False)
+FAMILY = [
+    Row("every_value", TRUE, lambda _: True, DATA),
+    Row("unknowns", TEXTS, lambda e: list(e.parameters), DATA),
+    Row("colours", TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
+    Row("order", EVERY_ORDER, level=HEADLINE),
+    Row("conjugate_order", EVERY_ORDER, obstacle(lambda e: e.conjugate), has_null=True),
+    Row("pair_order", EVERY_ORDER, obstacle(lambda e: e.pair), has_null=True),
+    Row("nonautonomous_order", TOLD_ORDER, _with_time),
+    Row("embedded_order", EVERY_ORDER, lambda e: e.embedded, has_null=True),
+    Row(
+        "embedded_nonautonomous_order",
+        TOLD_ORDER,
+        _embedded_with_time,
+        label="embedded non-autonomous order",
+    ),
+    Row(
+        "dense",
+        replace(TEXT, is_data=False),
+        lambda e: e.file.further.dense and "judged for values of the parameters: --set NAME=1/2",
+        label="dense output",
+    ),
+    Row("B", lifted(ROW_OF_COUNTS), of("B")),
+    Row("C", lifted(TABLE), of("C")),
+    Row("D", lifted(TABLE), of("D")),
+    Row("bound", lifted(COUNT), of("bound"), DETAIL),
+    Row("sharp_bound", lifted(COUNT), of("sharp_bound"), DETAIL),
+    Row("inconsistent_blocks", lifted(BLOCK_LISTS), lambda e: e.inconsistent, label="consistent"),
+    Row("symplectic", lifted(TRUTH)),
+    Row("holding", replace(TEXTS, is_data=False), label="properties"),
+]
+
+
+def verdicts(o: Any) -> Any:
+    """All properties, where they were asked for."""
+    return {key: o.every.verdict(key) for key in KEYS} if o.wants_properties else None
+
+
+VERDICTS = Kind(
+    {"type": "object", "properties": dict.fromkeys(KEYS, FACT), "additionalProperties": False},
+    lambda found, d: {key: fact_data(x, ANY, d) for key, x in found.items()},
+    rows=lambda found, d: [
+        (key, d.prose(fact_text(x, d.parameter, told_value))) for key, x in found.items()
+    ],
+)
+EVERY = Section(
+    *c.HEAD,
+    *c.OK,
+    *(row.of(lambda o: o.every) for row in FAMILY),
+    c.LEFT_BEHIND,
+    *c.CLAIMS,
+    Row("every_property", VERDICTS, verdicts, is_optional=True),
+    title=c.title,
+    columns=c.COLUMNS,
+)
+
+
+# stability
+
+STABILITIES = ("a-stable", "l-stable", "p-stable", "algebraically-stable")
+"""What is decided, of one parameter."""
+LIMIT = 60
+
+
+@dataclass(frozen=True)
+class EveryStability:
+    """What is known of the stability of a family.
+
+    Attributes:
+        file: its path.
+        name: what people call it.
+        family: of methods.
+        functions: R for all colours together, and for each.
+    """
+
+    file: str
+    name: str
+    family: EveryFamily
+    functions: tuple[FamilyFunction, ...]
+
+    @property
+    def facts(self) -> dict[str, Fact]:
+        """The kinds of stability."""
+        return {key: find_property(self.family, key, LIMIT) for key in STABILITIES}
+
+
+def every_stability(file: str, name: str, family: EveryFamily) -> EveryStability:
+    """The stability of a family."""
+    return EveryStability(file, name, family, family_functions(family.tableau, family.ring))
+
+
+def sum_text(coefficients: Sequence[Any], variable: str) -> str:
+    """A polynomial, lowest power first, its coefficients in brackets where they are sums.
+
+    >>> from flint import fmpq
+    >>> sum_text((fmpq(1), fmpq(0), fmpq(-1, 2)), "z")
+    '1 - 1/2*z^2'
+    """
+    text = ""
+    for k, a in enumerate(coefficients):
+        if not a:
+            continue
+        number = to_text(a)
+        is_sum = " " in number
+        is_negative = number.startswith("-") and not is_sum
+        factor = f"({number})" if is_sum else number.removeprefix("-")
+        power = power_text(variable, k)
+        if power and factor != "1":
+            power = f"{factor}*{power}"
+        text += (" - " if is_negative else " + ") + (
+            power or number.removeprefix("-" * is_negative)
+        )
+    if text.startswith(" - "):
+        return "-" + text.removeprefix(" - ")
+    return text.removeprefix(" + ") or "0"
+
+
+def sum_latex(coefficients: Sequence[Any], variable: str) -> str:
+    """The same in LaTeX."""
+    text = ""
+    for k, a in enumerate(coefficients):
+        if not a:
+            continue
+        number = to_latex(a)
+        power = power_text(variable, k, f"{{{k}}}")
+        if " " in to_text(a) and power:
+            number = rf"\left({number}\right)"
+        if power and number in {"1", "-1"}:
+            number = number.removesuffix("1")
+        text += f"{'' if number.startswith('-') else '+'}{number}{power}"
+    return text.removeprefix("+") or "0"
+
+
+def _sum(variable: str) -> Kind:
+    return Kind(
+        S.array(S.EXACT),
+        lambda xs, _: [to_text(x) for x in xs],
+        lambda xs, d: d.formula(sum_latex(xs, variable), sum_text(xs, variable)),
+    )
+
+
+FUNCTION = Section(
+    Row("name", TEXT, level=DATA),
+    Row("numerator", _sum("z")),
+    Row("denominator", _sum("z")),
+    Row("R_infinity", EXACT, lambda f: f.at_infinity, has_null=True),
+    Row("e_polynomial", _sum("x"), level=DETAIL),
+)
+
+
+def _function_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
+    rows = []
+    for f in found:
+        which = "" if f.name == "all" else f" of colour {d.prose(f.name)}"
+        over, under = (sum_text(x, "z") for x in (f.numerator, f.denominator))
+        up, down = (sum_latex(x, "z") for x in (f.numerator, f.denominator))
+        latex = up if down == "1" else rf"\frac{{{up}}}{{{down}}}"
+        text = over if under == "1" else f"({over}) / ({under})"
+        rows.append((f"R(z){which}", d.formula(latex, text)))
+        limit = f.at_infinity
+        rows.append(
+            (f"{d.prose('R(∞)')}{which}", "unbounded" if limit is None else d.number(limit))
+        )
+        rows.append((f"E(x){which}", _sum("x").words(f.e_polynomial, d)))  # type: ignore[misc]
+    return rows
+
+
+def _stability_rows(x: Any, d: Plain) -> list[tuple[str, str]]:
+    """For which values each kind of stability holds, or what decides it."""
+    rows = []
+    for key, fact in x.facts.items():
+        text = fact_text(fact, d.parameter, told_value)
+        if fact.is_undecided and not fact.differs:
+            text = f"for one parameter: --set, then gark design --{key}"
+            if x.family.has_one or key == "algebraically-stable":
+                text = f"not decided for every value: --set {d.parameter}=1/2"
+        rows.append((key, d.prose(text)))
+    return [*rows, ("intervals, SSP", d.prose(f"numbers: --set {d.parameter}=1/2"))]
+
+
+STABLE = Section(
+    *(
+        Row(key.replace("-", "_"), lifted(ANY), lambda x, key=key: x.facts[key])  # type: ignore[misc]
+        for key in STABILITIES
+    )
+)
+EVERY_STABILITY = Section(
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, c.named, DETAIL),
+    Row("unknowns", TEXTS, lambda x: list(x.family.family.parameters), DATA),
+    Row("functions", parts(FUNCTION), level=DATA),
+    Row("stability", part(STABLE), lambda x: x, DATA),
+    Row("functions_in_words", rows_of(_function_rows), lambda x: x.functions),
+    Row("stability_in_words", rows_of(_stability_rows), lambda x: x),
+    title=lambda x, d: (
+        f"{d.prose(x.file)}: every value of {d.prose(', '.join(x.family.family.parameters))}"
+    ),
+)
+STABILITY: Report[EveryStability] = Report(
+    "gark/stability-every/1",
+    "report of gark stability for every value of parameters",
+    lambda: [EVERY_STABILITY],
+    lambda _: EVERY_STABILITY,
+    lambda x: {
+        "parameter": x.family.family.parameters[0],
+        "colours": [colour.name for colour in x.family.tableau.colours],
+    },
+    key="",
+)

@@ -1,0 +1,299 @@
+"""The signs of a terminal: what differs between the outputs, and nothing that knows a result.
+
+Kinds word values through a dialect; ``Plain`` is that of a terminal and of the texts in JSON, the
+others change signs. Sentences are shared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, fmpq
+
+from garkcli.exact.display import decimal, to_decimal, to_text
+from garkcli.exact.field import Algebraic
+from garkcli.exact.polynomial_text import (
+    integral,
+    multivariate_text,
+    polynomial_text,
+    root_decimal,
+    root_text,
+)
+from garkcli.page.paint import Paint, aligned, folded, shown_width
+from garkcli.page.plain import inert, printable
+from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.exact.cells import Interval
+    from garkcli.exact.multivariate import Multivariate
+    from garkcli.exact.polynomial import Polynomial
+    from garkcli.exact.roots import RealRoot
+    from garkcli.order.certificate import Witness
+    from garkcli.stability.bounds import Bounds
+    from garkcli.tell.facts import Reason, Status
+    from garkcli.trees.tree import Tree
+
+LONG = 40
+"""Longer exact numbers are shown as decimals where that is enough."""
+LONG_POLYNOMIAL = 320
+"""Longer polynomials are described."""
+FEW = 4
+"""So many of a list are named; the others are counted."""
+
+
+@dataclass
+class Plain:
+    """The signs of a terminal.
+
+    Attributes:
+        digits: of decimals.
+        width: of the terminal.
+        colours: names of the colours of a method; where there is one it is not named.
+        parameter: the free parameter, where there is one.
+        paint: colour or none.
+        is_brief: whether decimals stand for roots and polynomials.
+        places: significant digits in place of exact numbers; None for these.
+        told: failures that were told: the second time they are "as above".
+    """
+
+    digits: int = 12
+    width: int = 80
+    colours: Sequence[str] = ("1",)
+    parameter: str = ""
+    paint: Paint = field(default_factory=Paint)
+    is_brief: bool = True
+    places: int | None = None
+    told: list[Any] = field(default_factory=list)
+
+    infinity = "∞"
+
+    # words
+
+    def prose(self, text: str) -> str:
+        """Words of ours, or of a file."""
+        return printable(text)
+
+    def good(self, text: str) -> str:
+        """Good news."""
+        return self.paint("good", text)
+
+    def bad(self, text: str) -> str:
+        """Bad news."""
+        return self.paint("bad", text)
+
+    def note(self, text: str) -> str:
+        """Advice."""
+        return self.paint("note", text)
+
+    def drawing(self, lines: Iterable[str]) -> list[str]:
+        """A drawn tree, its dots in their colours."""
+        return [self.paint.dots(line) for line in lines]
+
+    def strong(self, text: str) -> str:
+        """What is looked for first."""
+        return self.paint("strong", text)
+
+    def reason(self, reason: Reason) -> str:
+        """Why something is so, its values in the signs of this dialect."""
+        words = [self.prose(x) for x in reason.template.split("{}")]
+        values = []
+        for value in reason.values:
+            if isinstance(value, str):
+                values.append(self.prose(value))
+            else:
+                assert value.kind.words is not None
+                values.append(value.kind.words(value.value, self))
+        pieces = [words[0]]
+        for value, text in zip(values, words[1:], strict=True):
+            pieces += [value, text]
+        return "".join(pieces)
+
+    def known(self, text: str, status: Status) -> str:
+        """A value as it is known: no output can leave that out."""
+        if status.at_least:
+            text = f"at least {text}"
+        return text if status.within is None else f"{text} within {decimal(status.within)}"
+
+    # numbers
+
+    def formula(self, latex: str, text: str) -> str:
+        """A formula, in the signs that the output has."""
+        return text
+
+    def number(self, x: Any) -> str:
+        """An exact number."""
+        text = to_text(x)
+        is_number = isinstance(x, (fmpq, int, Algebraic))
+        if is_number and (self.places is not None or len(text) > LONG):
+            return f"about {to_decimal(x, self.places or 8)}"
+        return text
+
+    def short(self, x: Any) -> str:
+        """An exact number among many."""
+        text = to_text(x)
+        return text if len(text) <= 12 else to_decimal(x, 4)
+
+    def size(self, ball: arb) -> str:
+        """A bound, in two digits."""
+        return "0" if ball == 0 else str(ball.upper().str(2, radius=False))
+
+    def root(self, root: RealRoot) -> str:
+        """A real algebraic number."""
+        simple = root_text(root)
+        decimals = root_decimal(root, self.digits)
+        if simple is None:
+            if self.is_brief:
+                return f"{decimals}…"
+            return f"{decimals}, a root of {self.minimal(root)}"
+        return simple if root.exact is not None or self.is_brief else f"{simple} = {decimals}"
+
+    def minimal(self, root: RealRoot) -> str:
+        """The polynomial of a root."""
+        from garkcli.exact.polynomial import Polynomial
+
+        return self.polynomial(Polynomial.from_flint(root.polynomial), "x")
+
+    def polynomial(self, p: Polynomial, variable: str) -> str:
+        """A polynomial; a long one is described."""
+        text = polynomial_text(p, variable)
+        if len(text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
+            return f"a polynomial of degree {p.degree}, in --format json"
+        return text
+
+    def over(self, top: str, bottom: str) -> str:
+        """A fraction."""
+        if bottom == "1":
+            return top
+        return f"({top}) / ({bottom})" if " " in bottom else f"({top}) / {bottom}"
+
+    def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
+        """A rational function with whole coefficients."""
+        return self.over(*(self.polynomial(x, variable) for x in integral([p, q])))
+
+    def fraction(self, p: Multivariate, q: Multivariate) -> str:
+        """A rational function of z1, z2, …"""
+        names = [f"z{k + 1}" for k in range(p.variables)]
+        text = self.over(multivariate_text(p, names), multivariate_text(q, names))
+        if len(text) > 2 * LONG_POLYNOMIAL:
+            return f"{len(p.terms)} terms over {len(q.terms)}, in --format json and latex"
+        return text
+
+    # places, trees, sets
+
+    def place(self, letter: str, colours: Sequence[int], indices: Sequence[int]) -> str:
+        """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``.
+
+        Args:
+            letter: a, b, c or â.
+            colours: counted from 0.
+            indices: of the entry, counted from 0; none for the whole.
+        """
+        name = letter if indices else letter.upper() if len(colours) == 2 else letter
+        if len(self.colours) > 1:
+            name += "{" + ",".join(self.colours[l] for l in colours) + "}"
+        return name + (f"[{','.join(str(i + 1) for i in indices)}]" if indices else "")
+
+    def tree(self, tree: Tree) -> str:
+        """A tree in brackets; with one colour that is not named."""
+        return format_tree(tree, len(self.colours) > 1 or bool({*tree.colours} - {0}))
+
+    def failure(self, witness: Witness, is_rounded: bool = False) -> str:
+        """The tree whose condition fails, and by how much; told once."""
+        if witness in self.told:
+            return f"order {witness.tree.order} fails as above"
+        self.told.append(witness)
+        residual = to_decimal(witness.residual, 4) if is_rounded else self.number(witness.residual)
+        return f"order {witness.tree.order} fails at {self.tree(witness.tree)} by {residual}"
+
+    def table(self, rows: Sequence[Sequence[int | None]], limit: int) -> str:
+        """The numbers of all blocks."""
+        return " / ".join(" ".join(self.capped(x, limit) for x in row) for row in rows)
+
+    def capped(self, number: int | None, limit: int) -> str:
+        """A number at which a search stopped may be larger."""
+        if number is None:
+            return "-"
+        return f"≥{number}" if number >= limit else str(number)
+
+    def upto(self, sign: str, end: RealRoot) -> str:
+        """How far something holds from 0 on."""
+        return f"{self.prose(sign)} ≤ {self.root(end)}"
+
+    def interval(self, x: Interval, variable: str) -> str:
+        """A part of a line."""
+        if x.is_point:
+            assert x.start is not None
+            return f"{variable} = {self.root(x.start)}"
+        text = variable
+        if x.start is not None:
+            text = f"{self.root(x.start)} {'≤' if x.has_start else '<'} {text}"
+        if x.end is not None:
+            text = f"{text} {'≤' if x.has_end else '<'} {self.root(x.end)}"
+        return text
+
+    def bounds(self, found: Bounds, before: str = "") -> str:
+        """A number that is known between bounds."""
+        low, high = found.low, found.high
+        if low is None:
+            return "no limit"
+        if high is None:
+            least = arb(low).str(self.digits, radius=False)
+            return f"not decided beyond {before}{least}" if low > 0 else "not decided"
+        if low == high:
+            return f"{before}{low}"
+        known = arb((low + high) / 2, (high - low) / 2).str(self.digits, radius=False)
+        return f"{before}{known}"
+
+    def few(self, texts: Sequence[str]) -> str:
+        """The first of a list, and how many more there are."""
+        more = f" and {len(texts) - FEW} more" if len(texts) > FEW else ""
+        return ", ".join(texts[:FEW]) + more
+
+    # pages
+
+    def headline(self, text: str) -> list[str]:
+        """The answer."""
+        return [self.strong(line) for line in folded(text, self.width, "  ")]
+
+    def subtitle(self, text: str) -> list[str]:
+        """What the answer is about, below it."""
+        return folded(f"  {text}", self.width, "    ")
+
+    def title(self, text: str, depth: int) -> list[str]:
+        """Above a part."""
+        return [f"{'  ' * depth}{self.strong(text)}"]
+
+    def sentence(self, text: str, depth: int = 1) -> list[str]:
+        """Facts that share a line."""
+        margin = "  " * depth
+        return folded(margin + text, self.width, margin + "  ")
+
+    def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
+        """Labels and what is said of each."""
+        room = max((shown_width(label) for label, _ in rows), default=0) + 2
+        margin = "  " * depth
+        lines = []
+        for label, text in rows:
+            first, *rest = folded(text, max(self.width - len(margin) - room, 20), "") or [""]
+            gap = " " * (room - shown_width(label))
+            lines.append(f"{margin}{label}{gap}{first}".rstrip())
+            lines += [margin + " " * room + line for line in rest]
+        return lines
+
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+        """A table."""
+        return aligned([head, *rows], right=False)
+
+    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
+        """Lines of a part."""
+        return ["  " * depth + line for line in lines]
+
+    def picture(self, lines: Sequence[str], depth: int) -> list[str]:
+        """A drawing in signs."""
+        return self.indent(lines, depth)
+
+    def page(self, lines: Iterable[str]) -> str:
+        """The whole text."""
+        return inert("\n".join(lines)) + "\n"

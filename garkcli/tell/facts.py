@@ -1,0 +1,357 @@
+"""A result described once: rows declare what is found, kinds what a value is.
+
+A ``Section`` is the one declaration of a result. Its JSON, its JSON Schema and everything that a
+person reads come from it. Rows are declared before there is a result, and asked when it is told:
+what lies too deep is not computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from flint import fmpq
+
+from garkcli.page.schema import Schema, array, nullable
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+
+class Level(IntEnum):
+    """How far down a fact is told: in the first sentence, usually, with -v, to programs alone."""
+
+    HEADLINE = 0
+    USUAL = 1
+    DETAIL = 2
+    DATA = 3
+
+
+@dataclass(frozen=True)
+class Said:
+    """A value with its kind: what a reason is made of."""
+
+    kind: Kind
+    value: Any
+
+
+class Reason:
+    """Why something is so, as a sentence with values in it; a dialect words it.
+
+    >>> Reason("{} is 0", "b").template
+    '{} is 0'
+    """
+
+    def __init__(self, template: str, *values: Said | str) -> None:
+        self.template = template
+        self.values = values
+
+    def __bool__(self) -> bool:
+        return bool(self.template)
+
+    def __repr__(self) -> str:
+        from garkcli.tell.dialect import Plain
+
+        return Plain().reason(self)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Reason):
+            return NotImplemented
+        return (self.template, self.values) == (other.template, other.values)
+
+    def __hash__(self) -> int:
+        return hash(self.template)
+
+
+NO_REASON = Reason("")
+
+
+@dataclass(frozen=True)
+class Status:
+    """How a value is known. These are no alternatives: a rounded order can be all three.
+
+    Attributes:
+        within: the rounding for which it holds; None for exactly.
+        at_least: whether it may be larger.
+        open: what is not decided, and why.
+    """
+
+    within: fmpq | None = None
+    at_least: bool = False
+    open: Reason = NO_REASON
+
+
+SURE = Status()
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A value that comes with more than itself.
+
+    Attributes:
+        value: None where there is none, or none is decided.
+        status: how it is known.
+        reason: why it is so.
+        level: where it is told, if not where its row says.
+        more: what its kind needs besides, such as a witness.
+    """
+
+    value: Any
+    status: Status = SURE
+    reason: Reason = NO_REASON
+    level: Level | None = None
+    more: Any = None
+
+
+Words: TypeAlias = "Callable[[Any, Plain], str]"
+
+
+@dataclass(frozen=True)
+class Beside:
+    """A field of JSON beside that of a row, from its answer.
+
+    Attributes:
+        name: ``*`` in it is what stands before the last word of the row's key.
+        schema: of its values.
+        data: from the answer; None where there is none.
+        is_optional: whether it is left out then; otherwise it is null.
+    """
+
+    name: str
+    schema: Schema
+    data: Callable[[Answer, Plain], Any]
+    is_optional: bool = True
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a value is: its schema, its JSON, its words in a dialect.
+
+    Attributes:
+        schema: of its JSON.
+        data: the value for programs.
+        words: the value in the signs of a dialect; None for what only programs read.
+        answer_words: the whole answer in words, status and all, where words and status are one.
+        phrase: the same as a part of a sentence, from the label; None for label and words.
+        cell: the same in a table, where that is shorter.
+        lines: a picture of the value, for outputs with room.
+        rows: the value as labels with words, among those of other facts.
+        is_data: whether programs get it; pictures and rows of words are for people alone.
+        beside: further fields of JSON.
+        section: of a value that has facts of its own.
+        is_list: whether the value is a list of such.
+        is_never_empty: whether that has an entry at least.
+    """
+
+    schema: Schema
+    data: Callable[[Any, Plain], Any] = lambda value, _: value
+    words: Words | None = None
+    answer_words: Callable[[Answer, Plain], str] | None = None
+    phrase: Callable[[str, Answer, Plain], str] | None = None
+    cell: Words | None = None
+    lines: Callable[[Any, Plain], list[str]] | None = None
+    rows: Callable[[Any, Plain], list[tuple[str, str]]] | None = None
+    is_data: bool = True
+    beside: tuple[Beside, ...] = ()
+    section: Section | None = None
+    is_list: bool = False
+    is_never_empty: bool = False
+
+    def __call__(self, value: Any) -> Said:
+        """A value of this kind in a reason."""
+        return Said(self, value)
+
+
+@dataclass(frozen=True)
+class Fact:
+    """An answer under its row: all that an output gets."""
+
+    row: Row
+    answer: Answer
+    level: Level
+
+    @property
+    def value(self) -> Any:
+        """The value of the answer."""
+        return self.answer.value
+
+    @property
+    def is_something(self) -> bool:
+        """Whether there is anything to say."""
+        answer = self.answer
+        if answer.value is None:
+            return bool(answer.reason or answer.status.open)
+        return not (isinstance(answer.value, (tuple, list, str)) and not answer.value)
+
+
+@dataclass(frozen=True)
+class Row:
+    """What is declared of a fact.
+
+    Attributes:
+        key: its name in JSON; its label and its sentence are found by it.
+        kind: of its values.
+        get: the value, or an ``Answer``, of what the section describes; None for the attribute of
+            that name.
+        level: where it is told, or that from its answer.
+        has_null: whether there may be no value.
+        is_optional: whether JSON leaves it out then.
+        label: where it is not the one of the key.
+        line: facts with the same word here share a line of the usual text.
+        is_short: whether other rows tell it where everything is told.
+    """
+
+    key: str
+    kind: Kind
+    get: Callable[[Any], Any] | None = None
+    level: Level | Callable[[Answer], Level] = Level.USUAL
+    has_null: bool = False
+    is_optional: bool = False
+    label: str | None = None
+    line: str = ""
+    is_short: bool = False
+
+    def fact(self, whole: Any) -> Fact:
+        """What is so of a result."""
+        found = getattr(whole, self.key) if self.get is None else self.get(whole)
+        answer = found if isinstance(found, Answer) else Answer(found)
+        level = answer.level
+        if level is None:
+            level = self.level(answer) if callable(self.level) else self.level
+        return Fact(self, answer, level)
+
+    def of(self, part: Callable[[Any], Any]) -> Row:
+        """The same of a part; none where there is no part."""
+
+        def get(whole: Any) -> Any:
+            one = part(whole)
+            if one is None:
+                return None
+            return getattr(one, self.key) if self.get is None else self.get(one)
+
+        return replace(self, get=get)
+
+    def fields(self) -> Iterator[tuple[str, Schema, bool]]:
+        """The fields of JSON: name, schema, whether it is always there."""
+        kind = self.kind
+        if not kind.is_data:
+            return
+        schema = kind.schema if kind.section is None else kind.section.schema
+        if kind.is_list:
+            schema = {**array(schema), **({"minItems": 1} if kind.is_never_empty else {})}
+        yield self.key, nullable(schema) if self.has_null else schema, not self.is_optional
+        for field in kind.beside:
+            yield field.name.replace("*", self._stem), field.schema, not field.is_optional
+
+    def data(self, whole: Any, dialect: Plain) -> dict[str, Any]:
+        """Its fields for a result."""
+        kind = self.kind
+        if not kind.is_data:
+            return {}
+        answer = self.fact(whole).answer
+        if answer.value is None and self.is_optional:
+            return {}
+        found = {self.key: None if answer.value is None else self._plain(answer.value, dialect)}
+        for field in kind.beside:
+            value = None if answer.value is None else field.data(answer, dialect)
+            if value is not None or not field.is_optional:
+                found[field.name.replace("*", self._stem)] = value
+        return found
+
+    @property
+    def _stem(self) -> str:
+        return self.key.rpartition("order")[0]
+
+    def _plain(self, value: Any, dialect: Plain) -> Any:
+        kind, section = self.kind, self.kind.section
+        if section is None:
+            return (
+                [kind.data(x, dialect) for x in value]
+                if kind.is_list
+                else kind.data(value, dialect)
+            )
+        return (
+            [section.data(x, dialect) for x in value]
+            if kind.is_list
+            else section.data(value, dialect)
+        )
+
+
+class Section:
+    """Rows in order: all that is told of a kind of result.
+
+    Attributes:
+        rows: what is declared.
+        title: of a part among others, and of a result: what it is about, such as the file.
+        columns: keys of the rows that tell it in a line of a table.
+    """
+
+    def __init__(
+        self,
+        *rows: Row,
+        title: Callable[[Any, Plain], str] | None = None,
+        columns: Sequence[str] = (),
+    ) -> None:
+        self.rows = rows
+        self.title = title
+        self.columns = columns
+
+    def facts(self, whole: Any, level: Level = Level.DATA) -> Iterator[Fact]:
+        """The facts down to a level; what lies deeper by its row is not asked for."""
+        for row in self.rows:
+            if callable(row.level) or row.level <= level:
+                yield row.fact(whole)
+
+    def named(self, whole: Any, keys: Iterable[str]) -> dict[str, Fact]:
+        """The facts of some rows."""
+        return {row.key: row.fact(whole) for row in self.rows if row.key in keys}
+
+    def data(self, whole: Any, dialect: Plain) -> dict[str, Any]:
+        """The result as plain data."""
+        found: dict[str, Any] = {}
+        for row in self.rows:
+            found.update(row.data(whole, dialect))
+        return found
+
+    @property
+    def schema(self) -> Schema:
+        """The JSON Schema of such data."""
+        fields = [field for row in self.rows for field in row.fields()]
+        return {
+            "type": "object",
+            "required": [name for name, _, is_required in fields if is_required],
+            "properties": {name: schema for name, schema, _ in fields},
+            "additionalProperties": False,
+        }
+
+
+def part(section: Section, words: Words | None = None) -> Kind:
+    """A value with facts of its own; its words where its gist does not do."""
+    return Kind({}, section=section, words=words)
+
+
+def told(words: Words, phrase: Callable[[str, Answer, Plain], str] | None = None) -> Kind:
+    """What is for people alone."""
+    return Kind({}, words=words, phrase=phrase, is_data=False)
+
+
+def rows_of(rows: Callable[[Any, Plain], list[tuple[str, str]]]) -> Kind:
+    """Labels with words, for people alone."""
+    return Kind({}, rows=rows, is_data=False)
+
+
+def picture(lines: Callable[[Any, Plain], list[str]]) -> Kind:
+    """A picture in signs, for people alone."""
+    return Kind({}, lines=lines, is_data=False)
+
+
+def parts(section: Section, words: Words | None = None) -> Kind:
+    """A list of such values."""
+    return Kind({}, section=section, is_list=True, words=words)
+
+
+def via(get: Callable[[Any], Any], rows: Iterable[Row]) -> list[Row]:
+    """Rows of a part as rows of its owner."""
+    return [row.of(get) for row in rows]

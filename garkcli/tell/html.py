@@ -1,0 +1,82 @@
+"""The signs of a web page: HTML with formulas as MathML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from garkcli.exact.display import to_latex
+from garkcli.page.exactly import polynomial_latex
+from garkcli.page.plain import printable
+from garkcli.tell.dialect import Plain
+
+if TYPE_CHECKING:
+    from garkcli.exact.cells import Interval
+    from garkcli.exact.polynomial import Polynomial
+    from garkcli.trees.tree import Tree
+
+
+class Html(Plain):
+    """Fragments of HTML; every text of a file is escaped."""
+
+    def prose(self, text: str) -> str:
+        return escape(printable(text))
+
+    def formula(self, latex: str, text: str) -> str:
+        return f"\\({escape(latex)}\\)"
+
+    def good(self, text: str) -> str:
+        return f'<span class="good">{text}</span>'
+
+    def bad(self, text: str) -> str:
+        return f'<span class="bad">{text}</span>'
+
+    def note(self, text: str) -> str:
+        return text
+
+    def strong(self, text: str) -> str:
+        return f"<strong>{text}</strong>"
+
+    def number(self, x: Any) -> str:
+        return self.formula(to_latex(x), "")
+
+    def polynomial(self, p: Polynomial, variable: str) -> str:
+        return self.formula(polynomial_latex(p, variable), "")
+
+    def interval(self, x: Interval, variable: str) -> str:
+        return super().interval(x, variable).replace(" < ", " &lt; ")
+
+    def tree(self, tree: Tree) -> str:
+        return f"<code>{self.prose(super().tree(tree))}</code>"
+
+    def headline(self, text: str) -> list[str]:
+        return [f"<p>{self.strong(text)}</p>"]
+
+    def subtitle(self, text: str) -> list[str]:
+        return [f"<p>{text}</p>"]
+
+    def title(self, text: str, depth: int) -> list[str]:
+        return [f"<h{min(depth + 2, 6)}>{text}</h{min(depth + 2, 6)}>"]
+
+    def sentence(self, text: str, depth: int = 1) -> list[str]:
+        return [f"<p>{text}</p>"]
+
+    def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
+        body = [f"<tr><th>{label}</th><td>{text}</td></tr>" for label, text in rows]
+        return ["<table>", *body, "</table>"]
+
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+        def row(cells: Sequence[str], tag: str) -> str:
+            return f"<tr>{''.join(f'<{tag}>{x}</{tag}>' for x in cells)}</tr>"
+
+        return ["<table>", row(head, "th"), *(row(x, "td") for x in rows), "</table>"]
+
+    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
+        return list(lines)
+
+    def picture(self, lines: Sequence[str], depth: int) -> list[str]:
+        return [f"<pre>{escape(chr(10).join(lines))}</pre>"]
+
+    def page(self, lines: Iterable[str]) -> str:
+        return "<div>\n{}\n</div>\n".format("\n".join(lines))

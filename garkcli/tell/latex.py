@@ -1,0 +1,139 @@
+"""The signs of LaTeX: text with formulas between dollars."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from garkcli.exact.display import to_latex
+from garkcli.exact.polynomial_text import root_text
+from garkcli.page.exactly import multivariate_latex, polynomial_latex
+from garkcli.page.plain import printable
+from garkcli.tell.dialect import Plain
+
+if TYPE_CHECKING:
+    from garkcli.exact.cells import Interval
+    from garkcli.exact.multivariate import Multivariate
+    from garkcli.exact.polynomial import Polynomial
+    from garkcli.exact.roots import RealRoot
+    from garkcli.trees.tree import Tree
+
+SIGNS = {
+    **{sign: rf"${command}$" for sign, command in {
+        "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "∞": r"\infty", "α": r"\alpha", "η": r"\eta",
+        "ζ": r"\zeta", "ξ": r"\xi", "χ": r"\chi", "θ": r"\theta", "γ": r"\gamma", "ω": r"\omega",
+        "λ": r"\lambda", "π": r"\pi", "ρ": r"\rho", "τ": r"\tau", "−": "-", "²": "^2", "³": "^3",
+        "ᵀ": r"^{\mathsf T}", "𝟙": r"\mathbf 1", "→": r"\to", "↔": r"\leftrightarrow",
+        "Â": r"\hat A", "·": r"\cdot", "×": r"\times", "ẏ": r"\dot y", "…": r"\dots",
+        "β": r"\beta", "√": r"\surd", "<": "<", ">": ">",
+    }.items()},
+    "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+    **{sign: f"\\{sign}" for sign in "&%#_{}$"},
+}  # fmt: skip
+
+
+class Latex(Plain):
+    """LaTeX."""
+
+    infinity = r"$\infty$"
+
+    def prose(self, text: str) -> str:
+        return "".join(SIGNS.get(sign, sign) for sign in printable(text))
+
+    def good(self, text: str) -> str:
+        return text
+
+    bad = note = good
+
+    def strong(self, text: str) -> str:
+        return rf"\textbf{{{text}}}"
+
+    def formula(self, latex: str, text: str) -> str:
+        return f"${latex}$"
+
+    def number(self, x: Any) -> str:
+        return f"${to_latex(x)}$"
+
+    short = number
+
+    def polynomial(self, p: Polynomial, variable: str) -> str:
+        return f"${polynomial_latex(p, variable)}$"
+
+    def over(self, top: str, bottom: str) -> str:
+        if bottom == "$1$":
+            return top
+        return rf"$\frac{{{top.strip('$')}}}{{{bottom.strip('$')}}}$"
+
+    def fraction(self, p: Multivariate, q: Multivariate) -> str:
+        names = [f"z_{{{k + 1}}}" for k in range(p.variables)]
+        return self.over(*(f"${multivariate_latex(x, names)}$" for x in (p, q)))
+
+    def root(self, root: RealRoot) -> str:
+        from garkcli.exact.expression import parse
+        from garkcli.exact.rewriting import format_expression
+
+        text = root_text(root)
+        if text is None:
+            return super().root(root).replace("…", r"\dots")
+        return f"${format_expression(parse(text), latex=True)}$"
+
+    def place(self, letter: str, colours: Sequence[int], indices: Sequence[int]) -> str:
+        base = r"\hat a" if letter == "â" else letter
+        if not indices and len(colours) == 2:
+            base = r"\hat A" if letter == "â" else letter.upper()
+        if len(self.colours) > 1:
+            names = ",".join(self.prose(self.colours[l]) for l in colours)
+            base += rf"^{{({names})}}"
+        return f"${base}_{{{','.join(str(i + 1) for i in indices)}}}$" if indices else f"${base}$"
+
+    def tree(self, tree: Tree) -> str:
+        return rf"\texttt{{{self.prose(super().tree(tree))}}}"
+
+    def upto(self, sign: str, end: RealRoot) -> str:
+        return rf"{self.prose(sign)} $\le$ {self.root(end)}"
+
+    def interval(self, x: Interval, variable: str) -> str:
+        return super().interval(x, f"${variable}$").replace("≤", r"$\le$").replace("<", "$<$")
+
+    def bounds(self, found: Any, before: str = "") -> str:
+        return super().bounds(found, self.prose(before))
+
+    def capped(self, number: int | None, limit: int) -> str:
+        return self.prose(super().capped(number, limit))
+
+    def headline(self, text: str) -> list[str]:
+        return [rf"\subsection*{{{text}}}"]
+
+    def subtitle(self, text: str) -> list[str]:
+        return [text, ""]
+
+    def title(self, text: str, depth: int) -> list[str]:
+        return [rf"\paragraph{{{text}}}"]
+
+    def sentence(self, text: str, depth: int = 1) -> list[str]:
+        return [f"{text}.", ""]
+
+    def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
+        body = [rf"{label} & {text} \\" for label, text in rows]
+        return [
+            r"\begin{tabular}{lp{.7\linewidth}}", r"\hline", *body, r"\hline", r"\end{tabular}", "",
+        ]  # fmt: skip
+
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+        body = [rf"{' & '.join(row)} \\" for row in rows]
+        return [
+            rf"\begin{{tabular}}{{{'l' * len(head)}}}",
+            r"\hline",
+            rf"{' & '.join(head)} \\",
+            r"\hline",
+            *body, r"\hline", r"\end{tabular}", "",
+        ]  # fmt: skip
+
+    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
+        return list(lines)
+
+    def picture(self, lines: Sequence[str], depth: int) -> list[str]:
+        return []
+
+    def page(self, lines: Iterable[str]) -> str:
+        return "\n".join(lines) + "\n"

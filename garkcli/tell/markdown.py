@@ -1,0 +1,64 @@
+"""The signs of Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from garkcli.page.plain import printable
+from garkcli.tell.dialect import Plain
+
+if TYPE_CHECKING:
+    from garkcli.trees.tree import Tree
+
+
+class Markdown(Plain):
+    """Markdown, as code hosts read it."""
+
+    def prose(self, text: str) -> str:
+        for sign in "\\|*_`[]<":
+            text = text.replace(sign, f"\\{sign}" if sign != "<" else "&lt;")
+        return printable(text)
+
+    def good(self, text: str) -> str:
+        return text
+
+    bad = note = good
+
+    def strong(self, text: str) -> str:
+        return f"**{text}**"
+
+    def tree(self, tree: Tree) -> str:
+        return f"`{super().tree(tree)}`"
+
+    def headline(self, text: str) -> list[str]:
+        return [self.strong(text), ""]
+
+    def subtitle(self, text: str) -> list[str]:
+        return [text, ""]
+
+    def title(self, text: str, depth: int) -> list[str]:
+        return [f"{'#' * (depth + 2)} {text}", ""]
+
+    def sentence(self, text: str, depth: int = 1) -> list[str]:
+        return [f"{text}.", ""]
+
+    def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
+        return ["| | |", "|---|---|", *(f"| {label} | {text} |" for label, text in rows), ""]
+
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+        return [
+            f"| {' | '.join(head)} |",
+            "|---" * len(head) + "|",
+            *(f"| {' | '.join(row)} |" for row in rows),
+            "",
+        ]
+
+    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
+        return list(lines)
+
+    def picture(self, lines: Sequence[str], depth: int) -> list[str]:
+        return ["```text", *lines, "```", ""]
+
+    def page(self, lines: Iterable[str]) -> str:
+        return "\n".join(lines) + "\n"

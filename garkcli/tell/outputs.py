@@ -1,0 +1,184 @@
+"""Facts told: the text of a result in a dialect, many results as a table, JSON and its schema.
+
+Nothing here knows a command or a kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from typing import Any, TypeAlias
+
+from garkcli.glossary.labels import label_of
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Fact, Level, Section
+
+Form: TypeAlias = Callable[[Any], Section]
+"""Which section tells a result: one of several where results differ in shape."""
+
+
+def words(fact: Fact, d: Plain) -> str:
+    """A fact in words: value, status and reason, in one place."""
+    answer, kind = fact.answer, fact.row.kind
+    if answer.value is None:
+        if answer.status.open:
+            return f"not decided: {d.reason(answer.status.open)}"
+        return d.reason(answer.reason) if answer.reason else "none"
+    if kind.answer_words is not None:
+        return kind.answer_words(answer, d)
+    if kind.words is None:
+        return gist(fact, d)
+    text = d.known(kind.words(answer.value, d), answer.status)
+    return f"{text}: {d.reason(answer.reason)}" if answer.reason else text
+
+
+def gist(fact: Fact, d: Plain) -> str:
+    """What is usual in a part, or in each of several, in a line."""
+    section = fact.row.kind.section
+    assert section is not None
+    values = fact.value if fact.row.kind.is_list else [fact.value]
+    return "; ".join(", ".join(phrases(section, x, d, Level.USUAL)) for x in values)
+
+
+def phrases(section: Section, whole: Any, d: Plain, level: Level) -> Iterator[str]:
+    """The facts down to a level, each as a part of a sentence."""
+    for fact in section.facts(whole, level):
+        if fact.level <= level and fact.is_something and _is_said(fact):
+            yield phrase(fact, d)
+
+
+def _is_said(fact: Fact) -> bool:
+    """Whether a fact can be a part of a sentence."""
+    return fact.row.kind.lines is None and fact.row.kind.rows is None
+
+
+def phrase(fact: Fact, d: Plain) -> str:
+    """A fact as a part of a sentence: ``order 4, proved``; ``not A-stable: R is unbounded``."""
+    kind, name = fact.row.kind, label(fact, d)
+    if kind.phrase is not None and fact.value is not None:
+        return kind.phrase(name, fact.answer, d)
+    if kind.section is not None and kind.words is None and fact.row.line:
+        return gist(fact, d)
+    return f"{name} {words(fact, d)}".strip()
+
+
+def label(fact: Fact, d: Plain) -> str:
+    """What a fact is called."""
+    own = fact.row.label
+    return d.prose(label_of(fact.row.key) if own is None else own)
+
+
+def cell(fact: Fact, d: Plain) -> str:
+    """A fact in a table: its value as it is known, nothing besides."""
+    kind, answer = fact.row.kind, fact.answer
+    if answer.value is None:
+        return "?" if answer.status.open else ""
+    if kind.cell is not None:
+        return kind.cell(answer.value, d)
+    if kind.words is None:
+        return gist(fact, d) if kind.section else d.prose(str(kind.data(answer.value, d)))
+    return d.known(kind.words(answer.value, d), answer.status)
+
+
+def one(section: Section, whole: Any, d: Plain, level: Level = Level.USUAL) -> Iterator[str]:
+    """A result: the answer first."""
+    headline = "; ".join(phrases(section, whole, d, Level.HEADLINE))
+    subject = section.title(whole, d) if section.title else ""
+    yield from d.headline(f"{subject}: {headline}" if subject and headline else subject or headline)
+    yield from body(section, whole, d, level, 1)
+
+
+def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> Iterator[str]:
+    """The facts below the headline. Usually some share a line; with details each has its own, and
+    parts stand below under their titles.
+    """
+    sentences: dict[str, list[str]] = {}
+    rows: list[tuple[str, str]] = []
+    below: list[Fact] = []
+    for fact in section.facts(whole, level):
+        kind = fact.row.kind
+        if fact.level > level or not fact.is_something:
+            continue
+        if fact.level == Level.HEADLINE and depth == 1:
+            continue
+        if fact.row.is_short and level >= Level.DETAIL:
+            continue
+        if kind.lines is not None or _is_opened(fact, level):
+            below.append(fact)
+        elif kind.rows is not None:
+            rows += kind.rows(fact.value, d)
+        elif fact.row.line and level < Level.DETAIL:
+            sentences.setdefault(fact.row.line, []).append(phrase(fact, d))
+        elif text := words(fact, d):
+            rows.append((label(fact, d), text))
+    for said in sentences.values():
+        if text := "; ".join(filter(None, said)):
+            yield from d.sentence(text, depth)
+    if rows:
+        yield from d.rows(rows, depth)
+    for fact in below:
+        yield from block(fact, d, level, depth)
+
+
+def _is_opened(fact: Fact, level: Level) -> bool:
+    """Whether a part is told fact by fact."""
+    return fact.row.kind.section is not None and fact.value is not None and level >= Level.DETAIL
+
+
+def labelled(
+    section: Section, whole: Any, d: Plain, level: Level, without: Collection[str] = ()
+) -> Iterator[tuple[str, list[tuple[str, str]]]]:
+    """The facts as labels with words, the parts behind them under their titles."""
+    rows: list[tuple[str, str]] = []
+    below: list[tuple[str, list[tuple[str, str]]]] = []
+    for fact in section.facts(whole, level):
+        kind = fact.row.kind
+        if fact.level > level or not fact.is_something or fact.row.key in without:
+            continue
+        if kind.section is not None and kind.section.title is not None and fact.value is not None:
+            for part in fact.value if kind.is_list else [fact.value]:
+                (_, part_rows), *_ = labelled(kind.section, part, d, level, without)
+                below.append((kind.section.title(part, d), part_rows))
+        elif kind.rows is not None:
+            rows += kind.rows(fact.value, d)
+        elif kind.lines is None:
+            rows.append((label(fact, d), words(fact, d)))
+    yield "", rows
+    yield from below
+
+
+def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
+    """A part under its title; a list of flat parts as a table; a picture."""
+    kind, value = fact.row.kind, fact.value
+    section = kind.section
+    if section is None:
+        assert kind.lines is not None
+        yield from d.picture(kind.lines(value, d), depth)
+    elif kind.is_list and section.title is None:
+        yield from d.title(label(fact, d), depth)
+        shown = [[f for f in section.facts(x) if f.level < Level.DATA] for x in value]
+        head = [label(f, d) for f in shown[0]]
+        yield from d.indent(d.grid(head, [[cell(f, d) for f in row] for row in shown]), depth + 1)
+    else:
+        for part in value if kind.is_list else [value]:
+            lines = list(body(section, part, d, level, depth + 1))
+            if lines:
+                named = section.title(part, d) if section.title else label(fact, d)
+                yield from d.title(named, depth)
+                yield from lines
+
+
+def many(form: Form, wholes: Sequence[Any], dialect: Callable[[Any], Plain]) -> Iterator[str]:
+    """Several results, a line each; columns that nothing fills are left out."""
+    keys = form(wholes[0]).columns
+    heads = list(keys)
+    table = []
+    for whole in wholes:
+        d = dialect(whole)
+        facts = form(whole).named(whole, keys)
+        table.append([cell(facts[key], d) if key in facts else "" for key in keys])
+        heads = [
+            label(facts[x], d) if x in facts else head for x, head in zip(keys, heads, strict=True)
+        ]
+    kept = [i for i in range(len(keys)) if any(row[i] for row in table)]
+    rows = [[row[i] for i in kept] for row in table]
+    yield from dialect(wholes[0]).grid([heads[i] for i in kept], rows)

@@ -1,0 +1,152 @@
+"""A result told in every format by the same renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from garkcli.page.json_text import to_json
+from garkcli.page.paint import Paint
+from garkcli.page.schema import Schema, array, one_of, published
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Level, Section
+from garkcli.tell.outputs import labelled, many, one
+
+Whole = TypeVar("Whole")
+Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"
+TABLES = ("markdown", "latex")
+"""The formats in which several results are a table, unless everything is asked for."""
+NOTHING = Section()
+PLAIN = Paint()
+CLOSED = {"additionalProperties": False}
+FORMATS = ("text", "json", "markdown", "latex")
+
+
+def _dialect(format: str) -> type[Plain]:
+    """The signs of a format."""
+    if format == "latex":
+        from garkcli.tell.latex import Latex
+
+        return Latex
+    if format == "markdown":
+        from garkcli.tell.markdown import Markdown
+
+        return Markdown
+    if format == "html":
+        from garkcli.tell.html import Html
+
+        return Html
+    return Plain
+
+
+@dataclass(frozen=True)
+class Report(Generic[Whole]):
+    """What a command tells: of each file a result, by the rows of its form.
+
+    Attributes:
+        schema_name: of its JSON.
+        title: of the JSON Schema.
+        forms: all sections that tell a result.
+        form: the one of a result.
+        signs: attributes of the dialect for a result: digits, names of colours.
+        key: of the list of results in JSON; empty where there is one, whose fields are at the top.
+        tail: further fields of the document, of all results.
+        is_open: whether the schema allows others.
+    """
+
+    schema_name: str
+    title: str
+    forms: Callable[[], Iterable[Section]]
+    form: Callable[[Whole], Section]
+    signs: Callable[[Whole], Mapping[str, Any]] = field(default=lambda _: {})
+    key: str = "files"
+    tail: Section = NOTHING
+    is_open: bool = False
+
+    def render(
+        self,
+        wholes: Sequence[Whole],
+        format: str = "text",
+        paint: Paint = PLAIN,
+        verbosity: int = 0,
+        **signs: Any,
+    ) -> str:
+        """All results in a format.
+
+        Args:
+            wholes: the results.
+            format: one of ``FORMATS``.
+            paint: colour or none.
+            verbosity: −1 the answers alone, 1 everything.
+            signs: attributes of the dialect: the width of the terminal, digits.
+        """
+        if format == "json":
+            return self.json(wholes)
+        level = Level.DETAIL if verbosity > 0 or format == "latex" else Level.USUAL
+        if verbosity < 0:
+            level = Level.HEADLINE
+        if len(wholes) > 1 and verbosity == 0 and format in TABLES and self.columns(wholes[0]):
+            return self.table(wholes, format)
+        texts = (self._told(x, format, level, paint=paint, **signs) for x in wholes)
+        return ("" if level == Level.HEADLINE and format == "text" else "\n").join(texts)
+
+    def dialect(self, whole: Whole, format: str, **signs: Any) -> Plain:
+        """The signs of a format for a result."""
+        return _dialect(format)(**{**self.signs(whole), **signs})
+
+    def _told(self, whole: Whole, format: str, level: Level, **signs: Any) -> str:
+        d = self.dialect(whole, format, is_brief=level < Level.DETAIL, **signs)
+        return d.page(one(self.form(whole), whole, d, level))
+
+    def columns(self, whole: Whole) -> Sequence[str]:
+        """The keys that tell a result in a line of a table."""
+        return self.form(whole).columns
+
+    def table(self, wholes: Sequence[Whole], format: str) -> str:
+        """A line a result."""
+        signs = self.dialect(wholes[0], format)
+        return signs.page(many(self.form, wholes, lambda x: self.dialect(x, format)))
+
+    def html(self, whole: Whole) -> str:
+        """A fragment of a page, for notebooks."""
+        return self._told(whole, "html", Level.USUAL)
+
+    def labelled(self, whole: Whole, without: Collection[str] = ()) -> list[Labelled]:
+        """Titles of parts, each with labels and words, for pages with a look of their own."""
+        return list(
+            labelled(self.form(whole), whole, Plain(**self.signs(whole)), Level.DETAIL, without)
+        )
+
+    def data(self, whole: Whole) -> dict[str, Any]:
+        """A result as plain data."""
+        return self.form(whole).data(whole, Plain(**self.signs(whole)))
+
+    def document(self, wholes: Sequence[Whole]) -> dict[str, Any]:
+        """All results as plain data."""
+        results = [self.data(x) for x in wholes]
+        if not self.key:
+            return {"schema": self.schema_name, **results[0]}
+        return {"schema": self.schema_name, self.key: results, **self.tail.data(wholes, Plain())}
+
+    def json(self, wholes: Sequence[Whole]) -> str:
+        """All results as a JSON document."""
+        return to_json(self.document(wholes)) + "\n"
+
+    @property
+    def schema(self) -> Schema:
+        """The JSON Schema of such documents."""
+        schemas = [section.schema for section in self.forms()]
+        result = schemas[0] if len(schemas) == 1 else one_of(*schemas)
+        head = {"schema": {"const": self.schema_name}}
+        tail = self.tail.schema
+        if self.key:
+            head[self.key] = array(result)
+        else:
+            tail = result
+        schema = {
+            "type": "object",
+            "required": [*head, *tail["required"]],
+            "properties": {**head, **tail["properties"]},
+        }
+        return published(self.title, schema if self.is_open else {**schema, **CLOSED})

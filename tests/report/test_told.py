@@ -1,0 +1,248 @@
+"""Reports that are told from declared rows: short, whole, and the same in every format."""
+
+from __future__ import annotations
+
+import json
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import pytest
+from jsonschema import Draft7Validator
+
+from garkcli.check.check_file import check_file
+from garkcli.check.outcome import Outcome
+from garkcli.glossary.labels import label_of
+from garkcli.page.paint import Paint
+from garkcli.report.check_text import render
+from garkcli.report.checked import REPORT
+from garkcli.tell.facts import Row, Section, part
+from garkcli.tell.kinds import COUNT, TEXT
+from garkcli.tell.report import Report
+from tests.cli.harness import ROOT, gark
+
+DATA = ROOT / "garkcli" / "catalogue" / "data"
+NAMES = {x.name.removesuffix(".gark.yaml"): x for x in sorted(DATA.rglob("*.gark.yaml"))}
+SLOW = {"feagin-14", "feagin-12-misprint"}
+"""Their orders take longer to decide than those of all others."""
+ROUNDED = "tests/examples/valid/rounded.gark.yaml"
+VALID = ROOT / "tests" / "examples" / "valid"
+SAMPLES = [
+    *(NAMES[x] for x in ("rk4", "gauss-3", "tr-bdf2", "ralston-3", "kvaerno-5")),
+    *(ROOT / "methods" / f"{x}.gark.yaml" for x in ("collocation", "ark-ars222", "rectangular")),
+    *(VALID / f"{x}.gark.yaml" for x in ("rounded", "embedded-and-dense")),
+]
+
+
+@cache
+def catalogue() -> dict[str, Outcome]:
+    """What is found of the methods of the catalogue, each under its short name."""
+    found = {}
+    for name, path in NAMES.items():
+        if name not in SLOW:
+            found[name] = replace(check_file(str(path)), file=name, name=name)
+    return found
+
+
+@cache
+def checked(path: Path) -> Outcome:
+    """What is found of a file."""
+    return replace(check_file(str(path)), file="m")
+
+
+def everything(outcome: Outcome) -> list[tuple[int, str, str]]:
+    """The rows of the report with details: margin, label and text, whole."""
+    wide = render([outcome], Paint(), verbosity=1, width=10_000)
+    rows = (re.match(r"( +)(\S.*?)(?:  +(\S.*))?$", line) for line in wide.splitlines())
+    return [(len(x[1]), x[2], x[3] or "") for x in rows if x]
+
+
+def test_the_answer_is_first() -> None:
+    """A check of the classical method: at most 12 lines, and the first one says its order, that it
+    is proved, and the tree at which it ends.
+    """
+    lines = gark("check", "rk4").out.splitlines()
+    assert len(lines) <= 12
+    assert lines[0] == "rk4: order 4, proved; order 5 fails at [[[[[]]]]] by -1/120"
+    assert gark("check", "rk4", "-v").out.splitlines()[0] == lines[0]
+
+
+def test_a_method_of_one_colour_fits_a_glance() -> None:
+    """At most 12 lines of at most 80 columns each for such methods of the catalogue, of which the
+    first begins with the order; no colour is named.
+    """
+    count = 0
+    for name, outcome in catalogue().items():
+        assert outcome.analysis is not None
+        text = render([outcome], Paint())
+        lines = text.splitlines()
+        assert max(map(len, lines)) <= 80, name
+        assert lines[0].startswith(f"{name}: order {outcome.analysis.order.order}"), name
+        if outcome.analysis.tableau.size > 1:
+            continue
+        count += 1
+        assert len(lines) <= 12, name
+        assert "{1" not in text, name
+    assert count > 150
+
+
+@pytest.mark.parametrize("path", SAMPLES, ids=lambda x: x.name.partition(".")[0])
+def test_details_hold_every_number_of_the_json_report(path: Path) -> None:
+    """Orders, B, C, D, the bound and the properties: each is in the row of its label, as JSON has
+    it.
+    """
+    outcome = checked(path)
+    data = REPORT.data(outcome)
+    rows = everything(outcome)
+    said: dict[tuple[int, str], str] = {(margin, label): text for margin, label, text in rows}
+    answer = render([outcome], Paint(), verbosity=1, width=10_000).partition("\n")[0]
+    assert answer.startswith(f"m: order {data['order']}")
+    for key in ("conjugate_order", "pair_order", "nonautonomous_order", "embedded_order"):
+        if data[key] is not None:
+            assert re.match(rf"{data[key]}\b", said[2, label_of(key)]), key
+    simple = data["simplifying"]
+    for letter in "BCD":
+        shown = said[4, label_of(letter)].replace("≥", "")
+        table = [simple[letter]] if letter == "B" else simple[letter]
+        cells = [["-" if x is None else str(x) for x in row] for row in table]
+        assert [row.split() for row in shown.split(" / ")] == cells
+    assert said[4, "bound"].startswith(f"{simple['bound']}: ")
+    for key, value in data["properties"].items():
+        text = said.get((4, label_of(key)))
+        if key == "symplectic":
+            assert said[2, "symplectic"].startswith("yes" if value else "no")
+        elif isinstance(value, bool) and not key.endswith("is_lower_bound"):
+            assert text is not None, key
+            assert text.startswith("yes" if value else "no"), key
+        elif isinstance(value, int) and key != "stage_order_is_lower_bound":
+            assert text is not None, key
+            assert text.removeprefix("at least ") == str(value)
+        elif isinstance(value, str):
+            assert text == value, key
+    parts = data["properties"]["by_colour"]
+    if len(parts) > 1:
+        told = [text for margin, label, text in rows if (margin, label) == (6, "stage order")]
+        assert told == [str(x["stage_order"]) for x in parts]
+
+
+@pytest.mark.parametrize(("format", "between"), [("markdown", "|"), ("latex", "&")])
+def test_a_rounded_order_in_a_table_is_one_within_its_tolerance(format: str, between: str) -> None:
+    """Each order of rounded coefficients has the tolerance beside it, also in the report of one
+    file; those of an exact method have none.
+    """
+    lines = gark("check", ROUNDED, "rk4", "--format", format).out.splitlines()
+    head, rounded, exact = (
+        [x.strip() for x in line.strip("| \\").split(between)]
+        for line in lines
+        if between in line and "---" not in line
+    )
+    for key in ("order", "conjugate order", "pair order"):
+        at = head.index(key)
+        assert (rounded[at], exact[at]) == ("4 within 1e-14", "4")
+    answer, *_ = gark("check", ROUNDED, "--format", format).out.splitlines()
+    assert re.search(r": order 4 within 1e-14[;,] .*order 5 fails at ", answer)
+    assert "proved" not in answer
+
+
+def test_a_rounded_order_in_a_line_is_one_within_its_tolerance() -> None:
+    """The same where each of several files has a line, and where one has a report."""
+    rounded, exact, *_ = gark("check", ROUNDED, "rk4").out.splitlines()
+    assert rounded == f"ok   {ROUNDED}: order 4 within 1e-14, pair 4 within 1e-14  (7 claims)"
+    assert exact == "ok   rk4: order 4, pair 4  (2 claims)"
+    answer = gark("check", ROUNDED).out
+    assert answer.startswith(f"{ROUNDED}: order 4 within 1e-14; order 5 fails at\n")
+    assert "proved" not in answer
+
+
+def test_a_rounded_stability_function_says_what_it_is_of() -> None:
+    """LaTeX has R(z) and R(∞) of the digits as printed, and says so beside them."""
+    text = gark("stability", ROUNDED, "--format", "latex").out
+    rows = [line for line in text.splitlines() if line.startswith(("R(z) ", r"R($\infty$) "))]
+    assert len(rows) == 2
+    assert all("of the digits as printed, not of all methods" in line for line in rows)
+    exact = gark("stability", "gauss-2", "--format", "latex").out
+    assert "R(z) & " in exact
+    assert "as printed" not in exact
+
+
+def latex_faults(text: str) -> Iterator[str]:
+    """What keeps LaTeX from setting a fragment, or lets it show another sign."""
+    bare = re.sub(r"\\[\\{}$%&#_]", "", text)
+    depth = 0
+    for line in bare.splitlines():
+        if line.count("$") % 2:
+            yield f"dollars: {line}"
+        for sign in re.sub(r"[^{}]", "", line):
+            depth += 1 if sign == "{" else -1
+            if depth < 0:
+                yield f"braces: {line}"
+        if depth:
+            yield f"braces: {line}"
+        words = re.sub(r"\$[^$]*\$", "", line)
+        if re.search(r"[#%^_~]", words) or (words.count("&") > 1 and "lll" not in text):
+            yield f"signs: {line}"
+    for sign in {x for x in text if ord(x) > 127}:
+        if not unicodedata.name(sign).startswith("LATIN SMALL"):
+            yield f"letters: {sign}"
+
+
+def test_what_keeps_latex_from_setting_is_found() -> None:
+    """The faults that the next test looks for."""
+    assert not list(latex_faults(r"a\_b & $x_1^{2}$ \\"))
+    for text in ("{", "}{", "$x", "a_b", "50%", "x^2", "a & b & c", "𝟙", "$Â$"):
+        assert list(latex_faults(text)), text
+
+
+def test_latex_of_every_method_can_be_set() -> None:
+    """Braces and dollars are balanced in each line, no special sign is raw, and no sign is there
+    that LaTeX lacks.
+    """
+    for name, outcome in catalogue().items():
+        assert list(latex_faults(REPORT.render([outcome], "latex"))) == [], name
+
+
+@dataclass(frozen=True)
+class Wobble:
+    """A result for which nobody has written an output."""
+
+    wibbles: int
+    inner: tuple[int, str]
+
+
+INNER = Section(Row("count", COUNT, lambda x: x[0]), Row("which", TEXT, lambda x: x[1]))
+
+
+def test_a_row_is_in_every_format() -> None:
+    """A row that is added to a section, and one of a part of it, are in the text with details, in
+    JSON and its schema, in Markdown, LaTeX and HTML, and nothing else has to be written.
+    """
+    whole = Wobble(17, (23, "a_b <c>"))
+
+    def report(*rows: Row) -> Report[Wobble]:
+        section = Section(Row("answer", COUNT, lambda _: 42), *rows)
+        return Report("gark/wobble/1", "wobbles", lambda: [section], lambda _: section, key="")
+
+    without = report()
+    rows = Row("wibbles", COUNT), Row("inner_part", part(INNER), lambda x: x.inner)
+    added = report(*rows)
+    assert "wibbles" not in str(without.schema)
+    found: dict[str, Any] = json.loads(added.json([whole]))
+    assert found["wibbles"] == 17
+    assert found["inner_part"] == {"count": 23, "which": "a_b <c>"}
+    assert not list(Draft7Validator(added.schema).iter_errors(found))
+    assert list(Draft7Validator(without.schema).iter_errors(found))
+    for format, wanted in (("text", "a_b <c>"), ("markdown", r"a\_b &lt;c>"), ("latex", r"a\_b")):
+        told = added.render([whole], format, verbosity=1)
+        assert "17" not in without.render([whole], format, verbosity=1)
+        for text in ("wibbles", "17", "inner part", "23", wanted):
+            assert text in told, (format, text)
+    html = added.html(whole)
+    cells = ["".join(cell.itertext()) for cell in ET.fromstring(html).iter("td")]
+    assert "17" in cells
+    assert any("23" in cell and "a_b <c>" in cell for cell in cells)
+    assert "17" not in without.html(whole)
