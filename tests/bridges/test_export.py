@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -121,6 +122,18 @@ def test_a_test_is_named_after_the_file(tmp_path: Path) -> None:
     assert ascii(name) in program
     compile(program, "program", "exec")
     assert (tmp_path / f"{stem}_problem.yaml").exists()
+
+
+@pytest.mark.parametrize("target", ["boost", "desolve", "scipy", "sundials", "torchdiffeq"])
+def test_a_program_names_the_files_that_are_there(target: str, tmp_path: Path) -> None:
+    """Its head names the program and the problem as they are written, whatever FILE ends with."""
+    rk4 = str(ROOT / "methods/rk4.gark.yaml")
+    run = gark("export", rk4, "--to", target, "--test", "-o", "x.txt", cwd=tmp_path)
+    assert run.code == 0, run.err
+    (program,) = tmp_path.glob("x_test.*")
+    named = re.findall(r"\bx\S*_(?:test|problem)\.\w+", program.read_text(encoding="utf-8"))
+    assert "x_problem.yaml" in named
+    assert [name for name in named if not (tmp_path / name).exists()] == []
 
 
 def test_nothing_is_written_where_there_is_no_test(tmp_path: Path) -> None:
