@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.methodfile.load import load, loads
@@ -74,6 +77,25 @@ def test_orders_are_proved_when_the_file_is_written() -> None:
     assert (data["order"], data["nonautonomous_order"]) == (2, 1)
     head = bridges()["numpy"].written(prepared(loads(text))).splitlines()[:6]
     assert any("order 1 where f depends on t" in line for line in head)
+
+
+@pytest.mark.parametrize("target", [n for n, x in bridges().items() if "rk" in x.kinds])
+def test_stages_that_see_nothing_have_zeros(target: str) -> None:
+    """A method for one vector field without a block is written, with a matrix of zeros for it."""
+    absent = prepared(loads("tableau: {c: [[0, 1/2]], A: [[null]], b: [[1/2, 1/2]]}\n"))
+    zeros = prepared(loads("tableau: {c: [[0, 1/2]], A: [[[[0, 0], [0, 0]]]], b: [[1/2, 1/2]]}\n"))
+    assert absent.A == zeros.A == ((((0, 0), (0, 0)),),)
+    # the orders are those of f that sees nothing
+    absent = replace(absent, orders=zeros.orders)
+    assert attempt(target, absent) == attempt(target, zeros)
+
+
+def attempt(target: str, payload: Payload) -> str:
+    """What a target writes, or why it does not."""
+    try:
+        return bridges()[target].written(payload)
+    except CannotExport as refusal:
+        return refusal.reason
 
 
 def test_a_tolerance_is_named() -> None:
