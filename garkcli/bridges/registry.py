@@ -35,11 +35,6 @@ TestDriver: TypeAlias = Callable[[Payload, str], Sequence[Written]]
 """From a method and the name of the file with its table (no folder) to the files of a test."""
 
 
-def _nothing(payload: Payload) -> Values:  # noqa: ARG001 -- as the others are called
-    """For templates that need no more than all have."""
-    return {}
-
-
 @dataclass(frozen=True)
 class Bridge:
     """One target.
@@ -65,7 +60,7 @@ class Bridge:
     kinds: tuple[Kind, ...]
     suffix: str
     style: Style = DECIMALS
-    values: Callable[[Payload], Values] = _nothing
+    values: Callable[[Payload], Values] = lambda _: {}
     program: Callable[[Payload, str], Values] | None = None
     reads_back: bool = False
     write: Callable[[Payload], str] | None = None

@@ -94,6 +94,7 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
     texts = {"file": file, "stem": stem, "command": command_of(payload, f"{stem}_problem.yaml")}
 
     def comment(*notes: str) -> str:
+        """Notes in which ``{file}``, ``{stem}`` and ``{command}`` stand for what these are."""
         return "\n".join(mark.lines(note.format(**texts) for note in notes))
 
     return {"comment": comment, "trial": trial_of(payload), "steps": STEPS, "module": ascii(file)}

@@ -23,6 +23,7 @@ from garkcli.methodfile.load import loads
 from tests.bridges.examples import RALSTON, payload_of
 from tests.bridges.test_hostile_names import METHODS, MULTIRATE, named
 from tests.cli.harness import ROOT
+from tests.cli.test_process import run
 
 PACKAGE = ROOT / "garkcli"
 TEMPLATES = sorted((PACKAGE / "bridges" / "templates").iterdir())
@@ -131,3 +132,18 @@ def test_a_comment_of_a_template_is_none_where_the_method_ends_it() -> None:
     text = texts.text_of("boost.hpp", payload, EXACT, values)
     assert "zqx secret * / words" in text
     assert text.count("*/") == 1
+
+
+def test_templates_are_loaded_when_a_file_is_written() -> None:
+    """The list of targets, and a target that has no template, need no Jinja."""
+    script = (
+        "import sys\n"
+        "from garkcli.bridges.registry import bridges\n"
+        "from garkcli.bridges.calls import export\n"
+        "bridges()\n"
+        "export('heun', 'csv')\n"
+        "before = 'jinja2' in sys.modules\n"
+        "export('heun', 'numpy')\n"
+        "print(before, 'jinja2' in sys.modules)\n"
+    )
+    assert run(python=("-c", script)).stdout == "False True\n"
