@@ -156,3 +156,21 @@ EXACT = Style(
     point=False,
 )
 """As method files have it: nothing is lost."""
+PYTHON = Style(longest=100, fraction="{p}/{q}", point=False)
+"""Python rounds the quotient of two whole numbers, and a decimal of any length, once."""
+DECIMALS = Style()
+"""The floats of languages that divide no whole numbers as they read them."""
+
+
+def c_style(macro: str, digits: int = 36) -> Style:
+    """Numbers inside a macro that gives them the suffix of their type.
+
+    A quotient of two whole numbers that the type has is right in every precision; 36 digits are
+    enough for binary128.
+    """
+    return Style(
+        digits=digits,
+        longest=100,
+        fraction=f"{macro}({{p}}.0) / {macro}({{q}}.0)",
+        decimal=f"{macro}({{x}})",
+    )

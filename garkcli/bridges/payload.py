@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from flint import arb, fmpq
+from flint import fmpq
 
 from garkcli.bridges import names
 from garkcli.bridges.cannot import CannotExport
@@ -125,7 +125,3 @@ class Payload:
     def numbers(self, row: Row, style: Style = EXACT) -> list[str]:
         """A row of entries in the style of a language."""
         return [self.number(x, style) for x in row]
-
-    def is_zero(self, x: Cell) -> bool:
-        """Whether an entry is zero; enclosures of zero are exact zeros already."""
-        return not isinstance(x, arb) and not x

@@ -12,6 +12,7 @@ from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
 from garkcli.doing import doing
 from garkcli.errors import MethodError, printable
+from garkcli.exact.field import ZERO
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.infinitesimal import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
@@ -49,7 +50,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         raise CannotExport(
             f"{method.name} has free parameters", "give each a value: --set NAME=VALUE"
         )
-    found = _entries(tableau, digits)
+    found = _seen(_entries(tableau, digits))
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
@@ -107,6 +108,15 @@ def _entries(tableau: Tableau, digits: int | None) -> Entries:
         return tuple(_block(tableau, fine, l, m) for m in colours)
 
     return replace(fine, c=c, A=tuple(map(blocks, colours)))
+
+
+def _seen(found: Entries) -> Entries:
+    """The entries, with zeros for the block that a method for one vector field lacks."""
+    (first, *further), *_ = found.A
+    if further or first is not None:
+        return found
+    zeros = (ZERO,) * len(found.b[0])
+    return replace(found, A=(((zeros,) * len(zeros),),))
 
 
 def _nodes(tableau: Tableau, l: int, row: tuple[Cell, ...]) -> tuple[Cell, ...]:

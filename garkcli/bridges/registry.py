@@ -11,7 +11,10 @@ from typing import TypeAlias
 
 from garkcli.bridges import targets
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.numbers import DECIMALS, Style
 from garkcli.bridges.payload import Kind, Payload
+from garkcli.bridges.texts import Values, program_values, text_of
+from garkcli.bridges.trials import trial_of
 from garkcli.errors import UsageProblem, did_you_mean
 
 
@@ -36,23 +39,46 @@ TestDriver: TypeAlias = Callable[[Payload, str], Sequence[Written]]
 class Bridge:
     """One target.
 
+    Its template is ``templates/NAME.SUFFIX.jinja``, that of its program ``NAME_test.ENDING.jinja``.
+
     Attributes:
         name: on the command line.
         summary: half a line.
         kinds: the forms of methods that it can hold, some of them under conditions.
         suffix: of its files.
-        write: the file of a method; raises ``CannotExport`` with the reason and the cure.
-        test_driver: a program that runs the method in the target; None where the target is data.
+        style: of its numbers.
+        values: what its template has beyond what all have; raises ``CannotExport`` with the reason
+            and the cure.
+        program: the same for the template of a program that runs the method in the target, from the
+            method and the name of the file with its table (no folder); None where nothing runs it.
         reads_back: whether ``gark import`` reads what it writes.
+        write: the file of a method, where no template writes it.
     """
 
     name: str
     summary: str
     kinds: tuple[Kind, ...]
     suffix: str
-    write: Callable[[Payload], str]
-    test_driver: TestDriver | None = None
+    style: Style = DECIMALS
+    values: Callable[[Payload], Values] = lambda _: {}
+    program: Callable[[Payload, str], Values] | None = None
     reads_back: bool = False
+    write: Callable[[Payload], str] | None = None
+
+    @property
+    def test_driver(self) -> TestDriver | None:
+        """What writes a program that runs the method; None where the target is data."""
+        return None if self.program is None else self._tested
+
+    def _tested(self, payload: Payload, file: str) -> Sequence[Written]:
+        """The program and its problem."""
+        assert self.program is not None
+        own = self.program(payload, file)
+        ending = _ENDINGS.get(self.suffix, self.suffix)
+        values = {**program_values(payload, file, ending), **own}
+        text = text_of(f"{self.name}_test{ending}", payload, self.style, values)
+        problem = trial_of(payload).file
+        return [Written(f"_test{ending}", text), Written("_problem.yaml", problem)]
 
     def written(self, payload: Payload) -> str:
         """The file of a method.
@@ -65,9 +91,14 @@ class Bridge:
                 f"{self.name} has no {_KINDS[payload.kind]}",
                 f"these have: {', '.join(_holding(payload.kind))}",
             )
-        return self.write(payload)
+        if self.write is not None:
+            return self.write(payload)
+        values = self.values(payload)
+        return text_of(self.name + self.suffix, payload, self.style, values)
 
 
+_ENDINGS = {".hpp": ".cpp"}
+"""Of programs that are no files of the same kind as the tables."""
 _KINDS = {
     "rk": "methods for one vector field",
     "ark": "methods for several vector fields that share their stages",

@@ -64,6 +64,11 @@ def error_weights(found: Table) -> Row | None:
     return tuple(difference(x, y) for x, y in pairs)
 
 
+def error_or_zero(found: Table) -> Row:
+    """The same; zeros where there are no embedded weights."""
+    return error_weights(found) or (ZERO,) * found.stages
+
+
 def begins_at_start(found: Table) -> bool:
     """Whether the first stage is f(t, y) at the beginning of the step."""
     return all(map(vanishes, (*found.A[0], found.c[0])))
@@ -147,6 +152,22 @@ def explicit_table(payload: Payload, target: str) -> Table:
             "sundials, petsc, diffrax and matlab have implicit methods",
         )
     return found
+
+
+def ends_with_value(payload: Payload, target: str) -> Table:
+    """The table with a last stage at the end of the step.
+
+    Raises:
+        CannotExport: the method is implicit, or begins elsewhere than at the beginning.
+    """
+    found = explicit_table(payload, target)
+    if not begins_at_start(found):
+        raise CannotExport(
+            f"the first stage of {target} is at the beginning of a step; that of {payload.name}"
+            " has another node",
+            "boost, desolve and numpy have such methods",
+        )
+    return found if found.is_fsal else with_last_stage(found)
 
 
 def lower_table(payload: Payload, target: str) -> Table:

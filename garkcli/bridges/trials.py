@@ -116,3 +116,18 @@ def command_of(payload: Payload, problem_file: str) -> str:
     trial = trial_of(payload)
     taken = f" --{payload.derivation}" if payload.derivation else ""
     return f"gark converge FILE{taken} --problem {problem_file} --steps {trial.step_sizes}"
+
+
+def cpp_values(payload: Payload, file: str) -> Mapping[str, object]:
+    """What programs of C++ that run an exported header have in common.
+
+    Raises:
+        CannotExport: no header can have the name of the file.
+    """
+    if {'"', "\\"} & set(file) or not file.isprintable():
+        raise CannotExport(
+            f"C++ includes a header by the name of its file, and {file} is none",
+            "-o NAME.hpp, without quotes and backslashes",
+        )
+    words = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
+    return {"header": file, "sides": trial_of(payload).formulas(0, words)}

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.methodfile.load import load, loads
@@ -75,6 +79,25 @@ def test_orders_are_proved_when_the_file_is_written() -> None:
     assert any("order 1 where f depends on t" in line for line in head)
 
 
+@pytest.mark.parametrize("target", [n for n, x in bridges().items() if "rk" in x.kinds])
+def test_stages_that_see_nothing_have_zeros(target: str) -> None:
+    """A method for one vector field without a block is written, with a matrix of zeros for it."""
+    absent = prepared(loads("tableau: {c: [[0, 1/2]], A: [[null]], b: [[1/2, 1/2]]}\n"))
+    zeros = prepared(loads("tableau: {c: [[0, 1/2]], A: [[[[0, 0], [0, 0]]]], b: [[1/2, 1/2]]}\n"))
+    assert absent.A == zeros.A == ((((0, 0), (0, 0)),),)
+    # the orders are those of f that sees nothing
+    absent = replace(absent, orders=zeros.orders)
+    assert attempt(target, absent) == attempt(target, zeros)
+
+
+def attempt(target: str, payload: Payload) -> str:
+    """What a target writes, or why it does not."""
+    try:
+        return bridges()[target].written(payload)
+    except CannotExport as refusal:
+        return refusal.reason
+
+
 def test_a_tolerance_is_named() -> None:
     """Of rounded coefficients the order is one within a tolerance, and the head says so."""
     written = bridges()["numpy"].written(prepared(load(str(ROUNDED))))
@@ -121,6 +144,18 @@ def test_a_test_is_named_after_the_file(tmp_path: Path) -> None:
     assert ascii(name) in program
     compile(program, "program", "exec")
     assert (tmp_path / f"{stem}_problem.yaml").exists()
+
+
+@pytest.mark.parametrize("target", ["boost", "desolve", "scipy", "sundials", "torchdiffeq"])
+def test_a_program_names_the_files_that_are_there(target: str, tmp_path: Path) -> None:
+    """Its head names the program and the problem as they are written, whatever FILE ends with."""
+    rk4 = str(ROOT / "methods/rk4.gark.yaml")
+    run = gark("export", rk4, "--to", target, "--test", "-o", "x.txt", cwd=tmp_path)
+    assert run.code == 0, run.err
+    (program,) = tmp_path.glob("x_test.*")
+    named = re.findall(r"\bx\S*_(?:test|problem)\.\w+", program.read_text(encoding="utf-8"))
+    assert "x_problem.yaml" in named
+    assert [name for name in named if not (tmp_path / name).exists()] == []
 
 
 def test_nothing_is_written_where_there_is_no_test(tmp_path: Path) -> None:

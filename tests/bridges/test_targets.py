@@ -15,7 +15,7 @@ from garkcli.bridges.importing import fmpq_of
 from garkcli.bridges.readers.registry import find_tables, reader_named
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.structure import table
-from garkcli.bridges.tables import with_first_stage, with_last_stage
+from garkcli.bridges.tables import ends_with_value, with_first_stage, with_last_stage
 from garkcli.bridges.targets import torchdiffeq
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
@@ -29,51 +29,91 @@ from tests.bridges.examples import (
     payload_of,
     written,
 )
+from tests.bridges.test_round_trip import READERS
 from tests.cli.harness import ROOT
 
 TEXTS = Path(__file__).parent / "texts"
-OF_RALSTON = (
-    "amrex",
-    "boost",
-    "desolve",
-    "diffrax",
-    "irksome",
-    "julia",
-    "mathematica",
-    "matlab",
-    "mfem",
-    "nodepy",
-    "ordinarydiffeq",
-    "rklab",
-    "rootedtrees",
-    "rungekutta-jl",
-    "tempus",
-    "torchdiffeq",
-    "torchode",
+EXPORTS = (ROOT / "docs/export.md").read_text(encoding="utf-8")
+OF_MIDPOINTS = (
+    *("c", "csv", "dedalus", "diffrax", "fortran", "json", "julia", "latex", "mathematica"),
+    *("matlab", "numpy", "petsc", "rootedtrees", "sundials", "tempus"),
 )
-OF_MIDPOINTS = ("dedalus", "diffrax", "julia", "mathematica", "matlab", "tempus")
-OF_VERLET = ("geometricintegrators", "julia", "matlab", "rootedtrees")
-
-
+OF_VERLET = (
+    *("c", "fortran", "geometricintegrators", "julia", "mathematica", "matlab", "numpy", "petsc"),
+    *("rootedtrees", "sundials"),
+)
+OF_RALSTON = tuple(name for name, bridge in bridges().items() if "rk" in bridge.kinds)
+DENSE = """\
+name: dense
+A: [[0, 0], [1, 0]]
+b: [1/2, 1/2]
+dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}
+"""
+OF_DENSE = ("c", "csv", "fortran", "json", "matlab", "numpy", "petsc", "scipy", "torchdiffeq")
+OF_SDIRK = ("diffrax", "irksome", "mathematica", "nodepy", "petsc", "sundials", "tempus")
 RECORDED = [
     *[(target, "ralston-euler", RALSTON) for target in OF_RALSTON],
     *[(target, "midpoints", MIDPOINTS) for target in OF_MIDPOINTS],
     *[(target, "stoermer-verlet", VERLET) for target in OF_VERLET],
+    *[(target, "dense", DENSE) for target in OF_DENSE],
+    *[(target, "sdirk", SDIRK) for target in OF_SDIRK],
 ]
+RECORDED_IDS = [f"{target}-{name}" for target, name, _ in RECORDED]
+PROGRAMS = [x for x in RECORDED if x[1] != "dense" and bridges()[x[0]].program is not None]
+PROGRAM_IDS = [f"{target}-{name}" for target, name, _ in PROGRAMS]
 
 
-@pytest.mark.parametrize(
-    ("target", "name", "method"), RECORDED, ids=[f"{target}-{name}" for target, name, _ in RECORDED]
-)
+@pytest.mark.parametrize(("target", "name", "method"), RECORDED, ids=RECORDED_IDS)
 def test_recorded_texts(target: str, name: str, method: str) -> None:
     """The whole file, which was run in the target where that was to be had."""
     bridge = bridges()[target]
-    path = TEXTS / f"{target}-{name}{bridge.suffix}.txt"
-    text = written(target, method)
+    compare(TEXTS / f"{target}-{name}{bridge.suffix}.txt", written(target, method))
+
+
+@pytest.mark.parametrize(("target", "name", "method"), PROGRAMS, ids=PROGRAM_IDS)
+def test_recorded_programs(target: str, name: str, method: str) -> None:
+    """The whole program of ``--test``, and its problem, which others have too."""
+    driver = bridges()[target].test_driver
+    assert driver is not None
+    program, _ = driver(payload_of(method), f"table{bridges()[target].suffix}")
+    compare(TEXTS / f"{target}-{name}{program.ending}.txt", program.text)
+
+
+def compare(path: Path, text: str) -> None:
+    """A text is the recorded one; it is recorded where that is asked for."""
     if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
         path.parent.mkdir(exist_ok=True)
         path.write_text(text, encoding="utf-8")
     assert text == path.read_text(encoding="utf-8")
+
+
+def test_no_recorded_text_is_left_over() -> None:
+    """Each file of the folder is compared with something."""
+    kept = {f"{target}-{name}{bridges()[target].suffix}.txt" for target, name, _ in RECORDED}
+    for target, name, _ in PROGRAMS:
+        ending = {".hpp": ".cpp"}.get(bridges()[target].suffix, bridges()[target].suffix)
+        kept.add(f"{target}-{name}_test{ending}.txt")
+    assert {path.name for path in TEXTS.iterdir()} == kept
+
+
+@pytest.mark.parametrize("target", sorted(bridges()))
+def test_a_target_is_recorded_documented_and_read_back(target: str) -> None:
+    """A target that is added without its texts, its row or its reader is found here: its table and
+    its program are recorded, docs/export.md has it, and what is read back is read back in tests.
+    """
+    bridge = bridges()[target]
+    assert target in {x for x, _, _ in RECORDED}
+    if bridge.program is not None:
+        assert target in {x for x, _, _ in PROGRAMS}
+    rows = re.findall(r"^\| (`[^|]+) \|", EXPORTS, re.MULTILINE)
+    assert sum(f"`{target}`" in row for row in rows) == 1
+    assert bridge.reads_back == (target in READERS)
+
+
+def test_the_page_names_no_other_target() -> None:
+    """The first column of the table of docs/export.md is the list of targets."""
+    rows = re.findall(r"^\| (`[^|]+) \|", EXPORTS.partition("\n\n##")[0], re.MULTILINE)
+    assert sorted(re.findall("`([^`]+)`", " ".join(rows))) == sorted(bridges())
 
 
 EXPLICIT = ("amrex", "boost", "desolve", "mfem", "ordinarydiffeq", "torchdiffeq", "torchode")
@@ -164,7 +204,7 @@ def test_a_stage_more_is_the_same_method(make) -> None:  # type: ignore[no-untyp
 def test_the_middle_makes_the_quartic_the_cubic() -> None:
     """Torchdiffeq's quartic, by its own formula, has no fourth power: 16 y(1/2) = …"""
     payload = payload_of(RALSTON)
-    found = torchdiffeq.prepared(payload, "torchdiffeq")
+    found = ends_with_value(payload, "torchdiffeq")
     mid = torchdiffeq.middle(payload, found)
     ends = [fmpq(0)] * found.stages
     ends[0], ends[-1] = fmpq(-2), fmpq(2)
@@ -177,7 +217,7 @@ def test_the_middle_is_that_of_dense_output() -> None:
     """b(1/2) of the polynomials, where the method has them."""
     dense = "dense: {degree: 2, weights: [[1, -3/4], [0, 3/4]]}\n"
     payload = payload_of(RALSTON + dense)
-    found = torchdiffeq.prepared(payload, "torchdiffeq")
+    found = ends_with_value(payload, "torchdiffeq")
     assert payload.dense is not None
     middle = torchdiffeq.middle(payload, found)
     assert middle == (fmpq(5, 16), fmpq(3, 16), 0)

@@ -7,14 +7,13 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
-from garkcli.bridges.c_text import array, c_style, heading
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.registry import Bridge, Written
+from garkcli.bridges.registry import Bridge
 from garkcli.bridges.structure import Table, composition, no_composition, shared, table, vanishes
-from garkcli.bridges.sundials_driver import driver
-
-STYLE = c_style("SUN_RCONST")
+from garkcli.bridges.texts import Values
+from garkcli.bridges.trials import WORDS, trial_of
 
 
 @dataclass(frozen=True)
@@ -32,44 +31,27 @@ class Pair:
     tables: Sequence[Table]
 
 
-def write(payload: Payload) -> str:
-    """A function that makes the table, and one that gives it to an integrator."""
-    if payload.kind == "rk":
-        return _one(payload)
+def values(payload: Payload) -> Values:
+    """The integrator that has it, and its tables."""
     if payload.kind == "prk":
-        return _sprk(payload)
-    return _pair(payload)
-
-
-def _function(payload: Payload) -> str:
-    return f"gark_{payload.stem}"
-
-
-def _one(payload: Payload) -> str:
-    """An explicit or a diagonally implicit method."""
-    found = table(payload)
-    name = _function(payload)
-    check_diagonal(payload, [found], "sundials")
-    _check_first(payload, [found])
-    stepper = "ERKStep" if for_erkstep(found) else "ARKStep"
-    use = f"Use: {stepper}Create, then {name}_set(arkode_mem)."
-    lines = heading(payload, use, *_notes(payload))
-    header = stepper.lower()
-    lines += [
-        f"#include <arkode/arkode_{header}.h>",
-        "",
-        f"ARKodeButcherTable {name}(void);",
-        f"int {name}_set(void *arkode_mem);",
-        "",
-        *_table_function(payload, name, found),
-        "",
-    ]
-    call = f"ERKStepSetTable(arkode_mem, {name}_table)"
-    if stepper == "ARKStep":
-        q, p = _orders(payload)
-        both = f"NULL, {name}_table" if found.is_explicit else f"{name}_table, NULL"
-        call = f"ARKStepSetTables(arkode_mem, {q}, {p}, {both})"
-    return _joined(lines + _setter(name, [f"{name}_table"], [name], call))
+        steps = composition(payload)
+        if steps is None:
+            raise no_composition(payload, "SPRKStep")
+        return {"form": "sprk", "kicks": steps.kicks, "drifts": steps.drifts}
+    if payload.kind == "rk":
+        found = table(payload)
+        check_diagonal(payload, [found], "sundials")
+        _check_first(payload, [found])
+        form = "explicit" if found.is_explicit else "dirk"
+        return {"form": "erk" if for_erkstep(found) else form}
+    pair = pair_of(payload, "sundials")
+    _check_first(payload, pair.tables)
+    return {
+        "form": "ark",
+        "tables": [pair.tables[pair.implicit], pair.tables[pair.explicit]],
+        "implicit": pair.implicit + 1,
+        "explicit": pair.explicit + 1,
+    }
 
 
 def for_erkstep(found: Table) -> bool:
@@ -80,26 +62,6 @@ def for_erkstep(found: Table) -> bool:
     """
     ends_at_one = found.c[-1] == fmpq(1)
     return found.is_explicit and (found.is_fsal or not ends_at_one)
-
-
-def _pair(payload: Payload) -> str:
-    """An explicit and an implicit method, the implicit one first where both are given."""
-    pair = pair_of(payload, "sundials")
-    _check_first(payload, pair.tables)
-    name = _function(payload)
-    names = [f"{name}_implicit", f"{name}_explicit"]
-    fields = f"fe is f{pair.explicit + 1}, fi is f{pair.implicit + 1}"
-    use = f"Use: ARKStepCreate(fe, fi, ...) where {fields}, then {name}_set(arkode_mem)."
-    lines = heading(payload, use, *_notes(payload))
-    lines += ["#include <arkode/arkode_arkstep.h>", ""]
-    lines += [f"ARKodeButcherTable {x}(void);" for x in names]
-    lines += [f"int {name}_set(void *arkode_mem);", ""]
-    for function, colour in zip(names, (pair.implicit, pair.explicit), strict=True):
-        lines += _table_function(payload, function, pair.tables[colour])
-        lines.append("")
-    q, p = _orders(payload)
-    call = f"ARKStepSetTables(arkode_mem, {q}, {p}, Bi, Be)"
-    return _joined(lines + _setter(name, ["Bi", "Be"], names, call))
 
 
 def pair_of(payload: Payload, target: str) -> Pair:
@@ -159,89 +121,17 @@ def _check_first(payload: Payload, tables: Sequence[Table]) -> None:
     )
 
 
-def _notes(payload: Payload) -> list[str]:
-    if payload.embedded is None:
-        return ["No embedded weights (d is NULL): for fixed steps alone."]
-    return []
-
-
-def _orders(payload: Payload) -> tuple[int, int]:
-    """The orders q and p; p is 0 without embedded weights."""
-    orders = payload.orders
-    return orders.effective, orders.embedded or 0
-
-
-def _table_function(payload: Payload, function: str, found: Table) -> list[str]:
-    """A function that makes a table."""
-    s = found.stages
-    q, p = _orders(payload)
-    lines = [f"ARKodeButcherTable {function}(void)", "{"]
-    arrays = [(f"A[{s * s}]", found.A), (f"b[{s}]", (found.b,))]
-    arrays.append((f"c[{s}]", (found.c,)))
-    if found.embedded is not None:
-        arrays.append((f"d[{s}]", (found.embedded,)))
-    for name, rows in arrays:
-        lines += array(payload, f"sunrealtype {name}", rows, STYLE, "  ")
-    d = "NULL" if found.embedded is None else "d"
-    call = f"ARKodeButcherTable_Create({s}, {q}, {p}, c, A, b, {d})"
-    return [*lines, f"  return {call};", "}"]
-
-
-def _setter(name: str, variables: Sequence[str], functions: Sequence[str], call: str) -> list[str]:
-    """A function that gives tables, which are copied, to an integrator."""
-    lines = [f"int {name}_set(void *arkode_mem)", "{", "  int flag = ARK_MEM_FAIL;"]
-    for variable, function in zip(variables, functions, strict=True):
-        lines.append(f"  ARKodeButcherTable {variable} = {function}();")
-    condition = " && ".join(f"{x} != NULL" for x in variables)
-    lines += [f"  if ({condition})", f"    flag = {call};"]
-    lines += [f"  ARKodeButcherTable_Free({x});" for x in variables]
-    return [*lines, "  return flag;", "}"]
-
-
-def _sprk(payload: Payload) -> str:
-    """A symplectic partitioned method, from SUNDIALS 7."""
-    found = composition(payload)
-    if found is None:
-        raise no_composition(payload, "SPRKStep")
-    name = _function(payload)
-    use = (
-        f"Use: SPRKStepCreate(f1, f2, ...) where f1 gives p' = g(q), f2 gives q' = f(p); then "
-        f"SPRKStepSetMethod(arkode_mem, {name}()). From SUNDIALS 6.6 on."
-    )
-    s = len(found.kicks)
-    lines = heading(payload, use)
-    lines += [
-        "#include <arkode/arkode_sprk.h>",
-        "",
-        f"ARKodeSPRKTable {name}(void);",
-        "",
-        f"ARKodeSPRKTable {name}(void)",
-        "{",
-        *array(payload, f"sunrealtype a[{s}]", (found.drifts,), STYLE, "  "),
-        *array(payload, f"sunrealtype ahat[{s}]", (found.kicks,), STYLE, "  "),
-        f"  return ARKodeSPRKTable_Create({s}, {payload.orders.order}, a, ahat);",
-        "}",
-    ]
-    return _joined(lines)
-
-
-def _joined(lines: Sequence[str]) -> str:
-    return "\n".join(lines) + "\n"
-
-
-def test_driver(payload: Payload, file: str) -> list[Written]:
-    """A program that takes fixed steps with ERKStep, ARKStep or SPRKStep."""
-    name = _function(payload)
+def program(payload: Payload, _file: str) -> Values:
+    """For fixed steps; the right-hand sides, the explicit one first."""
+    trial = trial_of(payload)
+    found = values(payload)
     if payload.kind == "prk":
-        return driver(payload, file, name, "sprk", (0, 1))
+        return {**found, "parts": trial.formulas(0, {**WORDS, "y1": "v[0]", "y2": "v[1]"})}
     if payload.kind == "rk":
-        found = table(payload)
-        kind = "explicit" if found.is_explicit else "dirk"
-        if for_erkstep(found):
-            kind = "erk"
-        return driver(payload, file, name, kind, (0,))
+        return {**found, "sides": [trial.formulas(0, WORDS)]}
     pair = pair_of(payload, "sundials")
-    return driver(payload, file, name, "ark", (pair.explicit, pair.implicit))
+    sides = [trial.formulas(l, WORDS) for l in (pair.explicit, pair.implicit)]
+    return {**found, "sides": sides}
 
 
 BRIDGES = (
@@ -250,8 +140,9 @@ BRIDGES = (
         summary="C for ARKODE: ERK, DIRK, ARK pairs, SPRK",
         kinds=("rk", "ark", "prk", "gark"),
         suffix=".c",
-        write=write,
-        test_driver=test_driver,
+        style=c_style("SUN_RCONST"),
+        values=values,
+        program=program,
         reads_back=True,
     ),
 )

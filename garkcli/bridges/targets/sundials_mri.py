@@ -14,23 +14,18 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.bridges.c_text import array, c_style, heading
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
 from garkcli.bridges.rounding import Cell, nearest_float
 from garkcli.bridges.structure import Rows, Table, table, vanishes
+from garkcli.bridges.texts import Values
 from garkcli.exact.field import ONE, ZERO
 from garkcli.tableau.pointwise import Row
 
 if TYPE_CHECKING:
     from garkcli.constructions.multirate import Coupling
-
-STYLE = c_style("SUN_RCONST")
-_EMBEDDING = (
-    "#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 2)"
-)
-"""From 7.2 on there is a row for the embedding."""
 
 
 @dataclass(frozen=True)
@@ -50,50 +45,9 @@ class Slow:
     embedding: tuple[Row, int] | None = None
 
 
-def write(payload: Payload) -> str:
-    """A function that makes the coupling."""
-    slow = slow_part(payload)
-    s = len(slow.nodes)
-    name = f"gark_{payload.stem}_mri"
-    lines = heading(payload, *_notes(payload, slow, name))
-    lines += [
-        "#include <arkode/arkode_mristep.h>",
-        "#include <sundials/sundials_config.h>",
-        "",
-        f"MRIStepCoupling {name}(void);",
-        "",
-        f"MRIStepCoupling {name}(void)",
-        "{",
-        *array(payload, f"sunrealtype c[{s}]", (slow.nodes,), STYLE, "  "),
-    ]
-    for letter, matrices in slow.matrices.items():
-        rows = [row for matrix in matrices for row in matrix]
-        declaration = f"sunrealtype {letter}[{len(rows) * s}]"
-        lines += array(payload, declaration, rows, STYLE, "  ")
-    if slow.embedding is not None:
-        row, _ = slow.embedding
-        lines += [_EMBEDDING, *array(payload, f"sunrealtype d[{s}]", (row,), STYLE, "  "), "#endif"]
-    lines += _assignments(slow)
-    return "\n".join(lines) + "\n"
-
-
-_CREATE = {
-    "W": "MRIStepCreate(slow, NULL, ...)",
-    "G": "MRIStepCreate(NULL, slow, ...)",
-    "WG": "MRIStepCreate(explicit, implicit, ...)",
-}
-_TYPES = {"W": "MRISTEP_EXPLICIT", "G": "MRISTEP_IMPLICIT", "WG": "MRISTEP_IMEX"}
-
-
-def _notes(payload: Payload, slow: Slow, name: str) -> list[str]:
-    create = _CREATE["".join(slow.matrices)]
-    solved = "with the fast equation solved exactly"
-    if payload.coupling is not None:
-        solved = "with the fast steps of the file"
-    return [
-        f"Use: {create}, then MRIStepSetCoupling(arkode_mem, {name}()).",
-        f"The orders q and p are those {solved}.",
-    ]
+def values(payload: Payload) -> Values:
+    """The coupling; the orders of a file's are those with its fast steps."""
+    return {"slow": slow_part(payload), "has_coupling": payload.coupling is not None}
 
 
 def slow_part(payload: Payload) -> Slow:
@@ -145,44 +99,6 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
 def _looks_ahead(matrix: Rows) -> bool:
     """Whether a row, which leads from stage i to the next, has entries beyond column i."""
     return any(any(row[i + 1 :]) for i, row in enumerate(matrix))
-
-
-def _assignments(slow: Slow) -> list[str]:
-    """Entry by entry: MRIStepCoupling_Create reads embeddings with a wrong stride up to 7.9."""
-    s = len(slow.nodes)
-    kind = _TYPES["".join(slow.matrices)]
-    count = max(map(len, slow.matrices.values()))
-    fill: list[str] = []
-    for letter, matrices in slow.matrices.items():
-        for k in range(len(matrices)):
-            start = f"{k * s * s} + " if k else ""
-            entry = f"{letter}[{start}{s} * i + j]"
-            fill.append(f"      C->{letter}[{k}][i][j] = {entry};")
-    embedding: list[str] = []
-    if slow.embedding is not None:
-        embedding = [
-            _EMBEDDING,
-            f"  C->p = {slow.embedding[1]};",
-            f"  for (int j = 0; j < {s}; j++)",
-            f"    C->W[0][{s}][j] = d[j];",
-            "#endif",
-        ]
-    return [
-        f"  MRIStepCoupling C = MRIStepCoupling_Alloc({count}, {s}, {kind});",
-        "  if (C == NULL)",
-        "    return NULL;",
-        f"  C->q = {slow.order};",
-        "  C->p = 0;",
-        f"  for (int i = 0; i < {s}; i++) {{",
-        "    C->c[i] = c[i];",
-        f"    for (int j = 0; j < {s}; j++) {{",
-        *fill,
-        "    }",
-        "  }",
-        *embedding,
-        "  return C;",
-        "}",
-    ]
 
 
 def _refuse(payload: Payload, found: Table) -> None:
@@ -249,6 +165,7 @@ BRIDGES = (
         summary="C for MRIStep: slow methods, MIS and MRI couplings",
         kinds=("rk", "ark", "gark"),
         suffix=".c",
-        write=write,
+        style=c_style("SUN_RCONST"),
+        values=values,
     ),
 )

@@ -9,97 +9,33 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from garkcli.bridges.cannot import CannotExport
-from garkcli.bridges.comments import HASH, head
-from garkcli.bridges.lines import filled
+from garkcli.bridges.numbers import PYTHON
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.python_driver import driver
-from garkcli.bridges.registry import Bridge, Written
+from garkcli.bridges.registry import Bridge
 from garkcli.bridges.rounding import Cell
 from garkcli.bridges.structure import Table
 from garkcli.bridges.tables import (
-    begins_at_start,
     below_diagonal,
     difference,
-    error_weights,
-    explicit_table,
+    ends_with_value,
+    error_or_zero,
     scaled,
-    with_last_stage,
 )
-from garkcli.bridges.targets.numpy_arrays import PYTHON
+from garkcli.bridges.texts import Values
 from garkcli.bridges.trials import WORDS, trial_of
 from garkcli.exact.field import ZERO
 from garkcli.tableau.pointwise import Row
 
-_IMPORTS = (
-    "import importlib",
-    "",
-    "import torch",
-    "from torchdiffeq._impl.rk_common import (",
-    "    RKAdaptiveStepsizeODESolver,",
-    "    _ButcherTableau,",
-    ")",
-    "",
-    "",
-    "def _row(*numbers):",
-    "    return torch.tensor(numbers, dtype=torch.float64)",
-    "",
-    "",
-)
-_HERMITE = "Between steps: the cubic through both ends and their slopes."
-_DENSE = "Between steps: the quartic through both ends, their slopes and the middle."
-_WITHOUT = "There are no embedded weights: every estimate is 0, steps are as large as they may be."
 
-
-def write(payload: Payload) -> str:
-    """A class of solvers, known to ``odeint`` by the method's name."""
-    found = prepared(payload, "torchdiffeq")
-    name = payload.class_name()
-    notes = [
-        "The names imported below are private to torchdiffeq.",
-        f'Use: odeint(f, y0, t, method="{payload.stem}").',
-        _HERMITE if payload.dense is None else _DENSE,
-    ]
-    if found.embedded is None:
-        notes.append(_WITHOUT)
-    lines = HASH.lines(head(payload, *notes))
-    lines += [*_IMPORTS, f"class {name}(RKAdaptiveStepsizeODESolver):"]
-    orders = payload.orders
-    lines += [f"    order = {orders.effective}", "    tableau = _ButcherTableau("]
-    lines += _row(payload, "alpha=_row", found.c[1:])
-    lines.append("        beta=[")
-    for row in below_diagonal(found):
-        lines += _row(payload, "    _row", row)
-    lines.append("        ],")
-    lines += _row(payload, "c_sol=_row", found.b)
-    error = error_weights(found) or (ZERO,) * found.stages
-    lines += _row(payload, "c_error=_row", error)
-    lines.append("    )")
-    numbers = payload.numbers(middle(payload, found), PYTHON)
-    lines += filled(numbers, "    mid = _row(", ")")
-    lines += [
-        "",
-        "",
-        '_solvers = importlib.import_module("torchdiffeq._impl.odeint").SOLVERS',
-        f'_solvers["{payload.stem}"] = {name}',
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def prepared(payload: Payload, target: str) -> Table:
-    """The table with a last stage at the end of the step.
-
-    Raises:
-        CannotExport: the method is implicit, or begins elsewhere than at the beginning.
-    """
-    found = explicit_table(payload, target)
-    if not begins_at_start(found):
-        raise CannotExport(
-            f"the first stage of {target} is at the beginning of a step; that of {payload.name}"
-            " has another node",
-            "boost, desolve and numpy have such methods",
-        )
-    return found if found.is_fsal else with_last_stage(found)
+def values(payload: Payload) -> Values:
+    """The table with its last stage, the weights of the error and of the middle."""
+    found = ends_with_value(payload, "torchdiffeq")
+    return {
+        "table": found,
+        "lower": below_diagonal(found),
+        "error": error_or_zero(found),
+        "middle": middle(payload, found),
+    }
 
 
 def middle(payload: Payload, found: Table) -> Row:
@@ -123,28 +59,10 @@ def _at_middle(coefficients: Row) -> Cell:
     return total
 
 
-def _row(payload: Payload, begin: str, row: Row) -> list[str]:
-    return filled(payload.numbers(row, PYTHON), f"        {begin}(", "),")
-
-
-def test_driver(payload: Payload, file: str) -> list[Written]:
-    """A program with tolerances that accept every step, and steps bounded by h."""
-    first, second = trial_of(payload).formulas(0, _WORDS)
-    body = ["", "", "def f(t, y):", f"    return torch.stack([{first}, {second}])", "", ""]
-    final = [
-        "run = odeint(",
-        "    f, torch.tensor(y0, dtype=torch.float64),",
-        "    torch.tensor([0.0, t_end], dtype=torch.float64),",
-        f'    method="{payload.stem}", rtol=1e3, atol=1e6,',
-        '    options={"first_step": h, "max_step": h},',
-        ")",
-        "y = run[-1]",
-    ]
-    imports = ["import torch", "from torchdiffeq import odeint"]
-    return driver(payload, file, imports, body, final)
-
-
-_WORDS = {**WORDS, "sin": "torch.sin", "cos": "torch.cos"}
+def program(payload: Payload, _file: str) -> Values:
+    """For tolerances that accept every step, and steps bounded by h."""
+    words = {**WORDS, "sin": "torch.sin", "cos": "torch.cos"}
+    return {"sides": trial_of(payload).formulas(0, words)}
 
 
 BRIDGES = (
@@ -153,7 +71,8 @@ BRIDGES = (
         summary="torchdiffeq: a module that registers a solver, explicit methods",
         kinds=("rk",),
         suffix=".py",
-        write=write,
-        test_driver=test_driver,
+        style=PYTHON,
+        values=values,
+        program=program,
     ),
 )

@@ -1,0 +1,182 @@
+"""The files of targets: what their templates are given, and what these may print.
+
+No text of a file is given to a template: the name of a method is an identifier of the language,
+and what is said about it is a comment already. Only texts and whole numbers can be printed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import PurePath
+from typing import TYPE_CHECKING, TypeAlias
+
+from garkcli.bridges.comments import BANG, HASH, PERCENT, STARRED, XML, C, Comment, head
+from garkcli.bridges.lines import COLUMNS, filled
+from garkcli.bridges.numbers import Style
+from garkcli.bridges.payload import Payload
+from garkcli.bridges.structure import table
+from garkcli.bridges.trials import STEPS, command_of, trial_of
+from garkcli.tableau.pointwise import Row
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+Values: TypeAlias = Mapping[str, object]
+"""What one target gives to its template, beyond what all have."""
+
+
+@dataclass(frozen=True)
+class Language:
+    """How the files of an ending are written.
+
+    Attributes:
+        comment: its comments.
+        names: its words, a key of ``RESERVED``.
+        joint: what is between two numbers.
+        continuation: what ends a line that goes on.
+        width: of lines of numbers.
+    """
+
+    comment: Comment
+    names: str
+    joint: str = ", "
+    continuation: str = ""
+    width: int = COLUMNS
+
+
+_PYTHON = Language(HASH, "python")
+_C = Language(C, "cpp", width=96)
+_CPP = Language(C, "cpp")
+LANGUAGES: Mapping[str, Language] = {
+    ".R": Language(HASH, "r"),
+    ".c": _C,
+    ".cpp": _CPP,
+    ".f90": Language(BANG, "cpp", continuation=" &", width=98),
+    ".h": _C,
+    ".hpp": _CPP,
+    ".inputs": _PYTHON,
+    ".jl": Language(HASH, "julia"),
+    ".m": Language(PERCENT, "matlab", " ", " ..."),
+    ".py": _PYTHON,
+    ".tsv": _PYTHON,
+    ".wl": Language(STARRED, "mathematica"),
+    ".xml": Language(XML, "python"),
+}
+"""By the ending of a file; the lines of C and of Fortran are longer than those of the others."""
+
+
+def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
+    """The text that a template makes.
+
+    Args:
+        file: what the template writes, ``scipy.py``; it lies in ``templates/scipy.py.jinja``.
+        payload: the method.
+        style: of its numbers.
+        values: what the target has computed.
+    """
+    template = _environment().get_template(f"{file}.jinja")
+    language = LANGUAGES[PurePath(file).suffix]
+    return template.render(_given(payload, language, style), **values)
+
+
+def program_values(payload: Payload, file: str, ending: str) -> Values:
+    """What templates of programs have beyond the others.
+
+    Args:
+        payload: the method.
+        file: the name of the file with its table, no folder.
+        ending: of the program.
+    """
+    mark = LANGUAGES[ending].comment
+    stem = PurePath(file).stem
+    texts = {"file": file, "stem": stem, "command": command_of(payload, f"{stem}_problem.yaml")}
+
+    def comment(*notes: str) -> str:
+        """Notes in which ``{file}``, ``{stem}`` and ``{command}`` stand for what these are."""
+        return "\n".join(mark.lines(note.format(**texts) for note in notes))
+
+    return {"comment": comment, "trial": trial_of(payload), "steps": STEPS, "module": ascii(file)}
+
+
+def _given(payload: Payload, language: Language, style: Style) -> dict[str, object]:
+    """What every template has: the method, its names, and how its numbers become lines."""
+
+    def heading(*notes: object) -> str:
+        wanted = [str(note) for note in notes if note]
+        return "\n".join(language.comment.lines(head(payload, *wanted)))
+
+    def filled_lines(begin: str, texts: Sequence[str], end: str) -> list[str]:
+        joint, continuation = language.joint, language.continuation
+        return filled(texts, begin, end, joint, continuation, language.width)
+
+    def texts(cells: Row, *before: object) -> list[str]:
+        return [*map(str, before), *payload.numbers(cells, style)]
+
+    def listed(begin: str, items: Iterable[str], end: str) -> str:
+        return "\n".join(filled_lines(begin, [*items], end))
+
+    def row(begin: str, cells: Row, end: str) -> str:
+        return listed(begin, texts(cells), end)
+
+    def matrix(
+        begin: str, rows: Sequence[Row], end: str, last: str | None = None, then: str | None = None
+    ) -> str:
+        """A row a line at least; the last one may end, and those after the first begin, apart."""
+        lines: list[str] = []
+        for place, cells in enumerate(rows):
+            start = begin if then is None or not place else then
+            close = end if last is None or place < len(rows) - 1 else last
+            lines += filled_lines(start, texts(cells), close)
+        return "\n".join(lines)
+
+    orders = payload.orders
+    return {
+        "heading": heading,
+        "texts": texts,
+        "listed": listed,
+        "row": row,
+        "matrix": matrix,
+        "name": payload.identifier(language.names),
+        "class_name": payload.class_name(language.names),
+        "stem": payload.stem,
+        "kind": payload.kind,
+        "size": payload.size,
+        "stages": payload.stages,
+        "order": orders.order,
+        "effective": orders.effective,
+        "embedded_order": orders.embedded,
+        "A": payload.A,
+        "b": payload.b,
+        "c": payload.c,
+        "embedded": payload.embedded,
+        "dense": payload.dense,
+        "table": table(payload) if payload.kind == "rk" else None,
+    }
+
+
+@cache
+def _environment() -> Environment:
+    """The templates, which write source texts: nothing is escaped."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    return Environment(
+        loader=PackageLoader("garkcli.bridges"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        finalize=printed,
+    )
+
+
+def printed(value: object) -> object:
+    """A text or a whole number.
+
+    Raises:
+        TypeError: it is something else, which a template would print as Python writes it.
+    """
+    if isinstance(value, bool) or not isinstance(value, (str, int)):
+        raise TypeError(f"a template prints {type(value).__name__}")
+    return value
