@@ -106,10 +106,12 @@ def summed(count: int, term: str = "x{}") -> str:
     return "+".join(term.format(k) for k in range(count))
 
 
-def many(first: str) -> str:
-    """A matrix of 200 rows whose entries are a parameter p and a number, all different."""
-    rows = "".join(f"- [{', '.join(f'p+{200 * i + j}' for j in range(200))}]\n" for i in range(200))
-    return f"parameters: {{{first}}}\nA:\n{rows}b: [{', '.join(['1/200'] * 200)}]\n"
+def many(first: str, stages: int = 80) -> str:
+    """A matrix whose entries are a parameter p and a number, all different."""
+    numbers = range(stages)
+    rows = "".join(f"- [{', '.join(f'p+{stages * i + j}' for j in numbers)}]\n" for i in numbers)
+    weights = ", ".join([f"1/{stages}"] * stages)
+    return f"parameters: {{{first}}}\nA:\n{rows}b: [{weights}]\n"
 
 
 HOSTILE: dict[str, str | bytes] = {
