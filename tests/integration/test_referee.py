@@ -20,6 +20,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import garkcli
 from garkcli import find_order, load, loads
 from garkcli.check.deciding import analyse
 from garkcli.check.proof import prove_method
@@ -95,7 +96,7 @@ def test_every_method_is_proved(
     ]
 
 
-CATALOGUE = sorted((ROOT / "garkcli/catalogue/data").rglob("*.gark.yaml"))
+CATALOGUE = sorted((Path(garkcli.__file__).parent / "catalogue/data").rglob("*.gark.yaml"))
 
 
 def test_the_catalogue_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
