@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.check.analysis import conjugate_and_pair, is_pair_of_itself
+from garkcli.check.analysis import conjugate_and_pair
 from garkcli.doing import doing
 from garkcli.errors import MethodError
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -31,12 +31,6 @@ class MethodProof:
     conjugate: Proof | None
     pair: Proof | None
     obstacle: str
-
-    @property
-    def is_own_pair(self) -> bool:
-        """Whether the method is partitioned and the pair that is made of it."""
-        both = self.pair
-        return both is not None and is_pair_of_itself(self.method.tableau, both.tableau)
 
     def __repr__(self) -> str:
         proofs = {"conjugate": self.conjugate, "pair": self.pair}

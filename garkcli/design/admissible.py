@@ -30,12 +30,6 @@ def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
     yield from family.not_negative
 
 
-def has_signs(family: Family) -> bool:
-    """Whether a file asks for signs of its parameters, or for one of several roots."""
-    is_meant = any(radical.meant is not None for radical in family.radicals)
-    return is_meant or bool(family.positive) or any(not_negative(family))
-
-
 def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
     """Whether a real solution is a method of a family: even roots are not negative, parameters are
     within their ranges, and what is wanted of signs holds.

@@ -32,11 +32,6 @@ class Option:
     default: str = ""
 
     @property
-    def is_coefficient(self) -> bool:
-        """Whether it is a coefficient, exact like any other."""
-        return not self.words and self.smallest is None
-
-    @property
     def example(self) -> str:
         """What may stand behind its key."""
         if self.words:

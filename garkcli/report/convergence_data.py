@@ -13,7 +13,6 @@ from garkcli.exact.display import to_float
 from garkcli.page.figures import for_programs
 from garkcli.page.plain import csv_cell
 from garkcli.problems.oscillator import Oscillator
-from garkcli.report.problem_json import name_of
 
 DIGITS = 6
 """Of errors."""
@@ -40,11 +39,6 @@ class Entry:
     result: Convergence | None
     faults: tuple[Fault, ...]
     exit_code: int
-
-
-def problem_name(result: Convergence) -> str:
-    """What --problem calls it."""
-    return name_of(result.problem)
 
 
 def invariant_names(result: Convergence) -> list[str]:

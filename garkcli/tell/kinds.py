@@ -68,7 +68,6 @@ EXACTS = Kind(
 )
 TOLERANCE = Kind(S.TEXT, lambda x, _: decimal(x), lambda x, d: decimal(x))
 TREE = Kind(S.TEXT, lambda x, _: format_tree(x), lambda x, d: d.tree(x))
-REASON = Kind(S.TEXT, lambda x, d: d.reason(x), lambda x, d: d.reason(x))
 
 
 def truth(value: bool | None, why: Reason | str = "", open_because: Reason | str = "") -> Answer:
@@ -104,34 +103,6 @@ BLOCKS = Kind(
     array(BLOCK),
     lambda x, _: numbers_from_one(x),
     lambda x, d: d.few([d.place("a", place, ()) for place in x]),
-)
-
-
-class Place:
-    """An entry of a block or of a row of weights, counted from 0.
-
-    Args:
-        letter: a, b, c or â.
-        colours: of the block, or of the row.
-        indices: of the entry; none for the whole.
-    """
-
-    def __init__(self, letter: str, colours: Sequence[int], *indices: int) -> None:
-        self.letter = letter
-        self.colours = tuple(colours)
-        self.indices = indices
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Place) and vars(self) == vars(other)
-
-    def __hash__(self) -> int:
-        return hash((self.letter, self.colours, self.indices))
-
-
-PLACE = Kind(
-    S.TEXT,
-    lambda x, d: d.place(x.letter, x.colours, x.indices),
-    lambda x, d: d.place(x.letter, x.colours, x.indices),
 )
 
 
