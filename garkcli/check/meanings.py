@@ -20,14 +20,14 @@ from garkcli.glossary.fields import field_entries
 from garkcli.glossary.labels import key_of
 from garkcli.glossary.registry import plain
 
-__all__ = ["Meaning", "claim_meaning", "known_words", "meanings", "term_meaning"]
+__all__ = ["Meaning", "claim_meaning", "explain", "known_words", "term_meaning"]
 _FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")
 """Where the label of a line ends: a number or a tree follows."""
 _SURELY = 8
 """Letters that a pasted message has in common with one of the program."""
 
 
-def meanings(word: str) -> list[Meaning]:
+def explain(word: str) -> list[Meaning]:
     """What a word means, in every sense that it has: ``gark explain``.
 
     Args:

@@ -32,13 +32,13 @@ def command(words: tuple[str, ...], output: Output) -> int:
     such as compose.steps, a family, a transfer rule, a problem, the code of an error or its
     message. Without one the terms are listed.
     """
-    from garkcli.check.meanings import meanings
+    from garkcli.check.meanings import explain
     from garkcli.report import meaning as report
 
     if not words:
         output.write(report.render_list(output.format))
         return 0
     word = " ".join(words)
-    found = meanings(word)
+    found = explain(word)
     output.write(report.render(word, found, output.format, output.paint))
     return 0

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.api.files import loads_problem
-from garkcli.check.meanings import meanings
+from garkcli.check.meanings import explain
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.glossary.faults import HOLE, UNKNOWN, FaultKind, by_code, code_of, codes_of
 from garkcli.methodfile.load import loads
@@ -126,14 +126,14 @@ def test_the_example_has_the_fault(kind: FaultKind, monkeypatch: pytest.MonkeyPa
     is_command = kind.example.startswith("$ ")
     found = (_codes_of_run if is_command else _codes_of_file)(kind.example)
     assert kind.code in found
-    (meaning,) = [x for x in meanings(kind.code) if x.kind == "error"]
+    (meaning,) = [x for x in explain(kind.code) if x.kind == "error"]
     assert meaning.cure.endswith(".")
     assert meaning.text.endswith(".")
 
 
 def test_messages_are_words_of_explain() -> None:
     """A message that is pasted leads to its kind; nonsense does not."""
-    (meaning,) = meanings("the file: unknown key 'nam'; did you mean 'name'?")
+    (meaning,) = explain("the file: unknown key 'nam'; did you mean 'name'?")
     assert (meaning.kind, meaning.name) == ("error", "unknown-key")
     assert code_of("nonsense") == UNKNOWN
     run = gark("explain", "zzzq")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from garkcli.check.findings import KINDS
-from garkcli.check.meanings import known_words, meanings
+from garkcli.check.meanings import explain, known_words
 from garkcli.errors import UsageProblem
 from garkcli.glossary.labels import label_of
 from garkcli.glossary.registry import TOPICS, by_word, plain, terms_of
@@ -71,15 +71,15 @@ def test_a_term_is_whole(term: Term) -> None:
     for name in term.see:
         assert by_word()[name].name == name, name
     for label in term.labels:
-        assert any(x.kind == "term" for x in meanings(label)), label
+        assert any(x.kind == "term" for x in explain(label)), label
 
 
 def test_no_two_terms_have_one_name() -> None:
     """Each name and label leads to one term."""
     words = [x for term in TERMS for x in (term.name, *term.labels)]
     assert len(words) == len(set(words))
-    assert meanings("b")[0].name == "weight"
-    assert meanings("B")[0].name == "B(r)"
+    assert explain("b")[0].name == "weight"
+    assert explain("B")[0].name == "B(r)"
     several = {plain(x) for x in words if len(x) > 1}
     assert len(several) == sum(len(x) > 1 for x in words)
 
@@ -104,7 +104,7 @@ def unexplained(text: str) -> list[str]:
 def known(word: str) -> bool:
     """Whether a word has a meaning."""
     try:
-        return bool(meanings(word))
+        return bool(explain(word))
     except UsageProblem:
         return False
 
@@ -176,7 +176,7 @@ def test_every_word_has_a_meaning() -> None:
     some = {"transfer", "a-stable", "gauss", "collocation", "yoshida-6"}
     assert {*some, *KINDS} <= {*words}
     for word in words:
-        assert all(meaning.text.strip() for meaning in meanings(word)), word
+        assert all(meaning.text.strip() for meaning in explain(word)), word
 
 
 def test_words_are_told() -> None:

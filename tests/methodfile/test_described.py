@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.check.meanings import meanings
+from garkcli.check.meanings import explain
 from garkcli.cli.project import _READERS
 from garkcli.glossary.key import KINDS, keys_of
 from garkcli.methodfile.described import claimed_keys, column_keys, wanted_keys
@@ -92,5 +92,5 @@ def test_every_key_is_a_word() -> None:
             name = path.rpartition(".")[2]
             is_word = keys_of(kind)[path].is_word and len(name) > 1
             for word in (path, name) if is_word else (path,):
-                found = {(x.kind, x.name) for x in meanings(word)}
+                found = {(x.kind, x.name) for x in explain(word)}
                 assert (f"key of {files}", path) in found, word

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from garkcli.check.meanings import meanings
+from garkcli.check.meanings import explain
 from garkcli.glossary.data import read
 from garkcli.glossary.fields import ORDERS, field_entries
 from garkcli.report.field_texts import fields_of, text_of
@@ -71,15 +71,15 @@ def test_every_verdict_is_a_word() -> None:
                 found |= {x for x in schema.get("enum", []) if x}
     assert len(found) > 15
     for word in found:
-        assert meanings(word), word
+        assert explain(word), word
 
 
 def test_every_field_is_a_word() -> None:
     """What gark explain tells: each field, as a term, a claim or a key, or by its entry."""
     for name, text in field_entries().items():
         assert text.endswith("."), name
-        assert meanings(name), name
-    (found,) = meanings("simplifying")
+        assert explain(name), name
+    (found,) = explain("simplifying")
     assert (found.kind, found.name) == ("field of JSON reports", "simplifying")
 
 

@@ -1,0 +1,42 @@
+"""The public names: one table, of which the stub for type checkers is made."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import garkcli
+
+STUB = Path(garkcli.__file__).with_suffix(".pyi")
+CATALOGUE = "catalogue"
+
+
+def stub() -> str:
+    """Every public name from its home, as type checkers read it."""
+    homes = {name: home for name, home in garkcli.HOMES.items() if name != home}
+    homes |= {"Catalogue": "catalogue.mapping", "__version__": "version"}
+    lines = [
+        "# made from the table in __init__.py by GARK_UPDATE_SNAPSHOTS=1 pytest tests/api",
+        *sorted(f"from garkcli.{home} import {name} as {name}" for name, home in homes.items()),
+        "",
+        "NAMES: dict[str, dict[str, str]]",
+        "HOMES: dict[str, str]",
+        "__all__: list[str]",
+        f"{CATALOGUE}: Catalogue",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def test_the_stub_is_made_from_the_table() -> None:
+    """Type checkers see what the package has, from where it is."""
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        STUB.write_text(stub(), encoding="utf-8")
+    assert STUB.read_text(encoding="utf-8") == stub()
+
+
+def test_no_name_is_listed_twice() -> None:
+    """Each public name has one home and one topic."""
+    names = [
+        name for homes in garkcli.NAMES.values() for some in homes.values() for name in some.split()
+    ]
+    assert len(names) == len(set(names)) == len(garkcli.__all__)
