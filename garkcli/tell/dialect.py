@@ -6,8 +6,9 @@ others change signs. Sentences are shared.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
@@ -21,7 +22,7 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
-from garkcli.page.paint import Paint, aligned, folded, shown_width
+from garkcli.page.paint import Paint, folded, shown_width
 from garkcli.page.plain import inert, printable
 from garkcli.trees.notation import format_tree
 
@@ -39,8 +40,19 @@ LONG = 40
 """Longer exact numbers are shown as decimals where that is enough."""
 LONG_POLYNOMIAL = 320
 """Longer polynomials are described."""
+WORDS = 24
+"""Columns of the terminal that are enough for words."""
 FEW = 4
 """So many of a list are named; the others are counted."""
+
+
+def _beside(columns: Sequence[Sequence[str]], widths: Sequence[int]) -> Iterator[str]:
+    """The lines of a table; long cells are folded."""
+    for row in zip(*columns, strict=True):
+        cells = [folded(x, width, "") for x, width in zip(row, widths, strict=True)]
+        for texts in zip_longest(*cells, fillvalue=""):
+            padded = (x + " " * (w - shown_width(x)) for x, w in zip(texts, widths, strict=True))
+            yield "  ".join(padded).rstrip()
 
 
 @dataclass
@@ -282,9 +294,31 @@ class Plain:
             lines += [margin + " " * room + line for line in rest]
         return lines
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-        """A table."""
-        return aligned([head, *rows], right=False)
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
+        """A table. A last column of words is folded where it does not fit; other columns that do
+        not fit continue below, each time beside the first one.
+        """
+        columns = [*zip(head, *rows, strict=True)]
+        widths = [max(map(shown_width, column)) for column in columns]
+        room = self.width - 2 * depth
+        before = sum(widths[:-1]) + 2 * (len(columns) - 1)
+        if before + widths[-1] > room >= before + WORDS:
+            widths[-1] = room - before
+        lines: list[str] = []
+        start = 1
+        while start < len(columns) or not lines:
+            end = start + 1
+            while end < len(columns) and sum(widths[start : end + 1]) + widths[0] <= room - 2 * (
+                end + 1 - start
+            ):
+                end += 1
+            lines += _beside([columns[0], *columns[start:end]], [widths[0], *widths[start:end]])
+            start = end
+        return self.indent(lines, depth)
+
+    def more(self, count: int, depth: int) -> list[str]:
+        """So many rows of a table are left out."""
+        return self.indent([f"… {count} more with -v"], depth)
 
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         """Lines of a part."""

@@ -143,6 +143,8 @@ class Kind:
         section: of a value that has facts of its own.
         is_list: whether the value is a list of such.
         is_never_empty: whether that has an entry at least.
+        most: of a list that is always a table, so many rows of it are usual.
+        absent: what a table has where there is no value.
     """
 
     schema: Schema
@@ -158,6 +160,8 @@ class Kind:
     section: Section | None = None
     is_list: bool = False
     is_never_empty: bool = False
+    most: int | None = None
+    absent: str = ""
 
     def __call__(self, value: Any) -> Said:
         """A value of this kind in a reason."""
@@ -350,6 +354,13 @@ def picture(lines: Callable[[Any, Plain], list[str]]) -> Kind:
 def parts(section: Section, words: Words | None = None) -> Kind:
     """A list of such values."""
     return Kind({}, section=section, is_list=True, words=words)
+
+
+def table(section: Section, most: int, is_data: bool = True) -> Kind:
+    """A list of flat parts, a line each, of which so many are usual. Where the first column has no
+    label of its own, that of the list is its head.
+    """
+    return Kind({}, section=section, is_list=True, most=most, is_data=is_data)
 
 
 def via(get: Callable[[Any], Any], rows: Iterable[Row]) -> list[Row]:

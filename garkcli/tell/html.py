@@ -66,11 +66,14 @@ class Html(Plain):
         body = [f"<tr><th>{label}</th><td>{text}</td></tr>" for label, text in rows]
         return ["<table>", *body, "</table>"]
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
         def row(cells: Sequence[str], tag: str) -> str:
             return f"<tr>{''.join(f'<{tag}>{x}</{tag}>' for x in cells)}</tr>"
 
         return ["<table>", row(head, "th"), *(row(x, "td") for x in rows), "</table>"]
+
+    def more(self, count: int, depth: int) -> list[str]:
+        return [f"<p>… {count} more</p>"]
 
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         return list(lines)

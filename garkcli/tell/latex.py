@@ -119,7 +119,7 @@ class Latex(Plain):
             r"\begin{tabular}{lp{.7\linewidth}}", r"\hline", *body, r"\hline", r"\end{tabular}", "",
         ]  # fmt: skip
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
         body = [rf"{' & '.join(row)} \\" for row in rows]
         return [
             rf"\begin{{tabular}}{{{'l' * len(head)}}}",

@@ -46,13 +46,16 @@ class Markdown(Plain):
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         return ["| | |", "|---|---|", *(f"| {label} | {text} |" for label, text in rows), ""]
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
         return [
             f"| {' | '.join(head)} |",
             "|---" * len(head) + "|",
             *(f"| {' | '.join(row)} |" for row in rows),
             "",
         ]
+
+    def more(self, count: int, depth: int) -> list[str]:
+        return [*super().more(count, 0), ""]
 
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         return list(lines)

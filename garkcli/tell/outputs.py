@@ -48,7 +48,8 @@ def phrases(section: Section, whole: Any, d: Plain, level: Level) -> Iterator[st
 
 def _is_said(fact: Fact) -> bool:
     """Whether a fact can be a part of a sentence."""
-    return fact.row.kind.lines is None and fact.row.kind.rows is None
+    kind = fact.row.kind
+    return kind.lines is None and kind.rows is None and kind.most is None
 
 
 def phrase(fact: Fact, d: Plain) -> str:
@@ -71,7 +72,7 @@ def cell(fact: Fact, d: Plain) -> str:
     """A fact in a table: its value as it is known, nothing besides."""
     kind, answer = fact.row.kind, fact.answer
     if answer.value is None:
-        return "?" if answer.status.open else ""
+        return "?" if answer.status.open else d.prose(kind.absent)
     if kind.cell is not None:
         return kind.cell(answer.value, d)
     if kind.words is None:
@@ -102,7 +103,7 @@ def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> It
             continue
         if fact.row.is_short and level >= Level.DETAIL:
             continue
-        if kind.lines is not None or _is_opened(fact, level):
+        if kind.lines is not None or kind.most is not None or _is_opened(fact, level):
             below.append(fact)
         elif kind.rows is not None:
             rows += kind.rows(fact.value, d)
@@ -154,10 +155,7 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
         assert kind.lines is not None
         yield from d.picture(kind.lines(value, d), depth)
     elif kind.is_list and section.title is None:
-        yield from d.title(label(fact, d), depth)
-        shown = [[f for f in section.facts(x) if f.level < Level.DATA] for x in value]
-        head = [label(f, d) for f in shown[0]]
-        yield from d.indent(d.grid(head, [[cell(f, d) for f in row] for row in shown]), depth + 1)
+        yield from table(fact, d, level, depth)
     else:
         for part in value if kind.is_list else [value]:
             lines = list(body(section, part, d, level, depth + 1))
@@ -167,18 +165,41 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
                 yield from lines
 
 
+def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
+    """A list of flat parts, a line each; of a long one usually the first."""
+    section, most = fact.row.kind.section, fact.row.kind.most
+    assert section is not None
+    values = fact.value if level >= Level.DETAIL else fact.value[:most]
+    shown = [[x for x in section.facts(part, level) if x.level <= level] for part in values]
+    heads = [label(x, d) for x in shown[0]]
+    rows = [[cell(x, d) for x in row] for row in shown]
+    if heads[0]:
+        yield from d.title(label(fact, d), depth)
+        depth += 1
+    heads[0] = heads[0] or label(fact, d)
+    yield from d.grid(*filled(heads, rows), depth)
+    if more := len(fact.value) - len(values):
+        yield from d.more(more, depth + 1)
+
+
+def filled(
+    heads: Sequence[str], rows: Sequence[Sequence[str]]
+) -> tuple[list[str], list[list[str]]]:
+    """A table without the columns that nothing fills."""
+    kept = [i for i in range(len(heads)) if any(row[i] for row in rows)]
+    return [heads[i] for i in kept], [[row[i] for i in kept] for row in rows]
+
+
 def many(form: Form, wholes: Sequence[Any], dialect: Callable[[Any], Plain]) -> Iterator[str]:
     """Several results, a line each; columns that nothing fills are left out."""
     keys = form(wholes[0]).columns
     heads = list(keys)
-    table = []
+    rows = []
     for whole in wholes:
         d = dialect(whole)
         facts = form(whole).named(whole, keys)
-        table.append([cell(facts[key], d) if key in facts else "" for key in keys])
+        rows.append([cell(facts[key], d) if key in facts else "" for key in keys])
         heads = [
             label(facts[x], d) if x in facts else head for x, head in zip(keys, heads, strict=True)
         ]
-    kept = [i for i in range(len(keys)) if any(row[i] for row in table)]
-    rows = [[row[i] for i in kept] for row in table]
-    yield from dialect(wholes[0]).grid([heads[i] for i in kept], rows)
+    yield from dialect(wholes[0]).grid(*filled(heads, rows))

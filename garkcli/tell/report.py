@@ -64,6 +64,17 @@ class Report(Generic[Whole]):
     tail: Section = NOTHING
     is_open: bool = False
 
+    @classmethod
+    def only(
+        cls,
+        schema_name: str,
+        title: str,
+        section: Section,
+        signs: Callable[[Whole], Mapping[str, Any]] = lambda _: {},
+    ) -> Report[Whole]:
+        """A report of one result, whose fields are at the top, by one section."""
+        return cls(schema_name, title, lambda: [section], lambda _: section, signs, key="")
+
     def render(
         self,
         wholes: Sequence[Whole],

@@ -21,7 +21,8 @@ from garkcli.glossary.labels import label_of
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
-from garkcli.tell.facts import Row, Section, part
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Row, Section, part, table
 from garkcli.tell.kinds import COUNT, TEXT
 from garkcli.tell.report import Report
 from tests.cli.harness import ROOT, gark
@@ -246,3 +247,47 @@ def test_a_row_is_in_every_format() -> None:
     assert "17" in cells
     assert any("23" in cell and "a_b <c>" in cell for cell in cells)
     assert "17" not in without.html(whole)
+
+
+def test_a_table_shows_its_first_rows() -> None:
+    """A list as a table: so many rows usually, all with details and in JSON; every format says how
+    many are left out, and a column that nothing fills is left out.
+    """
+    flat = Section(
+        Row("which", TEXT, lambda x: f"w{x}", label=""),
+        Row("count", COUNT, lambda x: x),
+        Row("void", COUNT, lambda _: None, has_null=True),
+    )
+    whole = Section(
+        Row("answer", COUNT, lambda _: 42), Row("list", table(flat, 2), lambda x: range(x))
+    )
+    report: Report[int] = Report.only("gark/list/1", "lists", whole)
+    usual, all_of_it = report.render([5]), report.render([5], verbosity=1)
+    assert usual.splitlines()[-4:] == [
+        "  list  count",
+        "  w0    0",
+        "  w1    1",
+        "    … 3 more with -v",
+    ]
+    assert "w4" in all_of_it
+    assert "more" not in all_of_it
+    assert "… 3 more" in report.render([5], "markdown")
+    assert "… 3 more</p>" in report.html(5)
+    assert r"w4 & 4 \\" in report.render([5], "latex")
+    assert len(report.data(5)["list"]) == 5
+    assert "void" not in all_of_it
+
+
+def test_a_wide_table_continues_below() -> None:
+    """Columns that do not fit stand below, beside the first one again; words are folded."""
+    d = Plain(width=40)
+    lines = d.grid(["", *"abcdefgh"], [["row", *(x * 9 for x in "abcdefgh")]])
+    assert max(map(len, lines)) <= 40
+    assert [line.split() for line in lines[:2]] == [
+        ["a", "b", "c"],
+        ["row", *("a" * 9, "b" * 9, "c" * 9)],
+    ]
+    assert sum(line.startswith("row") for line in lines) == 3
+    folded = d.grid(["name", "what"], [["x", "words " * 12]])
+    assert len(folded) == 4
+    assert max(map(len, folded)) <= 40
