@@ -18,6 +18,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.errors import TooManyTerms
+from garkcli.exact.rewriting import name_latex
 
 MAX_TERMS = 500_000
 """Most terms of a product, multiplied out."""
@@ -92,7 +93,7 @@ class Parameters:
         return text.removeprefix("+") or "0"
 
     def _power_latex(self, name: str, exponent: int) -> str:
-        letter = _letter(name)
+        letter = name_latex(name)
         if name in self.shown:
             _, letter = self.shown[name]
         return letter if exponent == 1 else f"{letter}^{{{exponent}}}"
@@ -155,25 +156,6 @@ class Parameters:
         """Note that a polynomial is taken for different from 0."""
         if self._told_apart is not None and not polynomial.is_constant():
             self._told_apart[str(polynomial)] = polynomial
-
-
-_GREEK = {
-    *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta"),
-    *("iota", "kappa", "lambda", "mu", "nu", "xi", "pi", "rho", "sigma"),
-    *("tau", "upsilon", "phi", "chi", "psi", "omega"),
-}
-
-
-def _letter(name: str) -> str:
-    """The name of a parameter in LaTeX: a21 is an a with indices."""
-    letters = name.rstrip("0123456789_")
-    index = name[len(letters) :].strip("_").replace("_", ",")
-    head = letters.replace("_", r"\_")
-    if head in _GREEK:
-        head = f"\\{head} "
-    elif len(head) > 1:
-        head = rf"\mathrm{{{head}}}"
-    return f"{head.strip()}_{{{index}}}" if index else head
 
 
 def _coefficient_latex(a: fmpq, powers: str) -> str:

@@ -119,7 +119,7 @@ class PlainText:
             case Literal(value=value):
                 return self.number(value)
             case Name(name=name):
-                return name
+                return self.name(name)
             case Chain():
                 return self.chain(expression)
             case Power(base=base, exponent=exponent):
@@ -150,6 +150,10 @@ class PlainText:
         if is_whole_number or isinstance(expression, (Name, Root, AlgebraicRoot, Call)):
             return text
         return f"({text})"
+
+    def name(self, name: str) -> str:
+        """A parameter or an unknown."""
+        return name
 
     def number(self, value: fmpq) -> str:
         """A rational number."""
@@ -201,8 +205,80 @@ class PlainText:
         return f"{a}*{power}"
 
 
+_GREEK = {
+    *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta"),
+    *("iota", "kappa", "lambda", "mu", "nu", "xi", "pi", "rho", "sigma"),
+    *("tau", "upsilon", "phi", "chi", "psi", "omega"),
+}
+
+
+def name_latex(name: str) -> str:
+    """The name of a parameter in LaTeX: a21 is an a with indices."""
+    letters = name.rstrip("0123456789_")
+    index = name[len(letters) :].strip("_").replace("_", ",")
+    head = letters.replace("_", r"\_")
+    if head in _GREEK:
+        head = f"\\{head} "
+    elif len(head) > 1:
+        head = rf"\mathrm{{{head}}}"
+    return f"{head.strip()}_{{{index}}}" if index else head
+
+
+def _is_sum(expression: Expression) -> bool:
+    """Whether several operands are added."""
+    return isinstance(expression, Chain) and expression.signs[0] in "+-" and expression.signs != "-"
+
+
 class _Latex(PlainText):
-    """The same in LaTeX."""
+    r"""The same in LaTeX: products without signs, quotients as fractions.
+
+    >>> from garkcli.exact.expression import parse
+    >>> for text in ("1/2 - 3*sqrt(154)/77", "1/2*x", "-2*a12_31*(x^2 - tau)", "-(-2*(3/4))/x"):
+    ...     print(format_expression(parse(text), latex=True))
+    \frac{1}{2}-\frac{3\sqrt{154}}{77}
+    \frac{x}{2}
+    -2a_{12,31}\left(x^{2}-\tau \right)
+    -\frac{\left(-2\cdot \frac{3}{4}\right)}{x}
+    """
+
+    def name(self, name: str) -> str:
+        return name_latex(name)
+
+    def chain(self, chain: Chain) -> str:
+        if chain.signs[0] in "+-":
+            operands = zip(chain.signs, map(self.factor, chain.operands), strict=True)
+            return "".join(sign + text for sign, text in operands).removeprefix("+")
+        over = [x for sign, x in zip(chain.signs, chain.operands, strict=True) if sign == "*"]
+        under = [x for sign, x in zip(chain.signs, chain.operands, strict=True) if sign == "/"]
+        top = self.product(over)
+        if not under:
+            return top
+        minus = "-" * (top.startswith("-") and not _is_sum(over[0]))
+        return rf"{minus}\frac{{{top.removeprefix(minus)}}}{{{self.product(under)}}}"
+
+    def product(self, factors: list[Expression]) -> str:
+        """Factors beside one another; one alone needs no parentheses, nor does a first sign."""
+        if len(factors) == 1:
+            return self.written(factors[0])
+        text = ""
+        for expression in factors:
+            if isinstance(expression, Literal) and expression.value == 1:
+                continue
+            is_first = not text and not _is_sum(expression)
+            factor = self.written(expression) if is_first else self.factor(expression)
+            is_apart = text[-1:].isdigit() and (factor[0].isdigit() or factor.startswith(r"\frac"))
+            text += (r"\cdot " if is_apart else "") + factor
+        return text or "1"
+
+    def factor(self, expression: Expression) -> str:
+        """The text, sums and what has a sign in parentheses."""
+        text = self.written(expression)
+        is_whole = not text.startswith("-") and not _is_sum(expression)
+        return text if is_whole else rf"\left({text}\right)"
+
+    def tight(self, expression: Expression) -> str:
+        text = super().tight(expression)
+        return rf"\left{text[:-1]}\right)" if text.startswith("(") else text
 
     def number(self, value: fmpq) -> str:
         if value.q == 1:

@@ -6,7 +6,7 @@ others change signs. Sentences are shared.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
@@ -134,18 +134,27 @@ class Plain:
         """A formula, in the signs that the output has."""
         return text
 
+    def expression(self, text: str, latex: Callable[[], str] | None = None) -> str:
+        """A symbolic expression.
+
+        Args:
+            text: as method files write it.
+            latex: what makes it in LaTeX, where the text is no expression of method files.
+        """
+        return text
+
     def number(self, x: Any) -> str:
         """An exact number."""
         text = to_text(x)
         is_number = isinstance(x, (fmpq, int, Algebraic))
         if is_number and (self.places is not None or len(text) > LONG):
             return f"about {to_decimal(x, self.places or 8)}"
-        return text
+        return self.expression(text)
 
     def short(self, x: Any) -> str:
         """An exact number among many."""
         text = to_text(x)
-        return text if len(text) <= 12 else to_decimal(x, 4)
+        return self.expression(text) if len(text) <= 12 else to_decimal(x, 4)
 
     def size(self, ball: arb) -> str:
         """A bound, in two digits."""
@@ -159,7 +168,8 @@ class Plain:
             if self.is_brief:
                 return f"{decimals}…"
             return f"{decimals}, a root of {self.minimal(root)}"
-        return simple if root.exact is not None or self.is_brief else f"{simple} = {decimals}"
+        text = self.expression(simple)
+        return text if root.exact is not None or self.is_brief else f"{text} = {decimals}…"
 
     def minimal(self, root: RealRoot) -> str:
         """The polynomial of a root."""
@@ -172,7 +182,7 @@ class Plain:
         text = polynomial_text(p, variable)
         if len(text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
             return f"a polynomial of degree {p.degree}, in --format json"
-        return text
+        return self.expression(text)
 
     def over(self, top: str, bottom: str) -> str:
         """A fraction."""
@@ -190,7 +200,7 @@ class Plain:
         text = self.over(multivariate_text(p, names), multivariate_text(q, names))
         if len(text) > 2 * LONG_POLYNOMIAL:
             return f"{len(p.terms)} terms over {len(q.terms)}, in --format json and latex"
-        return text
+        return self.expression(text)
 
     # places, trees, sets
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ from garkcli.exact.display import to_latex
 from garkcli.page.exactly import polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
+from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -25,6 +26,10 @@ class Html(Plain):
 
     def formula(self, latex: str, text: str) -> str:
         return f"\\({escape(latex)}\\)"
+
+    def expression(self, text: str, latex: Callable[[], str] | None = None) -> str:
+        found = expression_latex(text) if latex is None else latex()
+        return f"<code>{self.prose(text)}</code>" if found is None else self.formula(found, text)
 
     def good(self, text: str) -> str:
         return f'<span class="good">{text}</span>'

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -251,6 +251,21 @@ def polynomial(variable: str) -> Kind:
     )
 
 
+def expression(text: Callable[[Any], str] = str, latex: Callable[[Any], str] | None = None) -> Kind:
+    """A symbolic expression: a polynomial in the unknowns of a file, a formula.
+
+    Args:
+        text: of a value, for programs too.
+        latex: of a value, where the text is not what method files write.
+    """
+
+    def words(x: Any, d: Plain) -> str:
+        return d.expression(text(x), None if latex is None else lambda: latex(x))
+
+    return Kind(S.TEXT, lambda x, _: text(x), words)
+
+
+EXPRESSION = expression()
 ROOT = Kind(ALGEBRAIC, lambda x, d: root_data(x, d.digits), lambda x, d: d.root(x))
 ROOTS = Kind(
     array(ALGEBRAIC),

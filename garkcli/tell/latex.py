@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_latex
@@ -32,6 +32,18 @@ SIGNS = {
 }  # fmt: skip
 
 
+def expression_latex(text: str) -> str | None:
+    """An expression of method files; None where it is none, or too large to be read."""
+    from garkcli.errors import ExpressionError
+    from garkcli.exact.expression import parse
+    from garkcli.exact.rewriting import format_expression
+
+    try:
+        return format_expression(parse(text), latex=True)
+    except ExpressionError:
+        return None
+
+
 class Latex(Plain):
     """LaTeX."""
 
@@ -51,6 +63,10 @@ class Latex(Plain):
     def formula(self, latex: str, text: str) -> str:
         return f"${latex}$"
 
+    def expression(self, text: str, latex: Callable[[], str] | None = None) -> str:
+        found = expression_latex(text) if latex is None else latex()
+        return rf"\texttt{{{self.prose(text)}}}" if found is None else f"${found}$"
+
     def number(self, x: Any) -> str:
         return f"${to_latex(x)}$"
 
@@ -69,13 +85,10 @@ class Latex(Plain):
         return self.over(*(f"${multivariate_latex(x, names)}$" for x in (p, q)))
 
     def root(self, root: RealRoot) -> str:
-        from garkcli.exact.expression import parse
-        from garkcli.exact.rewriting import format_expression
-
         text = root_text(root)
         if text is None:
             return super().root(root).replace("…", r"\dots")
-        return f"${format_expression(parse(text), latex=True)}$"
+        return self.expression(text)
 
     def place(self, letter: str, colours: Sequence[int], indices: Sequence[int]) -> str:
         base = r"\hat a" if letter == "â" else letter

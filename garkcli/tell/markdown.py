@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from garkcli.page.plain import printable
@@ -19,6 +19,9 @@ class Markdown(Plain):
         for sign in "\\|*_`[]<":
             text = text.replace(sign, f"\\{sign}" if sign != "<" else "&lt;")
         return printable(text)
+
+    def expression(self, text: str, latex: Callable[[], str] | None = None) -> str:
+        return self.prose(text)
 
     def good(self, text: str) -> str:
         return text

@@ -281,5 +281,6 @@ def test_expressions_are_walked() -> None:
     values = {x: parse_formula(y) for x, y in (("a", "pi"), ("b", "4"), ("c", "1 + 1"))}
     assert format_expression(substitute(expression, values)) == "sin(pi*sqrt(4))**((1+1)/2)+pi"
     assert (
-        format_expression(parse_formula("sin(x)**(1/2)"), latex=True) == r"\sin\left(x\right)^{1/2}"
+        format_expression(parse_formula("sin(x)**(1/2)"), latex=True)
+        == r"\sin\left(x\right)^{\frac{1}{2}}"
     )

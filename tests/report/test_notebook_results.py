@@ -108,7 +108,7 @@ def test_stability_has_the_rows_of_its_command() -> None:
     begun = [line[2:] for line in rows if line[2:3].strip()]
     assert len(begun) == len(labels)
     assert all(line.startswith(label) for line, label in zip(begun, labels, strict=True))
-    assert dict(cells(html))["imaginary axis"] == "|y| ≤ 2.82842712475, y² ≤ 8"
+    assert dict(cells(html))["imaginary axis"] == r"|y| ≤ 2.82842712475, y² ≤ \(8\)"
 
 
 def test_open_ends_of_intervals_are_no_markup() -> None:

@@ -23,7 +23,7 @@ from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Row, Section, part, table
-from garkcli.tell.kinds import COUNT, TEXT
+from garkcli.tell.kinds import COUNT, EXPRESSION, TEXT
 from garkcli.tell.report import Report
 from tests.cli.harness import ROOT, gark
 
@@ -291,3 +291,21 @@ def test_a_wide_table_continues_below() -> None:
     folded = d.grid(["name", "what"], [["x", "words " * 12]])
     assert len(folded) == 4
     assert max(map(len, folded)) <= 40
+
+
+def test_an_expression_is_one_in_every_format() -> None:
+    """A product has no stars that Markdown takes for emphasis, and is a formula in LaTeX and HTML;
+    what is too large to be read is there as it stands.
+    """
+    section = Section(Row("objective", EXPRESSION, lambda x: x))
+    report: Report[str] = Report("a", "b", lambda: [section], lambda _: section, key="")
+    text = "2*c21*x^2 - sqrt(3)*y"
+    assert text in report.render([text])
+    assert r"2\*c21\*x^2 - sqrt(3)\*y" in report.render([text], "markdown")
+    for format in ("latex", "html"):
+        told = report.html(text) if format == "html" else report.render([text], format)
+        assert r"2c_{21}x^{2}-\sqrt{3}y" in told
+    long = " + ".join([text] * 1000)
+    assert rf"\texttt{{{text.replace('^', chr(92) + 'textasciicircum{}')} + " in report.render(
+        [long], "latex"
+    )
