@@ -9,6 +9,7 @@ import click
 from garkcli.cli.method_argument import two_files
 from garkcli.cli.options import CONTEXT, Output, common, settings_named
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
@@ -26,7 +27,7 @@ settings_of_both = settings_named("A value for a parameter of FIRST or SECOND, o
     "--strict", is_flag=True, help="Exit with 1 unless every entry is the same as it stands."
 )
 @settings_of_both
-@common(["text", "json", "markdown"])
+@common(FORMATS)
 def command(first: str, second: str, strict: bool, settings: dict[str, str], output: Output) -> int:
     """How two methods differ: in entries, orders, conditions and properties; and whether they are
     the same method with its stages numbered otherwise, or in another form.
@@ -37,24 +38,11 @@ def command(first: str, second: str, strict: bool, settings: dict[str, str], out
     """
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.naming import called
+    from garkcli.report.diff import REPORT, Compared
 
     found = compare(*_loaded(first, second, settings))
-    files = (called(first), called(second))
-    if output.format == "json":
-        from garkcli.report import diff_json
-
-        output.write(diff_json.render(found, files))
-    elif output.format == "markdown":
-        from garkcli.report import diff_markdown
-
-        output.write(diff_markdown.render(found, files))
-    else:
-        from garkcli.report import diff_text
-
-        output.write(diff_text.render(found, files, output.paint))
-    if strict and found.relation == "same":
-        return 1
-    if strict and found.relation == "within-rounding":
+    output.tell(REPORT, [Compared(found, (called(first), called(second)))])
+    if strict and found.relation in {"same", "within-rounding"}:
         return 1
     return EXIT_CODES[found.relation]
 

@@ -53,11 +53,10 @@ def function_latex(R: StabilityFunction) -> str:
 
 
 def comparison_html(found: Comparison) -> str:
-    """What ``gark diff`` prints."""
-    from garkcli.report.diff_text import render
+    """What ``gark diff`` tells."""
+    from garkcli.report.diff import REPORT, compared
 
-    names = (found.one.name or "first", found.other.name or "second")
-    return preformatted(render(found, names, _PLAIN).splitlines())
+    return REPORT.html(compared(found))
 
 
 def design_html(design: Design) -> str:

@@ -138,14 +138,9 @@ def _long_run(run: LongRun, format: str, name: str) -> str:
 
 
 def _comparison(found: Comparison, format: str, _: str) -> str:
-    from garkcli.report import diff_json, diff_markdown, diff_text
+    from garkcli.report.diff import REPORT, compared
 
-    names = (found.one.name or "first", found.other.name or "second")
-    if format == "json":
-        return diff_json.render(found, names)
-    if format == "markdown":
-        return diff_markdown.render(found, names)
-    return diff_text.render(found, names, _PLAIN)
+    return REPORT.render([compared(found)], format)
 
 
 def _backward(found: BackwardAnalysis, format: str, name: str) -> str:
@@ -209,7 +204,7 @@ _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     Stability: (_stability, FORMATS),
     Convergence: (_convergence, ("text", "json", "csv")),
     LongRun: (_long_run, ("text", "json", "csv")),
-    Comparison: (_comparison, ("text", "json", "markdown")),
+    Comparison: (_comparison, FORMATS),
     BackwardAnalysis: (_backward, ("text", "json", "latex")),
     ModifiedRun: (_modified_run, ("text", "json", "csv")),
     Design: (_design, ("text", "json")),

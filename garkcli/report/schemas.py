@@ -23,7 +23,7 @@ REPORTS = {
     "conjugate": _TABLEAU,
     "reduce": _TABLEAU,
     "convert": _TABLEAU,
-    "diff": "garkcli.report.diff_json:diff_report_schema",
+    "diff": "garkcli.report.diff:REPORT",
     "stability": "garkcli.report.stability:REPORT",
     "stability-every": "garkcli.report.every:STABILITY",
     "design": "garkcli.report.design_data:design_report_schema",

@@ -5,6 +5,7 @@ proof.
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from flint import arb, fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from garkcli.comparison.comparison import compare
+from garkcli.comparison.comparison import Comparison, compare
 from garkcli.comparison.grid import grid_of
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.matching import find_matching
@@ -26,9 +27,8 @@ from garkcli.errors import LimitExceeded
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_tableau_file
 from garkcli.order.conditions import elementary_weight
-from garkcli.page.paint import Paint
 from garkcli.properties.reduction import reduced
-from garkcli.report import diff_json, diff_markdown, diff_text
+from garkcli.report.diff import REPORT, Compared
 from garkcli.report.schemas import report_schema
 from garkcli.tableau.garkmethod import GarkMethod
 from tests.cli.harness import ROOT, gark
@@ -290,6 +290,12 @@ def test_few_conditions_are_compared_of_many() -> None:
     assert MAX_CONDITIONS >= 1000
 
 
+def shown(found: Comparison, format: str = "text", verbosity: int = 0) -> str:
+    """A report of gark diff."""
+    compared = Compared(found, ("first.gark.yaml", "second.gark.yaml"))
+    return REPORT.render([compared], format, verbosity=verbosity)
+
+
 def test_reports() -> None:
     """Text of 80 columns, JSON after its schema, Markdown with a verdict, for every relation."""
     schema = report_schema("diff")
@@ -303,13 +309,16 @@ def test_reports() -> None:
     for name, text in texts.items():
         found = compare(RK4, loads(text))
         assert found.relation == name or name == "more colours"
-        files = ("first.gark.yaml", "second.gark.yaml")
-        lines = diff_text.render(found, files, Paint()).splitlines()
+        lines = shown(found).splitlines()
+        assert lines[0].startswith("first.gark.yaml against second.gark.yaml: ")
         assert max(map(len, lines)) <= 80
-        data = json.loads(diff_json.render(found, files))
+        assert len(lines) <= 24
+        assert max(map(len, shown(found, verbosity=1).splitlines())) <= 80
+        data = json.loads(shown(found, "json"))
         jsonschema.validate(data, schema)
         assert data["relation"] == found.relation
-        assert diff_markdown.render(found, files).count("**") == 2
+        assert shown(found, "markdown").count("**") == 2
+        assert r"\subsection*{first.gark.yaml against" in shown(found, "latex")
 
 
 def test_a_tolerance_is_a_difference_of_the_files_alone() -> None:
@@ -317,15 +326,30 @@ def test_a_tolerance_is_a_difference_of_the_files_alone() -> None:
     leaves open is no difference of the methods.
     """
     found = compare(RK4, loads(f"{RK4.text}\ntolerance: 1e-3\n"))
-    files = ("first.gark.yaml", "second.gark.yaml")
-    text = diff_text.render(found, files, Paint())
-    assert "their tolerances are not the same: none against 1e-3\n" in text
-    assert "properties that differ" not in text
-    assert "properties decided of one alone" in text
+    text = shown(found)
+    assert re.search(r"  tolerance +none against 1e-3\n", text)
+    assert "  properties" not in text
+    assert "decided of one alone" in text
     assert "not decided" in text
-    assert "none against 1e-3" in diff_markdown.render(found, files)
-    data = json.loads(diff_json.render(found, files))
-    assert (data["first"]["tolerance"], data["second"]["tolerance"]) == (None, "1/1000")
+    assert "| tolerance | none against 1e-3 |" in shown(found, "markdown")
+    data = json.loads(shown(found, "json"))
+    assert (data["first"]["tolerance"], data["second"]["tolerance"]) == (None, "1e-3")
+
+
+def test_what_rounding_allows_is_said_in_every_format() -> None:
+    """A verdict on rounded methods and their orders have the tolerance beside them; it is written
+    as in all other reports.
+    """
+    alike, other = (compare(RK4, loads(text)) for text in (ROUNDED, OTHER_ROUNDED))
+    for format in ("text", "markdown", "latex"):
+        assert "the same method within 1e-11" in shown(alike, format)
+        assert "orders" in shown(other, format)
+        assert "4 against 2 within 1e-9" in " ".join(shown(other, format).split())
+    data = json.loads(shown(alike, "json"))
+    assert (data["second"]["tolerance"], data["same"]["within"]) == ("1e-11", "1e-11")
+    assert json.loads(shown(other, "json"))["second"]["tolerance"] == "1e-9"
+    itself = compare(loads(ROUNDED), loads(MISPRINT))
+    assert "4 within 1e-11 against 1" in shown(itself, "markdown")
 
 
 def test_exit_codes() -> None:
@@ -338,18 +362,25 @@ def test_exit_codes() -> None:
 
 RENUMBERED = write_tableau_file(renumbered(sheet_of(RK4), [[2, 0, 1, 3]]).tableau, "turned")
 PAIR_OF_COLOURS = "ark: {A: [[[0]], [[1]]], b: [1]}"
+OTHER_ROUNDED = "{A: [[0, 0], [0.333333333, 0]], b: [-0.5, 1.5], tolerance: 1e-9}"
 ROUNDED = RK4.text.split("expect")[0].replace("1/6", "0.166666666667") + "tolerance: 1e-11\n"
 
 
 def test_trees_and_entries_in_words() -> None:
     """What is said of a misprint: the entry, the orders, the conditions, with their trees."""
     run = gark("diff", "methods/rk4.gark.yaml", "-", stdin=MISPRINT)
-    assert "A  1 of 16  row 4, entry 3: 1 against 2, off by 1" in run.out
-    assert "order 2  [[]]: 2/3 instead of 1/2" in run.out
-    assert "that the second alone meets: none" in run.out
-    shown = diff_markdown.render(compare(RK4, loads(MISPRINT)), ("a|b", "second"))
-    assert "`a\\|b`" in shown
-    assert "| `[[]]` | 2 | met | not met |" in shown
+    rows = [line.split("  ") for line in re.sub("   +", "  ", run.out).splitlines()]
+    assert ["", "A", "1 of 16", "row 4, entry 3", "1", "2", "1"] in rows
+    assert ["", "[[]]", "2", "1/2", "1/2", "2/3"] in rows
+    assert "to order 5 the first alone meets 7, the second none" in run.out
+    found = compare(RK4, loads(MISPRINT))
+    text = REPORT.render([Compared(found, ("a|b", "second"))], "markdown")
+    assert r"**a\|b against second: different methods**" in text
+    assert "| `[[]]` | 2 | 1/2 | 1/2 | 2/3 |" in text
+    everything = gark("diff", "methods/rk4.gark.yaml", "-", "-v", stdin=MISPRINT).out
+    assert "[[[[]]]]" in everything
+    assert "more with -v" in run.out
+    assert "more with -v" not in everything
 
 
 def test_renumberings_in_words() -> None:
@@ -395,11 +426,8 @@ def test_files_that_cannot_be_read() -> None:
 def test_orders_that_neither_has_are_no_rows() -> None:
     """In Markdown as in text: a conjugate of neither is left out, one of one alone is none."""
     midpoint = loads("A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n")
-    files = ("one", "other")
-    neither = diff_markdown.render(compare(midpoint, midpoint), files)
-    assert "order of the conjugate" not in neither
-    one = diff_markdown.render(compare(midpoint, RK4), files)
-    assert "| order of the conjugate | none | 4 |" in one
+    assert "of the conjugate" not in shown(compare(midpoint, midpoint), "markdown")
+    assert "; of the conjugate none against 4;" in shown(compare(midpoint, RK4), "markdown")
 
 
 def test_a_stage_without_influence_is_no_difference() -> None:

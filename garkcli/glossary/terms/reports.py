@@ -97,7 +97,7 @@ TERMS = (
         " symmetric, with positive weights and so on. Each may be claimed.",
         "",
         _PROPERTIES,
-        ("property", "properties that differ", "properties decided of one alone"),
+        ("property", "decided of one alone"),
         ("explicit", "symmetric", "A-stable"),
     ),
     Term(

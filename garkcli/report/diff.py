@@ -1,0 +1,368 @@
+"""``gark diff``: two methods held against each other, declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from flint import arb
+
+from garkcli.check.explained import value_text
+from garkcli.comparison.comparison import WITH_TIME, Comparison
+from garkcli.comparison.differences import BlockGap, EntryGap
+from garkcli.exact.display import decimal, to_text
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.paint import counted
+from garkcli.properties.keys import KEYS
+from garkcli.properties.property import Size
+from garkcli.report.check import verdict_words
+from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tell.facts import Answer, Kind, Level, Reason, Row, Section, Status, part, parts, table
+from garkcli.tell.facts import told as told_kind
+from garkcli.tell.kinds import (
+    COUNT,
+    EXACT,
+    POSITION,
+    TEXT,
+    TOLERANCE,
+    TREE,
+    TRUTH,
+    choice,
+    order_cell,
+)
+from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+FORMS = {
+    "rk": "a Runge-Kutta method",
+    "ark": "an additive method",
+    "gark": "a GARK method",
+    "prk": "a partitioned method",
+    "pair": "a symplectic pair",
+}
+"""The forms of methods, as people call them."""
+RELATIONS = {
+    "identical": "identical: every entry is the same",
+    "same": "the same method",
+    "within-rounding": "the same method",
+    "different": "different methods",
+    "undecided": "not decided",
+}
+"""What methods are to each other."""
+
+
+class Method(NamedTuple):
+    """One of two methods."""
+
+    method: GarkMethod
+    file: str
+    form: str
+
+
+class Compared(NamedTuple):
+    """A comparison, and by what names its methods were given."""
+
+    found: Comparison
+    files: tuple[str, str]
+
+    def method(self, index: int) -> Method:
+        """The first one or the second."""
+        method = (self.found.one, self.found.other)[index]
+        return Method(method, self.files[index], self.found.forms[index])
+
+
+def compared(found: Comparison) -> Compared:
+    """A comparison of methods that have names at most."""
+    return Compared(found, (found.one.name or "first", found.other.name or "second"))
+
+
+# kinds
+
+
+def _relation_phrase(_: str, answer: Answer, d: Plain) -> str:
+    text = d.known(d.prose(RELATIONS[answer.value]), answer.status)
+    if answer.reason:
+        text += f": {d.reason(answer.reason)}"
+    return (d.bad if answer.value in {"different", "undecided"} else d.good)(text)
+
+
+def _entry_data(x: Any, _: Plain) -> str:
+    return str(x.str(30, radius=False)) if isinstance(x, arb) else to_text(x)
+
+
+def _entry_words(x: Any, d: Plain) -> str:
+    """An entry: exact where it is short."""
+    if isinstance(x, arb):
+        return d.prose(str(x.str(12, radius=False)))
+    text = value_text(x, 12)
+    return d.number(x) if text == to_text(x) else d.prose(text)
+
+
+def _verdict_cell(verdict: Any, d: Plain) -> str:
+    """The value of a property, without the polynomial that a number is a root of."""
+    value = verdict.value
+    if isinstance(value, Size) and value.root is not None and not verdict.is_at_least:
+        return d.root(value.root)
+    return d.prose(verdict_words(verdict).partition(", a root of ")[0])
+
+
+RELATION = Kind({"enum": [*RELATIONS]}, phrase=_relation_phrase)
+ENTRY = Kind(S.NUMERAL, _entry_data, _entry_words)
+VALUE = Kind(S.EXACT, EXACT.data, _entry_words)
+ORDER_ALONE = Kind(S.COUNT, lambda x, _: x.order, order_cell)
+VERDICT = Kind(S.TEXT, lambda x, _: verdict_words(x), _verdict_cell)
+IMAGES = Kind(S.array(S.array(S.POSITION)), lambda x, _: [[i + 1 for i in row] for row in x])
+COLOURS = Kind(S.array(S.POSITION), lambda x, _: [l + 1 for l in x])
+SHAPES = Kind(S.array(S.TEXT), lambda x, _: list(x))
+STAGES = Kind(S.array(S.POSITION), lambda x, _: list(x), lambda x, _: ", ".join(map(str, x)))
+
+
+# what is compared
+
+
+def relation(x: Compared) -> Answer:
+    """Whether the methods are the same, within which rounding, and why not."""
+    found = x.found
+    same = found.sameness
+    allowed = same.allowed if same and found.relation == "within-rounding" else None
+    return Answer(found.relation, Status(allowed), Reason(found.remark or found.obstacle))
+
+
+def told(x: Compared) -> str:
+    """What turns one method into the other."""
+    return "; ".join(_turns(x.found))
+
+
+def _turns(found: Comparison) -> Iterator[str]:
+    same = found.sameness
+    if same is None or found.relation == "identical":
+        return
+    first, second = found.forms
+    if first != second:
+        yield f"in another form: {FORMS[first]}, {FORMS[second]}"
+    if same.is_reduced:
+        yield "once both are reduced: see gark reduce"
+    if not same.keeps_colours:
+        yield f"colours 1, 2, … of the first are {_numbers(same.colours)} there"
+    if same.keeps_stages:
+        return
+    if len(set(same.stages)) == 1:
+        yield f"stages 1, 2, … of the first are {_numbers(same.stages[0])} there"
+        return
+    for l, images in enumerate(same.stages, start=1):
+        if images != tuple(range(len(images))):
+            yield f"its stages of colour {l} are {_numbers(images)} there"
+
+
+def _numbers(images: Sequence[int]) -> str:
+    return ", ".join(str(i + 1) for i in images)
+
+
+def tolerances(x: Compared) -> Any:
+    """The tolerances of the files where they are not the same."""
+    one, other = x.found.one.tolerance, x.found.other.tolerance
+    if one == other:
+        return None
+    return " against ".join("none" if t is None else decimal(t) for t in (one, other))
+
+
+def _orders_words(x: Compared, d: Plain) -> str:
+    """Each order of both methods: one number where it is the same."""
+    texts = []
+    for pair in x.found.orders:
+        if not pair.exists or (pair.name == WITH_TIME and not pair.is_different):
+            continue
+        ends = ["none" if y is None else order_cell(y, d) for y in (pair.one, pair.other)]
+        name = pair.name.removeprefix("order").strip()
+        text = ends[0] if ends[0] == ends[1] else d.bad(" against ".join(ends))
+        texts.append(f"{d.prose(name)} {text}".strip())
+    return "; ".join(texts)
+
+
+def _conditions_words(met: Any, _: Plain) -> str:
+    if not met.pairs:
+        return f"to order {met.order} none is met by one alone"
+    first, second = (len(x) or "none" for x in (met.first_only, met.second_only))
+    return f"to order {met.order} the first alone meets {first}, the second {second}"
+
+
+class Gap(NamedTuple):
+    """A block that differs, with one of its entries; None where the shapes differ."""
+
+    block: BlockGap
+    entry: EntryGap | None
+
+
+def largest_gaps(x: Compared) -> list[Gap]:
+    """The blocks that differ, each with its largest difference."""
+    return [] if x.found.relation == "same" else [Gap(b, b.largest) for b in x.found.gaps]
+
+
+def every_gap(x: Compared) -> list[Gap]:
+    """Every entry that differs."""
+    return [Gap(b, entry) for b in x.found.gaps for entry in b.gaps or (None,)]
+
+
+NAMES = {"embedded": "embedded weights", "dense": "dense output"}
+
+
+def _block_words(gap: Gap, d: Plain) -> str:
+    block = gap.block
+    colours = [block.colour] if block.seen is None else [block.colour, block.seen]
+    if block.kind not in NAMES:
+        return d.place(block.kind.lower(), colours, ())
+    colour = f" {{{d.colours[block.colour]}}}" if len(d.colours) > 1 else ""
+    return d.prose(NAMES[block.kind] + colour + (f", θ^{block.power}" if block.power else ""))
+
+
+def _place_words(gap: Gap, _: Plain) -> str:
+    if gap.entry is None:
+        return "shape"
+    row = "" if gap.entry.row is None else f"row {gap.entry.row + 1}, "
+    return f"{row}entry {gap.entry.entry + 1}"
+
+
+def _side(which: str, index: int) -> Row:
+    """What one of the methods has there; its shape where that differs."""
+
+    def words(gap: Gap, d: Plain) -> str:
+        if gap.entry is not None:
+            return _entry_words(getattr(gap.entry, which), d)
+        return gap.block.shapes[index] if gap.block.shapes else ""
+
+    return Row(("first", "second")[index], told_kind(words), lambda gap: gap)
+
+
+GAP = (
+    Row("block", told_kind(_block_words), lambda gap: gap, label=""),
+    Row("largest", told_kind(_place_words), lambda gap: gap, label="largest"),
+    _side("one", 0),
+    _side("other", 1),
+    Row("difference", ENTRY, lambda gap: gap.entry and gap.entry.gap, label="off by"),
+)
+COUNTED = Row(
+    "of_entries",
+    told_kind(lambda gap, _: f"{len(gap.block.gaps)} of {gap.block.entries}"),
+    lambda gap: gap if gap.entry else None,
+    label="entries",
+)
+ENTRIES = Section(
+    Row("row", POSITION, lambda x: None if x.row is None else x.row + 1, has_null=True),
+    Row("entry", POSITION, lambda x: x.entry + 1),
+    Row("first", ENTRY, lambda x: x.one),
+    Row("second", ENTRY, lambda x: x.other),
+    Row("difference", ENTRY, lambda x: x.gap),
+    Row("undecided", TRUTH, lambda x: x.is_open),
+)
+BLOCK = Section(
+    Row("kind", choice("A", "b", "c", "embedded", "dense")),
+    Row("colour", POSITION, lambda x: x.colour + 1),
+    Row("seen", POSITION, lambda x: None if x.seen is None else x.seen + 1, has_null=True),
+    Row("power", POSITION, lambda x: x.power or None, has_null=True),
+    Row("shapes", SHAPES, has_null=True),
+    Row("of_entries", COUNT, lambda x: x.entries),
+    Row("largest", part(ENTRIES), has_null=True),
+    Row("entries", parts(ENTRIES), lambda x: x.gaps),
+)
+SAME = Section(
+    Row("colours", COLOURS),
+    Row("stages", IMAGES),
+    Row("reduced", TRUTH, lambda x: x.is_reduced),
+    Row("step_only", TRUTH),
+    Row("within", TOLERANCE, lambda x: x.allowed or None, has_null=True),
+)
+ORDERS = Section(
+    Row("of", TEXT, lambda x: x.name),
+    Row("first", ORDER_ALONE, lambda x: x.one, has_null=True),
+    Row("second", ORDER_ALONE, lambda x: x.other, has_null=True),
+)
+CONDITION = Section(
+    Row("tree", TREE, lambda x: x[0].tree, label=""),
+    Row("order", POSITION, lambda x: x[0].tree.order),
+    Row("required", VALUE, lambda x: x[0].required),
+    Row("first", VALUE, lambda x: x[0].value),
+    Row("second", VALUE, lambda x: x[1].value),
+)
+MET = Section(
+    Row("order", COUNT), Row("first_only", parts(CONDITION)), Row("second_only", parts(CONDITION))
+)
+PROPERTY = Section(
+    Row("property", choice(*KEYS, "symplectic"), lambda x: x.key, label=""),
+    Row("first", VERDICT, lambda x: x.one),
+    Row("second", VERDICT, lambda x: x.other),
+)
+METHOD = Section(
+    Row("file", TEXT),
+    Row("name", TEXT, lambda x: x.method.name),
+    Row("form", Kind({"enum": [*FORMS]}, words=lambda x, d: d.prose(FORMS[x]))),
+    Row("stages", STAGES, lambda x: x.method.stages),
+    Row("tolerance", TOLERANCE, lambda x: x.method.tolerance, has_null=True),
+)
+
+
+def _method_words(x: Method, d: Plain) -> str:
+    stages = ", ".join(map(str, x.method.stages))
+    about = f"{counted(x.method.tableau.size, 'colour')}, stages {stages}"
+    name = x.method.name
+    return d.prose(f"{name}: {about}" if name and name != x.file else about)
+
+
+def _properties(is_known: bool) -> Any:
+    return lambda x: [p for p in x.found.properties if p.is_known is is_known]
+
+
+REPORT: Report[Compared] = Report.only(
+    "gark/diff/1",
+    "two methods, by gark diff",
+    Section(
+        Row("first", part(METHOD, _method_words), lambda x: x.method(0)),
+        Row("second", part(METHOD, _method_words), lambda x: x.method(1)),
+        Row("relation", RELATION, relation, HEADLINE),
+        Row("obstacle", TEXT, lambda x: x.found.obstacle or None, DATA, has_null=True),
+        Row("remark", TEXT, lambda x: x.found.remark or None, DATA, has_null=True),
+        Row("same", told_kind(lambda text, d: d.prose(text)), told),
+        Row("same", part(SAME), lambda x: x.found.sameness, DATA, has_null=True),
+        Row("tolerance", told_kind(lambda text, _: text), tolerances),
+        Row("orders", told_kind(_orders_words), lambda x: x),
+        Row("conditions", told_kind(_conditions_words), lambda x: x.found.met),
+        Row("differences", parts(BLOCK), lambda x: x.found.gaps, DATA),
+        Row(
+            "compared",
+            told_kind(lambda text, _: text),
+            lambda x: (
+                "no entry: the numbers of colours differ"
+                if x.found.one.tableau.size != x.found.other.tableau.size
+                else None
+            ),
+        ),
+        Row(
+            "largest",
+            table(Section(GAP[0], COUNTED, *GAP[1:]), 4, is_data=False),
+            largest_gaps,
+            label="differences",
+            is_short=True,
+        ),
+        Row("entries", table(Section(*GAP), 0, is_data=False), every_gap, DETAIL),
+        Row("orders", parts(ORDERS), lambda x: x.found.orders, DATA),
+        Row("conditions", part(MET), lambda x: x.found.met, DATA, has_null=True),
+        Row(
+            "pairs",
+            table(CONDITION, 3, is_data=False),
+            lambda x: x.found.met and x.found.met.pairs,
+            label="conditions",
+        ),
+        Row("properties", parts(PROPERTY), lambda x: x.found.properties, DATA),
+        Row("known", table(PROPERTY, 5, is_data=False), _properties(True), label="properties"),
+        Row(
+            "half_known",
+            table(PROPERTY, 2, is_data=False),
+            _properties(False),
+            label="decided of one alone",
+        ),
+        title=lambda x, d: " against ".join(map(d.prose, x.files)),
+    ),
+    lambda x: {"colours": [colour.name for colour in x.found.one.tableau.colours]},
+)
