@@ -4,12 +4,13 @@ one's own by what their files claim, or judged on demand.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.methodfile.naming import every_shelf, visible
 from garkcli.methodfile.shelves import Package, Shelf, Shelved
+from garkcli.properties.keys import KEYS
 
 if TYPE_CHECKING:
     from garkcli.catalogue.facts import Entry
@@ -38,12 +39,19 @@ def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
     """
     facts = FOUND
     if isinstance(shelf, Package):
-        entry = dict(shelf.entries[method.name])
+        entry = _of_index(shelf.entries[method.name])
     else:
         entry, facts = _of_file(method, judges)
     entry.pop("digest", None)
     place = {"folder": method.folder, "catalogue": shelf.label}
     return {**entry, **place, "facts": facts}
+
+
+def _of_index(known: Mapping[str, Any]) -> Entry:
+    """An entry of the index; a property that is newer than the index is not decided."""
+    fields = (key.replace("-", "_") for key in KEYS)
+    missing = [field for field in fields if field not in known]
+    return {**known, **dict.fromkeys(missing), "undecided": [*known["undecided"], *missing]}
 
 
 def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:

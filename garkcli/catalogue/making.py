@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from garkcli.catalogue.facts import VERSION, Entry, NoMethod, digest, entry_of
+from garkcli.catalogue.facts import VERSION, Entry, NoMethod, blank, digest, entry_of
 from garkcli.methodfile.file_kind import METHOD_FILE
 from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.reading import read_text
@@ -62,11 +62,14 @@ def made(data: Path, before: str, tell: Tell) -> str:
 
 
 def _known(before: str) -> dict[tuple[str, str], Entry]:
-    """The entries of an index by their files and the texts that they were made from."""
+    """The entries of an index by their files and the texts that they were made from; those without
+    a property that there is now are left out.
+    """
     index: dict[str, Any] = json.loads(before) if before else {}
     if index.get("facts") != VERSION:
         return {}
-    return {(x["file"], x["digest"]): x for x in index["methods"]}
+    fields = blank().keys()
+    return {(x["file"], x["digest"]): x for x in index["methods"] if x.keys() >= fields}
 
 
 def _text(entries: list[Entry]) -> Iterator[str]:

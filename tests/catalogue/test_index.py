@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from garkcli import catalogue
 from garkcli.catalogue import facts
 from garkcli.catalogue.facts import NoMethod, digest, entry_of
 from garkcli.catalogue.making import made, method_files, update_copies
 from garkcli.methodfile.load import described
+from garkcli.methodfile.naming import every_shelf
+from garkcli.methodfile.shelves import Package
+from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "garkcli" / "catalogue" / "data"
@@ -72,6 +77,36 @@ def test_unchanged_entries_are_kept_and_the_rest_judged(tmp_path: Path) -> None:
     assert (entry["order"], entry["stages"], entry["kind"]) == (4, 2, "rk")
     assert entry["a_stable"] is True
     assert entry["error_constant"] == f"{float(entry['error_constant']):.4g}"
+
+
+def test_an_index_without_a_property_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What an older index does not know is not decided: null in JSON, and no filter takes it."""
+    older = {name: dict(entry) for name, entry in ENTRIES.items()}
+    for entry in older.values():
+        del entry["fsal"]
+    package = next(x for x in every_shelf() if isinstance(x, Package))
+    monkeypatch.setattr(package, "entries", older)
+    listed = json.loads(gark("list", "methods", "--format", "json").out)
+    assert len(listed) == len(older)
+    assert all(entry["fsal"] is None and "fsal" in entry["undecided"] for entry in listed)
+    for wish in ("--fsal", "--no-fsal"):
+        assert json.loads(gark("list", "methods", wish, "--format", "json").out) == []
+    shown = gark("show", "dormand-prince-5", "--format", "json")
+    assert (shown.code, json.loads(shown.out)["fsal"]) == (0, None)
+    assert re.search(r"not decided +.*fsal", gark("show", "dormand-prince-5").out)
+    assert "dormand-prince-5" in catalogue.search(explicit=True)
+    assert catalogue.search(fsal=True) == []
+
+
+def test_an_index_without_a_property_is_made_anew(tmp_path: Path) -> None:
+    """Each entry that lacks one is judged again, though its file is as it was."""
+    put(tmp_path, "one", GAUSS)
+    first = made(tmp_path, "", lambda _: None)
+    older = json.loads(first)
+    del older["methods"][0]["fsal"]
+    judged: list[str] = []
+    assert made(tmp_path, json.dumps(older), judged.append) == first
+    assert judged == ["one"]
 
 
 def test_another_version_of_the_facts_makes_all_anew(
