@@ -161,7 +161,8 @@ def check_file(
     Args:
         path: a file, a name of the catalogue, or ``-`` for standard input.
         limit: where the search for orders stops, unless a claim of the file reaches further.
-        want_constants: compute the error constants too.
+        want_constants: whether to find the norms of the principal error coefficients, over the
+            trees of the order that fails.
         settings: values of its parameters, by name, in place of those in the file.
 
     Returns:

@@ -99,7 +99,7 @@ def long_run(
         step: the step size h; by default that of the problem, or a shorter one that divides
             ``t_end``.
         digits: of the steps; floats up to 15. Those of the oscillator are exact.
-        points: about how many times are kept.
+        points: about how many times are kept, extremes among them.
         tolerance: the rounding of the coefficients; that of the method where it is not given. A
             drift that is seen, and that it can cause, is undecided.
 

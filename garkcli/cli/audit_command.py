@@ -6,10 +6,7 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import INPUT
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import Output, declared
 from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted
 
@@ -19,9 +16,7 @@ if TYPE_CHECKING:
 FORMATS = ("text", "json", "github", "sarif", "markdown")
 
 
-@click.command("audit", context_settings=CONTEXT)
-@click.argument("paths", nargs=-1, type=INPUT, metavar="PATH...", required=True)
-@common(["auto", *FORMATS])
+@declared("audit", ["auto", *FORMATS])
 def command(paths: tuple[str, ...], output: Output) -> int:
     """The tables of a solver's source tree against what they declare.
 

@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-import click
-
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, Output, common, settings_option
+from garkcli.cli.options import Output, declared
 
 
-@click.command("certificate", context_settings=CONTEXT)
-@file_argument()
-@settings_option
-@common(["json"])
+@declared("certificate", ["json"])
 def command(file: str, settings: dict[str, str], output: Output) -> int:
     """What proves the orders of a method, to be checked without gark.
 

@@ -9,16 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.method_argument import INPUT, files_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    digits_option,
-    files_meant,
-    refuse_settings_of_several,
-    settings_option,
-)
+from garkcli.cli.options import Output, declared, files_meant, refuse_settings_of_several
 from garkcli.cli.project import Project, find_project
 from garkcli.doing import counting
 from garkcli.report.check_formats import FORMATS
@@ -28,51 +19,7 @@ if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
 
 
-@click.command("check", context_settings=CONTEXT)
-@files_argument(required=False)
-@click.option(
-    "--max-order",
-    type=click.IntRange(1, 400),
-    default=60,
-    show_default=True,
-    metavar="N",
-    help="Where the search for orders stops; then the order is a lower bound.",
-)
-@click.option(
-    "--error-constants",
-    is_flag=True,
-    help="The norms of the principal error coefficients, over the trees of the order that fails.",
-)
-@click.option(
-    "--properties",
-    "wants_properties",
-    is_flag=True,
-    help="Every property that a file may claim, with what decides it.",
-)
-@click.option(
-    "--explain", metavar="KEY", help="What a claim means, with its source; no FILE is needed."
-)
-@click.option(
-    "--baseline",
-    type=INPUT,
-    metavar="REPORT",
-    help="Fail only on what is worse than in an earlier JSON report.",
-)
-@click.option(
-    "--require-claims", is_flag=True, help="A file that makes no claim under `expect` fails."
-)
-@click.option(
-    "-j",
-    "--jobs",
-    type=click.IntRange(0, 256),
-    default=1,
-    show_default=True,
-    metavar="N",
-    help="Check N files at a time; 0 for as many as there are processors.",
-)
-@digits_option("In the text N significant digits instead of exact values and residuals.")
-@settings_option
-@common(["auto", *FORMATS])
+@declared("check", ["auto", *FORMATS])
 def command(
     files: tuple[str, ...],
     explain: str | None,

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import click
-
-from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import CONTEXT, Output, common, files_meant
+from garkcli.cli.options import Output, declared, files_meant
 
 
-@click.command("cite", context_settings=CONTEXT)
-@files_argument()
-@common(["bibtex", "text", "json"])
+@declared("cite", ["bibtex", "text", "json"])
 def command(files: tuple[str, ...], output: Output) -> int:
     """Where methods were published, as an entry of a bibliography.
 

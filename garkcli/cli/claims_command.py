@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import CONTEXT, Output, common, files_meant
+from garkcli.cli.options import Output, declared, files_meant
 from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -16,25 +13,7 @@ if TYPE_CHECKING:
     from garkcli.check.true_claims import TrueClaims
 
 
-@click.command("claims", context_settings=CONTEXT)
-@files_argument()
-@click.option(
-    "--write",
-    "is_written",
-    is_flag=True,
-    help="Put the claims into the files; nothing else of their text is touched.",
-)
-@click.option(
-    "--all", "wants_all", is_flag=True, help="Everything that a file may claim and that is decided."
-)
-@click.option(
-    "--key",
-    "keys",
-    multiple=True,
-    metavar="KEY",
-    help="This claim, besides those that the file makes; repeatable.",
-)
-@common(["text", "json"])
+@declared("claims", ["text", "json"])
 def command(
     files: tuple[str, ...], is_written: bool, wants_all: bool, keys: tuple[str, ...], output: Output
 ) -> int:

@@ -6,19 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from garkcli.cli.companion import companion, companion_options
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    digits_option,
-    document_option,
-    settings_option,
-)
-from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.cli.companion import companion
+from garkcli.cli.options import Output, declared
+from garkcli.cli.tree_options import kind_asked
 from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, UsageProblem
 
@@ -30,39 +20,7 @@ if TYPE_CHECKING:
     from garkcli.trees.tree import Tree
 
 
-@click.command("conditions", context_settings=CONTEXT)
-@file_argument(required=False)
-@colours_option("How many colours, without FILE.")
-@click.option(
-    "--order",
-    "-n",
-    type=click.IntRange(1, 100),
-    default=4,
-    show_default=True,
-    metavar="n",
-    help="Every order up to n.",
-)
-@click.option("--only", is_flag=True, help="Order n alone.")
-@click.option(
-    "--coloured/--shapes",
-    "coloured",
-    default=None,
-    help="A row for each colouring, or a row for all of them (without FILE).",
-)
-@companion_options
-@click.option("--failing", is_flag=True, help="Only conditions of FILE that do not hold.")
-@click.option(
-    "--sort",
-    type=click.Choice(["tree", "worst"]),
-    default="tree",
-    show_default=True,
-    help="Order of the rows; worst: the largest residual first.",
-)
-@digits_option("Values and residuals in decimals of N digits; by default exact.")
-@document_option
-@symplectic_options
-@settings_option
-@common(["text", "json", "csv", "latex"])
+@declared("conditions", ["text", "json", "csv", "latex"])
 def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The order-condition table.
 

@@ -2,27 +2,10 @@
 
 from __future__ import annotations
 
-import click
-
-from garkcli.cli.companion import pair_option
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    digits_option,
-    document_option,
-    settings_option,
-)
+from garkcli.cli.options import Output, declared
 
 
-@click.command("conjugate", context_settings=CONTEXT)
-@file_argument()
-@pair_option
-@digits_option("Decimals of N digits; by default exact, or 17 digits.")
-@document_option
-@settings_option
-@common(["text", "yaml", "json", "latex"])
+@declared("conjugate", ["text", "yaml", "json", "latex"])
 def command(
     file: str,
     is_pair: bool,

@@ -6,21 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from garkcli.cli.companion import companion, companion_options
+from garkcli.cli.companion import companion
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
-from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    files_meant,
-    refuse_settings_of_several,
-    settings_option,
-)
-from garkcli.cli.plotting import check_plot, plot_option, save_plot
-from garkcli.cli.problems import ProblemType, note_changing, problem_options
+from garkcli.cli.options import Output, declared, files_meant, refuse_settings_of_several
+from garkcli.cli.plotting import check_plot, save_plot
+from garkcli.cli.problems import note_changing
 from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, tell_failure
 from garkcli.errors import GarkError, UsageProblem
 
@@ -29,49 +19,8 @@ if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
     from garkcli.report.convergence_data import Entry
 
-AXES = ("h", "evaluations", "seconds")
-"""What plots of errors can have below."""
 
-
-def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
-    """Say where an option has gone that earlier versions had."""
-    if value:
-        raise UsageProblem(
-            f"gark converge has no {option.opts[0]}: the energy over a long time is gark energy",
-            "gark energy FILE --t-end T --step H",
-        )
-
-
-@click.command("converge", context_settings=CONTEXT)
-@files_argument()
-@companion_options
-@click.option(
-    "--problem",
-    type=ProblemType(),
-    help="What to solve: a name that gark list shows, or a problem file; by default a random "
-    "polynomial that sees every tree of the methods.",
-)
-@problem_options
-@click.option(
-    "--steps",
-    metavar="H,...",
-    help="Step sizes, instead of a ladder of halvings that fits the errors.",
-)
-@click.option(
-    "--work",
-    is_flag=True,
-    help="Count evaluations, measure time, and plot the errors against them.",
-)
-@click.option(
-    "--against",
-    type=click.Choice(AXES),
-    help="What plots have below: h, or evaluations with --work; seconds depend on the machine.",
-)
-@click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
-@click.option("--step", hidden=True, expose_value=False, callback=_moved)
-@plot_option("Draw into FILE: .png, .svg or .pdf.")
-@settings_option
-@common(["text", "json", "csv"])
+@declared("converge", ["text", "json", "csv"])
 def command(
     files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
 ) -> int:

@@ -4,33 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, Output, common, settings_option
-from garkcli.conversion.registry import TARGETS
+from garkcli.cli.options import Output, declared
 
 if TYPE_CHECKING:
     from garkcli.conversion.convert import Converted
 
 
-@click.command("convert", context_settings=CONTEXT)
-@file_argument()
-@click.option(
-    "--to",
-    type=click.Choice(TARGETS),
-    default=TARGETS[0],
-    show_default=True,
-    help="The form: what each one is stands in docs/conversion.md.",
-)
-@click.option(
-    "--stages",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="Give every colour N stages: those added do nothing.",
-)
-@settings_option
-@common(["yaml", "text", "json", "latex"])
+@declared("convert", ["yaml", "text", "json", "latex"])
 def command(
     file: str, to: str, stages: int | None, settings: dict[str, str], output: Output
 ) -> int:

@@ -7,11 +7,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-import click
-
-from garkcli.cli.design_options import Wanted, design_options
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, Output, choices_option, common, settings_option
+from garkcli.cli.design_options import Wanted
+from garkcli.cli.options import Output, declared
 from garkcli.cli.streams import say_problem
 from garkcli.deadline import seconds_left, until, within
 from garkcli.errors import ExpressionError, NotDecided, UsageProblem, counted, did_you_mean
@@ -29,12 +26,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.family import Stability as Asked
 
 
-@click.command("design", context_settings=CONTEXT)
-@file_argument()
-@design_options
-@settings_option
-@choices_option
-@common(["text", "json"])
+@declared("design", ["text", "json"])
 def command(
     file: str, settings: dict[str, str], choices: dict[str, str], output: Output, **options: Any
 ) -> int:

@@ -2,138 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import monotonic
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.options import PATH, digits_option
-from garkcli.design.minimise.registry import OBJECTIVES
+from garkcli.cli.table import SECONDS
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.design.design import Whose
     from garkcli.design.stable_values import Wanted as Stability
-
-F = TypeVar("F", bound=Callable[..., Any])
-
-
-def _finite(
-    _context: click.Context, _parameter: click.Parameter, seconds: float | None
-) -> float | None:
-    """A number of seconds; nan, which no limit of a range holds off, is none."""
-    if seconds is not None and seconds != seconds:
-        raise click.BadParameter("nan is no number of seconds")
-    return seconds
-
-
-SECONDS = 60.0
-"""The time where none is given."""
-
-
-_OF_THE_ORDER = (
-    click.option(
-        "--order",
-        type=click.IntRange(1, 60),
-        metavar="P",
-        help="The order wanted; by default as far as some value reaches.",
-    ),
-    click.option("--pair", "is_pair", is_flag=True, help="The order of the symplectic pair."),
-    click.option("--conjugate", "is_conjugate", is_flag=True, help="The order of the conjugate."),
-    click.option(
-        "--seconds",
-        type=click.FloatRange(min=0, min_open=True),
-        callback=_finite,
-        metavar="T",
-        help="After so many what is not decided is left open, or a search ends; 60 by default,"
-        " of a search none.",
-    ),
-    digits_option("Digits of numbers without simple radicals.", default=12),
-    click.option(
-        "--emit",
-        type=PATH,
-        metavar="FILE",
-        help="Write the first method found as a method file with its claim.",
-    ),
-)
-_OF_THE_BEST = (
-    click.option(
-        "--minimise",
-        "objective",
-        type=click.Choice(OBJECTIVES),
-        metavar="WHAT",
-        help=f"The best methods of the highest order: {', '.join(OBJECTIVES)}.",
-    ),
-)
-_OF_STABILITY = (
-    click.option(
-        "--p-stable",
-        "stability",
-        flag_value="p-stable",
-        help="The exact set of values of one parameter for which the method is P-stable.",
-    ),
-    click.option(
-        "--a-stable", "stability", flag_value="a-stable", help="The same for A-stability."
-    ),
-    click.option(
-        "--l-stable", "stability", flag_value="l-stable", help="The same for L-stability."
-    ),
-    click.option(
-        "--colour",
-        type=click.IntRange(min=1),
-        metavar="N",
-        help="With --a-stable or --l-stable: of colour N alone, in place of all with one λ.",
-    ),
-    click.option(
-        "--slow",
-        metavar="A",
-        help="With --p-stable: a slow and a fast spring, the slow one of (hω)² = A.",
-    ),
-    click.option("--fast", metavar="COLOUR", help="With --slow: the colour of the fast spring."),
-    click.option("--up-to", metavar="X", help="With --slow: fast springs of (hω)² up to X only."),
-)
-_OF_THE_SEARCH = (
-    click.option(
-        "--search",
-        "starts",
-        type=click.IntRange(1, 10_000_000),
-        metavar="N",
-        help="Search from N random starts instead, and prove what is found.",
-    ),
-    click.option(
-        "--seed", type=int, metavar="S", help="With --search: of the starts; 0 by default."
-    ),
-    click.option(
-        "--most",
-        type=click.IntRange(1, 100_000),
-        metavar="K",
-        help="With --search: methods to find at most; 5 by default.",
-    ),
-    click.option(
-        "-j", "--jobs", type=click.IntRange(1, 1000), metavar="N", help="With --search: processes."
-    ),
-    click.option(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="With --search: work on the Dask cluster there; needs garkcli[cluster].",
-    ),
-    click.option(
-        "--emit-all", type=PATH, metavar="DIR", help="Write every method found into a folder."
-    ),
-)
-
-
-def design_options(function: F) -> F:
-    """All options of the command but ``--set``, ``--choose`` and those that every command has; they
-    make one ``Wanted``.
-    """
-    of_orders = (*_OF_THE_ORDER, *_OF_THE_BEST)
-    options = (*of_orders, *_OF_STABILITY, *_OF_THE_SEARCH)
-    for option in reversed(options):
-        function = option(function)
-    return function
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import two_files
-from garkcli.cli.options import CONTEXT, Output, common, settings_named
+from garkcli.cli.options import Output, declared
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.tell.report import FORMATS
 
@@ -18,16 +15,7 @@ EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "
 """By what the methods are to each other."""
 
 
-settings_of_both = settings_named("A value for a parameter of FIRST or SECOND, or of both.")
-
-
-@click.command("diff", context_settings=CONTEXT)
-@two_files("first", "second")
-@click.option(
-    "--strict", is_flag=True, help="Exit with 1 unless every entry is the same as it stands."
-)
-@settings_of_both
-@common(FORMATS)
+@declared("diff", FORMATS)
 def command(first: str, second: str, strict: bool, settings: dict[str, str], output: Output) -> int:
     """How two methods differ: in entries, orders, conditions and properties; and whether they are
     the same method with its stages numbered otherwise, or in another form.

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from garkcli.cli.companion import companion, companion_options, exact_companion
+from garkcli.cli.companion import companion, exact_companion
 from garkcli.cli.long_runs import Wanted, check_wanted, followed, problem_of, symplecticity_of
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, Output, common, settings_option
-from garkcli.cli.plotting import plot_option, save_plot
-from garkcli.cli.problems import ProblemType, problem_options
+from garkcli.cli.options import Output, declared
+from garkcli.cli.plotting import save_plot
 from garkcli.cli.stepping import given_positive, tell_failure
 from garkcli.errors import GarkError
 
@@ -27,48 +23,7 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
 """Verdicts that do not meet ``--bounded``."""
 
 
-@click.command("energy", context_settings=CONTEXT)
-@file_argument()
-@companion_options
-@click.option(
-    "--problem",
-    type=ProblemType(),
-    default="oscillator",
-    show_default=True,
-    help="What to follow: a name that gark list shows, or a problem file.",
-)
-@problem_options
-@click.option("--step", metavar="H", help="The step size; each problem has its own.")
-@click.option(
-    "--digits",
-    type=click.IntRange(1, 200),
-    metavar="N",
-    help="Step with N digits instead of floats.",
-)
-@click.option(
-    "--points",
-    type=click.IntRange(10, 1_000_000),
-    default=2000,
-    show_default=True,
-    metavar="N",
-    help="How many times the plot and --format csv keep, extremes among them.",
-)
-@click.option("--symplecticity", is_flag=True, help="Measure MᵀJM − J of steps, M = ∂y₁/∂y₀.")
-@click.option(
-    "--bounded", is_flag=True, help="Claim that nothing drifts, as far as this run can tell."
-)
-@click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
-@click.option(
-    "--modified",
-    type=click.IntRange(1, 100),
-    is_flag=False,
-    flag_value=5,
-    metavar="[ORDER]",
-    help="Measure in the modified Hamiltonian of trees up to ORDER, 5 by default, too.",
-)
-@plot_option("Draw into FILE: .png, .svg or .pdf.")
-@settings_option
-@common(["text", "json", "csv"])
+@declared("energy", ["text", "json", "csv"])
 def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The energy error over a long time, and that of every other invariant: does it drift?
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 from click.shell_completion import CompletionItem
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import Output, declared
 
 
 class _Word(click.ParamType):  # type: ignore[type-arg]
@@ -22,9 +22,7 @@ class _Word(click.ParamType):  # type: ignore[type-arg]
         return [CompletionItem(word) for word in words]
 
 
-@click.command("explain", context_settings=CONTEXT)
-@click.argument("words", nargs=-1, type=_Word(), metavar="WORD...")
-@common(["text", "json"])
+@declared("explain", ["text", "json"], WORD={"type": _Word()})
 def command(words: tuple[str, ...], output: Output) -> int:
     """What a word of a report or of a file means: its definition, its formula, its source.
 

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.companion import companion_options, exact_companion
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, PATH, Output, digits_option, help_option, settings_option
+from garkcli.cli.companion import exact_companion
+from garkcli.cli.options import Output, declared
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -17,42 +14,7 @@ if TYPE_CHECKING:
     from garkcli.bridges.registry import Bridge, Written
 
 
-def _targets(
-    context: click.Context,  # noqa: ARG001 -- what click gives
-    option: click.Parameter,  # noqa: ARG001
-    beginning: str,
-) -> list[str]:
-    """The targets that begin so, for completion in the shell."""
-    from garkcli.bridges.registry import bridges
-
-    return [name for name in bridges() if name.startswith(beginning)]
-
-
-@click.command("export", context_settings=CONTEXT)
-@file_argument()
-@companion_options
-@click.option(
-    "--to",
-    "target",
-    required=True,
-    metavar="TARGET",
-    shell_complete=_targets,
-    help="What to write for; gark list exports names the targets.",
-)
-@digits_option(
-    "Every number as a decimal of N digits, correctly rounded; by default exact where TARGET has "
-    "such numbers, and else as many digits as it reads."
-)
-@click.option(
-    "--test",
-    "has_test",
-    is_flag=True,
-    help="With -o: write beside it a program that runs the method in TARGET, and the problem file "
-    "on which gark converge prints the same errors.",
-)
-@settings_option
-@click.option("-o", "--output", type=PATH, metavar="FILE", help="Write to FILE.")
-@help_option
+@declared("export")
 def command(
     file: str,
     which: str | None,

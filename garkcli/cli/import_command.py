@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import INPUT
-from garkcli.cli.options import CONTEXT, PATH, Output, help_option
+from garkcli.cli.options import Output, declared
 from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted, printable
 
@@ -18,41 +15,7 @@ if TYPE_CHECKING:
     from garkcli.bridges.readers.found import FoundTable, Reader
 
 
-@click.command("import", context_settings=CONTEXT)
-@click.argument("sources", nargs=-1, type=INPUT, metavar="SOURCE...", required=True)
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    type=PATH,
-    metavar="DIR",
-    help="Write a method file for each method into DIR.",
-)
-@click.option(
-    "--from",
-    "source_format",
-    metavar="FORMAT",
-    help="What SOURCE is; else the ending of its name says, or what is found in it.",
-)
-@click.option(
-    "--recognise",
-    "is_recognising",
-    is_flag=True,
-    help="Exact numbers in place of decimals, where the order does not fall.",
-)
-@click.option(
-    "--format",
-    type=click.Choice(["text", "json", "yaml"]),
-    default="text",
-    show_default=True,
-    help="The report, or the method files themselves.",
-)
-@click.option("-q", "--quiet", is_flag=True, help="Say less.")
-@click.option("-v", "--verbose", is_flag=True, help="Show the method files.")
-@click.option(
-    "--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True
-)
-@help_option
+@declared("import", ["text", "json", "yaml"])
 def command(
     sources: tuple[str, ...],
     folder: str | None,

@@ -7,17 +7,16 @@ from typing import Any
 import click
 
 from garkcli.cli.list_methods import filter_options, list_methods, refuse_filters
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import Output, declared
 
 WHAT = ("methods", "exports")
 """What is listed, besides what method files and problems can name."""
 
 
-@click.command("list", context_settings=CONTEXT)
-@click.argument("what", required=False, type=click.Choice(WHAT), metavar="[WHAT]")
-@click.argument("words", nargs=-1, metavar="[WORD]...")
-@filter_options
-@common(["text", "json", "csv", "markdown"])
+FORMATS = ("text", "json", "csv", "markdown")
+
+
+@declared("list", FORMATS, WHAT={"type": click.Choice(WHAT)}, options=filter_options())
 def command(what: str | None, output: Output, **options: Any) -> int:
     """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
     methods, those of the catalogue, or exports, the targets of gark export.

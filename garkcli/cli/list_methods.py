@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping
+from typing import Any
 
 import click
 
 from garkcli.catalogue.filters import ORDERS, Range, Wanted, read_range, sorted_by
-from garkcli.cli.method_argument import catalogue_option
 from garkcli.cli.options import Output
 from garkcli.errors import UsageProblem
 from garkcli.properties.property import Property
 from garkcli.properties.registry import every_property
 
-F = TypeVar("F", bound=Callable[..., Any])
 _COUNTS = {
     "order": "The order, such as 4, '>=4' or 2..4; so the others.",
     "embedded-order": "The order of embedded weights.",
@@ -52,54 +50,28 @@ def _of_kind(kind: str) -> list[Property]:
     return [x for x in every_property() if x.kind == kind]
 
 
-def filter_options(function: F) -> F:
-    """All options that say which methods are listed, and how they are sorted."""
-    for option in reversed(_options()):
-        function = option(function)
-    return function
-
-
-def _options() -> list[Callable[[Any], Any]]:
-    """They arrive by their keys in entries of the catalogue; None where they were not given."""
+def filter_options() -> list[click.Option]:
+    """All options that say which methods are listed, and how they are sorted; they arrive by their
+    keys in entries of the catalogue, None where they were not given.
+    """
     counts = {**_COUNTS}
     counts |= {x.key: f"The property {x.key}." for x in _of_kind("count")}
     truths = {**_TRUTHS}
     truths |= {x.key: f"The property {x.key}." for x in _of_kind("truth")}
+    words = {
+        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, or general."),
+        "sort": (ORDERS, "By what the list is sorted; by default the order."),
+    }
+    structures = "Which vector fields the problem has: general, separable, nystrom ..."
+    judging = "Judge methods of one's own as gark check does; else they are as they claim."
     return [
-        *(_count(key, help) for key, help in counts.items()),
-        *(_truth(key, help) for key, help in truths.items()),
-        click.option(
-            "--kind",
-            type=click.Choice(_KINDS),
-            help="Runge-Kutta, additive, partitioned, or general.",
-        ),
-        click.option(
-            "--structure",
-            metavar="WORD",
-            help="Which vector fields the problem has: general, separable, nystrom ...",
-        ),
-        click.option("--folder", metavar="NAME", help="Of the catalogue, such as erk."),
-        click.option(
-            "--sort",
-            type=click.Choice(ORDERS),
-            help="By what the list is sorted; by default the order.",
-        ),
-        click.option(
-            "--judge",
-            is_flag=True,
-            default=None,
-            help="Judge methods of one's own as gark check does; else they are as they claim.",
-        ),
-        catalogue_option,
+        *(click.Option([f"--{key}"], type=RangeType(), help=x) for key, x in counts.items()),
+        *(click.Option([f"--{key}/--no-{key}"], default=None, help=x) for key, x in truths.items()),
+        *(click.Option([f"--{x}"], type=click.Choice(y), help=z) for x, (y, z) in words.items()),
+        click.Option(["--structure"], metavar="WORD", help=structures),
+        click.Option(["--folder"], metavar="NAME", help="Of the catalogue, such as erk."),
+        click.Option(["--judge"], is_flag=True, default=None, help=judging),
     ]
-
-
-def _count(key: str, help: str) -> Callable[[Any], Any]:
-    return click.option(f"--{key}", type=RangeType(), help=help)
-
-
-def _truth(key: str, help: str) -> Callable[[Any], Any]:
-    return click.option(f"--{key}/--no-{key}", default=None, help=help)
 
 
 def refuse_filters(given: Mapping[str, object], format: str) -> None:

@@ -25,6 +25,7 @@ from garkcli.cli.streams import (
     put,
     say,
 )
+from garkcli.cli.table import COMMANDS
 from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import GarkError, UsageProblem, counted
 from garkcli.files import noting_inputs
@@ -37,35 +38,6 @@ HELP = "help"
 COMPLETION = "_GARK_COMPLETE"
 """The variable in which shells ask for completions."""
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
-COMMANDS = {
-    "check": "orders, B/C/D, symplecticity and the claims of method files",
-    "new": "a method file, from a tableau or from families",
-    "claims": "what is true of a method, as its file claims it",
-    "trees": "enumerate or count the N-trees of an order",
-    "conditions": "the order-condition table, of any method or of a file",
-    "tableau": "the assembled tableau, all blocks",
-    "conjugate": "the symplectic conjugate tableau, or the pair",
-    "reduce": "the smallest method that does the same, as a method file",
-    "convert": "the same method in another form, as a method file",
-    "diff": "how two methods differ, and whether they are the same one",
-    "stability": "A-, L-, P-stability, intervals, SSP coefficient, exactly",
-    "modified": "the modified equation or Hamiltonian, effective order",
-    "converge": "the convergence test on a problem",
-    "energy": "energy and other invariants over a long time: do they drift?",
-    "design": "for which values of its parameters a method has an order",
-    "sweep": "many methods side by side: which are best",
-    "export": "a method for SciPy, SUNDIALS, PETSc, C, JSON and others",
-    "import": "methods out of C, Python, MATLAB, Julia, LaTeX, JSON and others",
-    "audit": "the tables of a source tree against what they declare",
-    "certificate": "what proves the orders, to be checked without gark",
-    "explain": "what a word of a report or of a file means",
-    "list": "families, transfer rules, problems, methods of the catalogue",
-    "show": "all about one method: tableau, properties, reference",
-    "cite": "where methods were published, for a bibliography",
-    "report": "all about methods as one HTML page",
-    "schema": "the JSON Schemas of method files, problem files and reports",
-}
-"""Every command with its line in the help; the module of the same name in this room has it."""
 
 
 class _LazyGroup(click.Group):
@@ -99,7 +71,7 @@ class _LazyGroup(click.Group):
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+            formatter.write_dl([(name, row.summary) for name, row in COMMANDS.items()])
 
 
 def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -127,7 +99,6 @@ def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> N
     help="Show the version and exit.",
 )
 @click.option("--debug", is_flag=True, help="Show the traceback of a fault of the program.")
-@help_option
 @click.pass_context
 def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read where faults are shown
     """Order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
@@ -150,6 +121,9 @@ def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read wh
         return 2
     context.with_resource(watching(f"gark {context.invoked_subcommand}"))
     return 0
+
+
+gark.params.append(help_option())
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

@@ -1,11 +1,11 @@
-"""The argument FILE: a method file or a name of the catalogue, ``--catalogue``, and completion."""
+"""Files and names of the catalogue as arguments, with completion; ``--catalogue``."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 from click.shell_completion import CompletionItem
@@ -13,7 +13,6 @@ from click.shell_completion import CompletionItem
 from garkcli.errors import GarkError, UsageProblem
 from garkcli.files import note_input
 
-F = TypeVar("F", bound=Callable[..., Any])
 _NOTES = "garkcli.notes"
 """Where a context keeps what is to be said once it is known how much the user wants to hear."""
 _VARIABLE = "GARK_PATH"
@@ -81,7 +80,7 @@ METHOD = MethodType()
 """The type of arguments that are method files or names."""
 
 
-def _add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
+def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
     """Put folders before those of ``GARK_PATH``, for this run and the processes that it starts.
 
     Raises:
@@ -109,20 +108,7 @@ def _restore(before: str | None) -> None:
         os.environ[_VARIABLE] = before
 
 
-catalogue_option: Callable[[F], F] = click.option(
-    "--catalogue",
-    multiple=True,
-    metavar="DIR",
-    type=click.Path(readable=False, file_okay=False),
-    is_eager=True,
-    expose_value=False,
-    callback=_add_folders,
-    help="Method files below DIR have names too, as those of GARK_PATH; repeatable.",
-)
-"""``--catalogue``; it is in force while the command runs."""
-
-
-def _with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
+def with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
     """Keep what has to be said of names, until it is known how much the user wants to hear."""
     if os.environ.get(_VARIABLE) and not context.resilient_parsing:
         from garkcli.methodfile.naming import note_of
@@ -139,52 +125,3 @@ def notes() -> list[str]:
     context = click.get_current_context(silent=True)
     kept: list[str] = context.meta.pop(_NOTES, []) if context else []
     return kept
-
-
-def file_argument(required: bool = True) -> Callable[[F], F]:
-    """FILE, with ``--catalogue``; it arrives as ``file``."""
-    metavar = "FILE" if required else "[FILE]"
-    return _argument("file", required=required, metavar=metavar)
-
-
-def files_argument(required: bool = True) -> Callable[[F], F]:
-    """Several of them; they arrive as ``files``."""
-    return _argument("files", required=required, metavar="FILE...", nargs=-1)
-
-
-def two_files(first: str, second: str) -> Callable[[F], F]:
-    """Two of them, by the names that they arrive as."""
-    return _with_catalogue([_one(first), _one(second)])
-
-
-def _argument(name: str, **settings: Any) -> Callable[[F], F]:
-    return _with_catalogue([_one(name, **settings)])
-
-
-def _one(name: str, **settings: Any) -> Callable[[F], F]:
-    argument: Callable[[F], F] = click.argument(name, type=METHOD, callback=_with_notes, **settings)
-    return argument
-
-
-def _with_catalogue(arguments: Sequence[Callable[[F], F]]) -> Callable[[F], F]:
-    """The arguments, the last one applied first, and ``--catalogue``."""
-
-    def decorate(function: F) -> F:
-        decorated = catalogue_option(function)
-        for argument in reversed(arguments):
-            decorated = argument(decorated)
-        _after_own_options(decorated)
-        return decorated
-
-    return decorate
-
-
-def _after_own_options(function: Callable[..., Any]) -> None:
-    """Move ``--catalogue`` in the help to the end of the options that are the command's own."""
-    # the last of the help is the first of these, as decorators are applied from below
-    options: list[click.Parameter] = function.__click_params__  # type: ignore[attr-defined]
-    names = [option.name for option in options]
-    catalogue = options.pop(names.index("catalogue"))
-    first_shared = "format" if "format" in names else "output"
-    place = names.index(first_shared) + 1 if first_shared in names else 0
-    options.insert(place, catalogue)

@@ -4,20 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.companion import companion_options, exact_companion
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    check_document,
-    common,
-    digits_option,
-    document_option,
-    settings_option,
-)
-from garkcli.cli.problems import ProblemType, find_hamiltonian, seed_option
+from garkcli.cli.companion import exact_companion
+from garkcli.cli.options import Output, check_document, declared
+from garkcli.cli.problems import find_hamiltonian
 from garkcli.cli.stepping import refuse_misplaced
 from garkcli.errors import UsageProblem
 
@@ -26,31 +15,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 
-@click.command("modified", context_settings=CONTEXT)
-@file_argument()
-@click.option(
-    "--order",
-    "-n",
-    type=click.IntRange(1, 100),
-    default=5,
-    show_default=True,
-    metavar="n",
-    help="Trees of up to n vertices: powers of h up to n - 1.",
-)
-@companion_options
-@click.option(
-    "--equation", is_flag=True, help="Rooted trees too, where there is a modified Hamiltonian."
-)
-@click.option(
-    "--problem",
-    type=ProblemType(),
-    help="The formula on a problem: a name that gark list shows, or a file.",
-)
-@seed_option
-@digits_option("Coefficients in decimals of N digits; by default exact.")
-@document_option
-@settings_option
-@common(["text", "json", "latex"])
+@declared("modified", ["text", "json", "latex"])
 def command(
     file: str,
     order: int,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import Output, declared
 from garkcli.cli.streams import is_terminal
 from garkcli.doing import hush
 from garkcli.errors import UsageProblem
@@ -19,28 +19,7 @@ if TYPE_CHECKING:
 EXAMPLE = "gark new midpoint.gark.yaml --tableau '0 |; 1/2 | 1/2; | 0 1'"
 
 
-@click.command("new", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="[FILE]", required=False)
-@click.option(
-    "--tableau",
-    metavar="TEXT",
-    help="A Butcher tableau, its lines parted by ; or line ends; - reads it from standard input.",
-)
-@click.option(
-    "--family",
-    "families",
-    multiple=True,
-    metavar="NAME:STAGES",
-    help="A member of a family, one a colour; repeatable.",
-)
-@click.option(
-    "--transfer",
-    metavar="RULE",
-    help="How the blocks between families are made; collocation where none is named.",
-)
-@click.option("--name", metavar="TEXT", help="What the method is called.")
-@click.option("--force", is_flag=True, help="Write over a file that is there.")
-@common(["yaml"])
+@declared("new", ["yaml"])
 def command(
     file: str | None,
     tableau: str | None,

@@ -1,15 +1,19 @@
-"""What the commands share: options, where the report goes, whether it has colour."""
+"""What the commands share: how they are made of the table of calls, where the report goes, whether
+it has colour.
+"""
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence, Sized
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.method_argument import notes
+from garkcli.cli.method_argument import INPUT, METHOD, notes, with_notes
 from garkcli.cli.streams import put, safe_pieces, say, wants_colour
+from garkcli.cli.table import COMMANDS, OPTIONS, PATH, Option
 from garkcli.doing import hush
 from garkcli.errors import UsageProblem
 from garkcli.files import note_input
@@ -18,11 +22,8 @@ from garkcli.page.paint import Paint
 if TYPE_CHECKING:
     from garkcli.tell.report import Report
 
-F = TypeVar("F", bound=Callable[..., Any])
 CONTEXT = {"help_option_names": [], "max_content_width": 100}
-"""Settings of every command; ``-h`` and ``--help`` are options of ``common``."""
-PATH = click.Path(readable=False)
-"""The type of options that are places to write to; ``INPUT`` is that of files that are read."""
+"""Settings of every command; ``-h`` and ``--help`` are an option of each."""
 
 
 def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -31,67 +32,174 @@ def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None
         context.exit()
 
 
-help_option: Callable[[F], F] = click.option(
-    "-h",
-    "--help",
-    is_flag=True,
-    is_eager=True,
-    expose_value=False,
-    callback=_show_help,
-    help="Show this message and exit.",
-)
-"""The option that shows the help of its command."""
-
-
-def digits_option(help: str, default: int | None = None) -> Callable[[F], F]:
-    """``--digits``; without a default the command shows numbers exactly unless it is given."""
-    return click.option(
-        "--digits",
-        type=click.IntRange(1, 1000),
-        default=default,
-        show_default=default is not None,
-        metavar="N",
-        help=help,
+def help_option() -> click.Option:
+    """The option that shows the help of its command."""
+    return click.Option(
+        ["-h", "--help"],
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_show_help,
+        help="Show this message and exit.",
     )
 
 
-def _settings(
-    context: click.Context, parameter: click.Parameter, given: tuple[str, ...]
-) -> dict[str, str]:
-    """``NAME=VALUE`` of ``--set``, each name once."""
-    settings: dict[str, str] = {}
-    for text in given:
-        name, sign, value = text.partition("=")
-        if not sign or not name.strip() or not value.strip():
-            raise click.BadParameter(f"{text!r} is not NAME=VALUE", context, parameter)
-        if name.strip() in settings:
-            raise click.BadParameter(f"{name.strip()!r} is given twice", context, parameter)
-        settings[name.strip()] = value.strip()
-    return settings
+class _Argument(click.Option):
+    """An option that is an argument of a function of the package: its help and its default are
+    those of the argument, and looked up when they are needed.
+    """
+
+    def __init__(self, flags: list[str], of: str, **settings: Any) -> None:
+        self._of = of
+        self._help: str | None = None
+        self._has_default = "default" in settings
+        if settings.get("required"):
+            self._has_default = True
+        super().__init__(flags, **settings)
+        if not self._has_default:
+            self.show_default = True
+
+    @property
+    def help(self) -> str | None:
+        """What the option says itself, or the documentation of the argument."""
+        return self._help or told(self._of)
+
+    @help.setter
+    def help(self, text: str | None) -> None:
+        self._help = text
+
+    def get_default(self, ctx: click.Context, call: bool = True) -> Any:
+        """That of the argument, unless the command has its own."""
+        if self._has_default:
+            return super().get_default(ctx, call)
+        default = parameter_of(self._of).default
+        # an empty text is not worth a word of help
+        is_none = default is inspect.Parameter.empty or (default == "" and not call)
+        return None if is_none else default
 
 
-choices_option: Callable[[F], F] = click.option(
-    "--choose",
-    "choices",
-    multiple=True,
-    metavar="NAME=VALUE",
-    callback=_settings,
-    help="As --set, and say what each choice leaves; repeatable.",
-)
-"""``--choose``; it arrives as a mapping."""
+def parameter_of(of: str) -> inspect.Parameter:
+    """The argument that is called ``function.argument`` in the package."""
+    import garkcli
+
+    function, _, name = of.partition(".")
+    return inspect.signature(getattr(garkcli, function)).parameters[name]
 
 
-def settings_named(help: str) -> Callable[[F], F]:
-    """``--set``, with what it is for; it arrives as a mapping."""
-    return click.option(
-        "--set", "settings", multiple=True, metavar="NAME=VALUE", callback=_settings, help=help
-    )
+def told(of: str) -> str:
+    """What the docstring of a function says of an argument."""
+    import garkcli
+
+    function, _, name = of.partition(".")
+    lines = iter((inspect.getdoc(getattr(garkcli, function)) or "").splitlines())
+    found = ""
+    for line in lines:
+        if found and not line.startswith("        "):
+            break
+        if found or line.startswith(f"    {name}: "):
+            found = f"{found} {line.strip()}".strip()
+    text = found.removeprefix(f"{name}: ").replace("``", "")
+    return text[:1].upper() + text[1:]
 
 
-settings_option: Callable[[F], F] = settings_named(
-    "A value for a parameter of FILE, in place of the one in it."
-)
-"""``--set``; it arrives as a mapping."""
+ARGUMENTS: dict[str, dict[str, Any]] = {
+    "FILE": {"type": METHOD, "callback": with_notes},
+    "FIRST": {"type": METHOD, "callback": with_notes},
+    "SECOND": {"type": METHOD, "callback": with_notes},
+    "PLACE": {"type": PATH, "name": "file", "metavar": "[FILE]"},
+    "SPEC": {"type": INPUT},
+    "SOURCE": {"type": INPUT},
+    "PATH": {"type": INPUT},
+}
+"""What commands take, by the words of their usage; what is not here is given by the command."""
+
+
+def declared(name: str, formats: Sequence[str] = (), **more: Any) -> Callable[..., click.Command]:
+    """The command that the table of calls has by that name.
+
+    ``--format``, ``-o``, ``-q``, ``-v`` and ``--color`` arrive as one ``Output``, ``--conjugate``
+    and ``--pair`` as ``which``.
+
+    Args:
+        name: of the command.
+        formats: that it writes, the first one by default.
+        more: settings of its arguments that it knows itself; ``options``, those that are made.
+    """
+    row = COMMANDS[name]
+
+    def decorate(function: Callable[..., Any]) -> click.Command:
+        own = row.options.split()
+        common = row.common.split()
+        run = function
+        if "--conjugate" in own and name != "design":
+            run = _with_companion(run)
+        if "--format" in common and "--verbose" in common and name != "import":
+            run = _with_output(run)
+        arguments = [_argument(word, more) for word in row.arguments.split()]
+        if "FILE" in row.arguments or "FIRST" in row.arguments:
+            common.insert(0, "--catalogue")
+        options = [_option(name, flag, formats) for flag in own]
+        shared = [help_option() if x == "--help" else _option(name, x, formats) for x in common]
+        return click.Command(
+            name,
+            callback=run,
+            params=[*arguments, *options, *more.get("options", ()), *shared],
+            help=inspect.getdoc(function),
+            context_settings=CONTEXT,
+        )
+
+    return decorate
+
+
+def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
+    """An argument as it stands in the usage: [FILE...] for several that may be left out."""
+    required, several = not word.startswith("["), word.endswith(("...", "...]"))
+    bare = word.strip("[].")
+    settings = {**ARGUMENTS.get(bare, {}), **more.get(bare, {})}
+    name = settings.pop("name", f"{bare.lower()}s" if several else bare.lower())
+    settings = {"required": required, "metavar": word, **settings}
+    return click.Argument([name], nargs=-1 if several else 1, **settings)
+
+
+def _option(command: str, flag: str, formats: Sequence[str]) -> click.Option:
+    row: Option = OPTIONS.get(f"{command} {flag}") or OPTIONS[flag]
+    settings = dict(row.settings or {})
+    if flag == "--format":
+        settings |= {"type": click.Choice(formats), "default": formats[0]}
+    if flag in {"--format", "--color"}:
+        settings["show_default"] = True
+    if "choices" in settings:
+        settings["type"] = click.Choice(settings.pop("choices")())
+    flags = [*row.flags, settings.pop("name")] if "name" in settings else row.flags
+    if row.of:
+        return _Argument(flags, row.of, help=row.help or None, **settings)
+    return click.Option(flags, help=row.help or None, **settings)
+
+
+def _with_companion(function: Callable[..., Any]) -> Callable[..., Any]:
+    """``--conjugate`` and ``--pair`` as ``which``, None for the method itself."""
+
+    def run(is_conjugate: bool, is_pair: bool, **rest: Any) -> Any:
+        if is_conjugate and is_pair:
+            raise UsageProblem("--pair and --conjugate are two methods", "ask for one")
+        which = "conjugate" if is_conjugate else "pair" if is_pair else None
+        return function(which=which, **rest)
+
+    return run
+
+
+def _with_output(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Where the report goes and how it looks as one ``Output``."""
+
+    def run(
+        format: str, output: str | None, quiet: bool, verbose: bool, color: str, **rest: Any
+    ) -> Any:
+        chosen = Output(format, output, verbose - quiet, color)
+        for note in notes():
+            chosen.note(note)
+        return function(output=chosen, **rest)
+
+    return run
 
 
 def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> None:
@@ -104,12 +212,6 @@ def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> Non
         raise UsageProblem("--set is for one FILE", "give the files one by one")
 
 
-document_option: Callable[[F], F] = click.option(
-    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
-)
-"""The option of commands that write LaTeX."""
-
-
 def check_document(is_document: bool, format: str) -> None:
     """Refuse ``--document`` where no LaTeX is written.
 
@@ -119,53 +221,6 @@ def check_document(is_document: bool, format: str) -> None:
     if is_document and format != "latex":
         message = "--document goes with --format latex"
         raise UsageProblem(message, "add --format latex")
-
-
-def common(formats: Sequence[str]) -> Callable[[F], F]:
-    """``--format``, ``-o``, ``-q``, ``-v``, ``--color``; they arrive as one ``Output``."""
-
-    def decorate(function: F) -> F:
-        def run(
-            format: str, output: str | None, quiet: bool, verbose: bool, color: str, **rest: Any
-        ) -> Any:
-            verbosity = verbose - quiet
-            chosen = Output(format, output, verbosity, color)
-            for note in notes():
-                chosen.note(note)
-            return function(output=chosen, **rest)
-
-        decorated = wrapping(function, run)
-        for option in reversed(_common_options(formats)):
-            decorated = option(decorated)
-        return decorated
-
-    return decorate
-
-
-def wrapping(function: F, run: Callable[..., Any]) -> F:
-    """``run`` in the place of ``function``, with its name, its help and its options."""
-    made: Any = run
-    made.__doc__ = function.__doc__
-    made.__name__ = function.__name__
-    made.__click_params__ = getattr(function, "__click_params__", [])
-    return made  # type: ignore[no-any-return]
-
-
-def _common_options(formats: Sequence[str]) -> list[Callable[[Any], Any]]:
-    """The options of every command that writes a report, in the order of the help."""
-    return [
-        click.option("--format", type=click.Choice(formats), default=formats[0], show_default=True),
-        click.option("-o", "--output", type=PATH, metavar="FILE", help="Write the report to FILE."),
-        click.option("-q", "--quiet", is_flag=True, help="Say less."),
-        click.option("-v", "--verbose", is_flag=True, help="Say more."),
-        click.option(
-            "--color",
-            type=click.Choice(["auto", "always", "never"]),
-            default="auto",
-            show_default=True,
-        ),
-        help_option,
-    ]
 
 
 class Output:

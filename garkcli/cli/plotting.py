@@ -2,23 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.options import PATH, Output
+from garkcli.cli.options import Output
 
 if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
-
-F = TypeVar("F", bound=Callable[..., Any])
-
-
-def plot_option(help: str) -> Callable[[F], F]:
-    """``--plot``, with what it draws."""
-    return click.option("--plot", type=PATH, metavar="FILE", help=help)
 
 
 def check_plot(path: str | None) -> None:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
 import click
 from click.shell_completion import CompletionItem
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.problem import Problem
     from garkcli.tableau.tableau import Tableau
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 
 def is_path(text: str) -> bool:
@@ -66,36 +63,6 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
                 )
             return [CompletionItem(name) for name in found]
         return [CompletionItem(incomplete, type="file")]
-
-
-omega_option: Callable[[F], F] = click.option(
-    "--omega", metavar="W", help="The frequency of the oscillator; 1 by default."
-)
-split_option: Callable[[F], F] = click.option(
-    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
-)
-seed_option: Callable[[F], F] = click.option(
-    "--seed",
-    type=click.IntRange(0),
-    metavar="N",
-    help="The coefficients of random problems; 1 by default.",
-)
-t_end_option: Callable[[F], F] = click.option(
-    "--t-end", metavar="T", help="The final time; each problem has its own."
-)
-stiffness_option: Callable[[F], F] = click.option(
-    "--stiffness",
-    metavar="S",
-    help="Of the stiff problems, and the parameter of this name in a problem file.",
-)
-
-
-def problem_options(function: F) -> F:
-    """``--omega``, ``--split``, ``--seed``, ``--stiffness`` and ``--t-end``."""
-    options = (t_end_option, stiffness_option, seed_option, split_option, omega_option)
-    for option in options:
-        function = option(function)
-    return function
 
 
 def unsplit_problem(name_or_path: str, stiffness: fmpq | None) -> Problem:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, Output, common, settings_option
+from garkcli.cli.options import Output, declared
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -16,10 +13,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 
-@click.command("reduce", context_settings=CONTEXT)
-@file_argument()
-@settings_option
-@common(["yaml", "text", "json", "latex"])
+@declared("reduce", ["yaml", "text", "json", "latex"])
 def command(file: str, settings: dict[str, str], output: Output) -> int:
     """The smallest method that does the same, as a method file.
 

@@ -5,18 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from garkcli.cli.companion import companion_options, exact_companion
-from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    files_meant,
-    refuse_settings_of_several,
-    settings_option,
-)
+from garkcli.cli.companion import exact_companion
+from garkcli.cli.options import Output, declared, files_meant, refuse_settings_of_several
 from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, MethodFileError
 
@@ -24,24 +14,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 
-@click.command("report", context_settings=CONTEXT)
-@files_argument()
-@companion_options
-@click.option(
-    "--order",
-    "-n",
-    type=click.IntRange(1, 100),
-    metavar="n",
-    help="List the order conditions up to n, not up to the first order that fails.",
-)
-@click.option(
-    "--pictures/--no-pictures",
-    default=True,
-    show_default=True,
-    help="Draw stability, errors over step sizes, energy.",
-)
-@settings_option
-@common(["html"])
+@declared("report", ["html"])
 def command(
     files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
 ) -> int:

@@ -5,35 +5,11 @@ from __future__ import annotations
 import json
 from typing import Any
 
-import click
-
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import Output, declared
 from garkcli.errors import UsageProblem
 
 
-def _reports(
-    context: click.Context,  # noqa: ARG001 -- what click gives
-    option: click.Parameter,  # noqa: ARG001
-    beginning: str,
-) -> list[str]:
-    """The reports that begin so, for completion in the shell."""
-    from garkcli.report.schemas import REPORTS
-
-    return [name for name in REPORTS if name.startswith(beginning)]
-
-
-@click.command("schema", context_settings=CONTEXT)
-@click.option("--problem", is_flag=True, help="Of problem files, instead.")
-@click.option("--sweep", is_flag=True, help="Of spec files of gark sweep, instead.")
-@click.option(
-    "--report",
-    is_flag=False,
-    flag_value="check",
-    metavar="[COMMAND]",
-    shell_complete=_reports,
-    help="Of what a command writes with --format json, instead; gark check where none is named.",
-)
-@common(["json"])
+@declared("schema", ["json"])
 def command(problem: bool, sweep: bool, report: str | None, output: Output) -> int:
     """The JSON Schema (draft-07) of method files, for editors; or of problem files, or of reports.
 

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import CONTEXT, Output, common, settings_option
+from garkcli.cli.options import Output, declared
 
 if TYPE_CHECKING:
     from garkcli.catalogue.facts import Entry
     from garkcli.methodfile.build import MethodFile
 
 
-@click.command("show", context_settings=CONTEXT)
-@file_argument()
-@settings_option
-@common(["text", "json"])
+@declared("show", ["text", "json"])
 def command(file: str, settings: dict[str, str], output: Output) -> int:
     """All about one method: its tableau, orders, properties, where it was published.
 

@@ -6,20 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.companion import companion_options, exact_companion
-from garkcli.cli.method_argument import files_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    digits_option,
-    files_meant,
-    refuse_settings_of_several,
-    settings_option,
-)
-from garkcli.cli.plotting import check_plot, plot_option, save_plot
+from garkcli.cli.companion import exact_companion
+from garkcli.cli.options import Output, declared, files_meant, refuse_settings_of_several
+from garkcli.cli.plotting import check_plot, save_plot
 from garkcli.errors import HasFreeParameters, UsageProblem
 from garkcli.tell.report import FORMATS
 
@@ -32,26 +21,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 
-@click.command("stability", context_settings=CONTEXT)
-@files_argument()
-@companion_options
-@click.option(
-    "--slow",
-    metavar="A",
-    help="The slow one of two springs: its (hω)², or A..B for all of them; with --fast.",
-)
-@click.option("--fast", metavar="COLOUR", help="Two springs: the colour of the fast one.")
-@click.option(
-    "--ratio",
-    metavar="Q",
-    multiple=True,
-    help="Two colours: the additive SSP radius for r2 = Q r1 too; repeatable.",
-)
-@digits_option("Digits of numbers that have no simple radicals.", default=12)
-@plot_option("Draw regions or traces into FILE: .png, .svg, .pdf.")
-@click.option("--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead.")
-@settings_option
-@common(FORMATS)
+@declared("stability", FORMATS)
 def command(
     files: tuple[str, ...],
     which: str | None,

@@ -5,10 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.method_argument import INPUT, catalogue_option
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import Output, declared
 from garkcli.doing import doing
 
 if TYPE_CHECKING:
@@ -17,51 +14,7 @@ if TYPE_CHECKING:
     from garkcli.sweep.run import Progress
 
 
-@click.command("sweep", context_settings=CONTEXT)
-@click.argument("spec", type=INPUT, metavar="SPEC")
-@click.option(
-    "--rows",
-    type=PATH,
-    metavar="FILE",
-    help="Where the rows go, a line of JSON each; by default SPEC with .jsonl.",
-)
-@click.option("--resume", is_flag=True, help="Do what is missing in the rows.")
-@click.option(
-    "--jobs",
-    type=click.IntRange(1, 60),
-    default=1,
-    show_default=True,
-    metavar="N",
-    help="Processes side by side.",
-)
-@click.option(
-    "--scheduler",
-    metavar="ADDRESS",
-    default="",
-    help="Work on the Dask cluster there; needs garkcli[cluster].",
-)
-@click.option(
-    "--top",
-    type=click.IntRange(1),
-    default=10,
-    show_default=True,
-    metavar="N",
-    help="How many of the best are shown; CSV and JSON lines have all.",
-)
-@click.option(
-    "--parquet",
-    type=PATH,
-    metavar="FILE",
-    help="Write the methods that are kept as Parquet too; needs garkcli[parquet].",
-)
-@click.option(
-    "--plot",
-    type=PATH,
-    metavar="FILE",
-    help="Draw the methods in the plane of the first two columns of pareto.",
-)
-@catalogue_option
-@common(["text", "json", "jsonl", "csv"])
+@declared("sweep", ["text", "json", "jsonl", "csv"])
 def command(
     spec: str,
     rows: str | None,

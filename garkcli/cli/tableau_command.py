@@ -5,18 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import click
-
-from garkcli.cli.companion import companion, companion_options
-from garkcli.cli.method_argument import file_argument
-from garkcli.cli.options import (
-    CONTEXT,
-    Output,
-    common,
-    digits_option,
-    document_option,
-    settings_option,
-)
+from garkcli.cli.companion import companion
+from garkcli.cli.options import Output, declared
 from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
@@ -24,13 +14,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import Derivation, GarkMethod
 
 
-@click.command("tableau", context_settings=CONTEXT)
-@file_argument()
-@companion_options
-@digits_option("Decimals of N digits; by default exact, or 17 digits.")
-@document_option
-@settings_option
-@common(["text", "yaml", "json", "latex"])
+@declared("tableau", ["text", "yaml", "json", "latex"])
 def command(
     file: str,
     which: Derivation | None,

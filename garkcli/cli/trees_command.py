@@ -8,12 +8,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from garkcli.cli.options import CONTEXT, PATH, Output, common, document_option
+from garkcli.cli.options import Output, declared
 from garkcli.cli.streams import is_terminal, say
 from garkcli.cli.tree_lists import counts_of, draw_sheet, rows_of
-from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.cli.tree_options import kind_asked
 from garkcli.doing import counting, hush
 from garkcli.errors import UsageProblem
 
@@ -25,27 +23,7 @@ MANY = 1_000_000
 """So many lines are asked for twice."""
 
 
-@click.command("trees", context_settings=CONTEXT)
-@colours_option("How many colours, 1 unless given; with --symplectic, terms of the split.")
-@click.option(
-    "--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices."
-)
-@click.option("--upto", is_flag=True, help="Every order from 1 to n.")
-@click.option(
-    "--root", type=click.IntRange(1), metavar="L", help="Only trees whose root has colour L."
-)
-@click.option(
-    "--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs."
-)
-@click.option("--count", is_flag=True, help="Count without generating, for any order.")
-@click.option("--yes", is_flag=True, help="List them also where they are millions.")
-@click.option(
-    "--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order."
-)
-@click.option("--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE.")
-@document_option
-@symplectic_options
-@common(["text", "json", "ndjson", "csv", "latex"])
+@declared("trees", ["text", "json", "ndjson", "csv", "latex"])
 def command(output: Output, **options: Any) -> int:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
 

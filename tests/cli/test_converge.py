@@ -190,8 +190,6 @@ def test_nothing_to_draw(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("said", "arguments"),
     [
-        ("has no --drift: the energy over a long time is gark energy", (VERLET, "--drift")),
-        ("has no --step: the energy over a long time is gark energy", (VERLET, "--step", "1")),
         ("--against seconds is not known without measuring it", (VERLET, "--against", "seconds")),
         ("--omega 0: a positive number is expected", (VERLET, RECTANGULAR, "--omega", "0")),
         ("no figure can be saved", (VERLET, RECTANGULAR, "--plot", "figure.jpg")),

@@ -39,7 +39,7 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/transfer.py", "RULES"),
         ("garkcli/constructions/schemes/exact.py", "SCHEMES"),
         ("garkcli/constructions/schemes/rounded.py", "SCHEMES"),
-        ("garkcli/cli/main.py", "COMMANDS"),
+        ("garkcli/cli/table.py", "COMMANDS"),
         ("garkcli/webpage/registry.py", "SECTIONS"),
         ("garkcli/webpage/sections/orders.py", "SECTION"),
         ("garkcli/glossary/terms/orders.py", "TERMS"),
@@ -48,7 +48,7 @@ def test_lists_are_in_the_files_that_are_named() -> None:
     ):
         assert f"`{name}`" in TEXT
         text = (ROOT / folder).read_text(encoding="utf-8")
-        assert re.search(rf"^{name}\b.* = ", text, re.MULTILINE), folder
+        assert re.search(rf"^{name}\b.*= ", text, re.MULTILINE), folder
 
 
 def test_a_file_that_is_not_there_is_found() -> None:

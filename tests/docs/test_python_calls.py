@@ -3,90 +3,110 @@
 from __future__ import annotations
 
 import json
+import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import click
 import pytest
 
 import garkcli
-from garkcli.cli.main import COMMANDS
-from garkcli.cli.main import gark as group
+from garkcli.cli.options import parameter_of, told
+from garkcli.cli.table import COMMANDS, OPTIONS, Option
 from garkcli.errors import MethodError
 from tests.cli.harness import gark
 
-ROOT = Path(__file__).resolve().parents[2]
-CALLS = re.compile(r"^\| `([a-z]+)` \| (.*) \|$", re.MULTILINE)
-OF_OBJECTS = {"A", "b", "c", "_repr_latex_", "--write"}
-"""Words of the table that are attributes of methods, or an option."""
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "python.md"
+COMMON = "every command"
 
 
-def calls() -> dict[str, list[str]]:
-    """The calls of each command, as the page has them."""
-    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
-    part = page.partition("## Commands as calls")[2].partition("\n## ")[0]
-    return {
-        command: re.findall(r"`([^`]+)`", text)
-        for command, text in CALLS.findall(part)
-        if command != "gark"  # the head of the table
-    }
+def calls() -> str:
+    """The table of commands."""
+    lines = ["| `gark` | in Python |", "|---|---|"]
+    for name, row in COMMANDS.items():
+        lines.append(f"| `{name}` | {', '.join(f'`{call}`' for call in row.calls.split())} |")
+    return "\n".join(lines)
 
 
-def test_every_command_has_its_calls() -> None:
-    """The table has the commands, in their order or another, and only public names."""
-    table = calls()
-    assert set(table) == set(COMMANDS)
-    for command, names in table.items():
-        public = [name for name in names if name not in OF_OBJECTS]
-        assert public, command
-        assert set(public) <= set(garkcli.__all__), command
-        for name in public:
-            value = getattr(garkcli, name)
-            assert callable(value) or name == "catalogue"
+def declared() -> Iterator[tuple[str, Option]]:
+    """Every command with each of its options in the table."""
+    for name, row in COMMANDS.items():
+        for flag in (*row.options.split(), *row.common.split()):
+            if flag != "--help":
+                yield name, OPTIONS.get(f"{name} {flag}") or OPTIONS[flag]
 
 
-def options() -> Iterator[tuple[str, str]]:
-    """Every command with each of its options."""
-    context = click.Context(group)
-    for name in COMMANDS:
-        command = group.get_command(context, name)
-        assert command is not None
-        for option in command.params:
-            if isinstance(option, click.Option):
-                yield name, "/".join(option.opts)
+def arguments() -> str:
+    """The table of options that are arguments."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for command, option in declared():
+        if option.of:
+            found.setdefault((option.key.split()[-1], option.of), []).append(command)
+    lines = ["| option | of | argument |", "|---|---|---|"]
+    for (flag, of), commands in sorted(found.items()):
+        function, _, name = of.partition(".")
+        lines.append(f"| `{flag}` | {', '.join(commands)} | `{name}=` of `{function}` |")
+    return "\n".join(lines)
 
 
-def rows() -> list[tuple[set[str], set[str], str]]:
-    """The table of options: options, commands, and what they are in Python."""
-    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
-    part = page.partition("## Options as arguments")[2].partition("\n## ")[0]
-    found = []
+@pytest.mark.parametrize("table", [calls, arguments], ids=lambda x: x.__name__)
+def test_the_tables_are_made_of_the_one_of_calls(table: Callable[[], str]) -> None:
+    """The page has what each command and each option is in Python."""
+    text = PAGE.read_text(encoding="utf-8")
+    begin, end = f"<!-- {table.__name__} -->\n", f"\n<!-- end of {table.__name__} -->"
+    head, _, rest = text.partition(begin)
+    found, _, tail = rest.partition(end)
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        PAGE.write_text(head + begin + table() + end + tail, encoding="utf-8")
+        return
+    assert found == table()
+
+
+def test_every_call_is_public() -> None:
+    """The commands name what the package has."""
+    for command, row in COMMANDS.items():
+        assert set(row.calls.split()) <= set(garkcli.__all__), command
+
+
+def test_every_argument_is_one() -> None:
+    """An option that is an argument names one of a public function, whose docstring tells it; and a
+    flag that has no default of its own is not set there either.
+    """
+    for command, option in declared():
+        if not option.of:
+            continue
+        function = option.of.partition(".")[0]
+        assert function in garkcli.__all__
+        parameter = parameter_of(option.of)
+        assert option.help or told(option.of), (command, option)
+        if (option.settings or {}).get("is_flag"):
+            assert parameter.default is False, option
+
+
+def test_every_option_is_used() -> None:
+    """No row of the table is left behind."""
+    used = {option.written for _, option in declared()}
+    assert used == {option.written for option in OPTIONS.values()}
+
+
+def test_what_is_no_argument_is_told() -> None:
+    """The page says what the other options are in Python, and names no option that is not there."""
+    page = PAGE.read_text(encoding="utf-8")
+    part = page.partition("<!-- end of arguments -->")[2].partition("\n## ")[0]
+    told_there = set()
     for line in part.splitlines():
         cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
         if len(cells) == 3 and not cells[0].startswith(("option", "---")):
-            told = set(re.findall(r"`(-[\w-]+)`", cells[0]))
-            if "filters" in cells[0]:
-                told |= {x for of, y in options() if of == "list" for x in y.split("/")}
-            found.append((told, set(cells[1].split(", ")), cells[2]))
-    return found
-
-
-def test_every_option_is_an_argument() -> None:
-    """The page says of each option of each command what it is in Python, and names no other."""
-    table = rows()
-    known = set(options())
-    for command, option in known:
-        assert any(
-            told & {*option.split("/")} and of & {command, "every command"} for told, of, _ in table
-        ), f"gark {command} {option}"
-    for told, of, python in table:
-        named = of - {"every command"}
-        assert named <= set(COMMANDS)
-        every = {x for of, y in known if of in (named or {of}) for x in y.split("/")}
-        assert told <= every, told - every
-        for call in re.findall(r"`(\w+)\(", python):
-            assert call in garkcli.__all__, call
+            of = COMMANDS if cells[1] == COMMON else cells[1].split(", ")
+            told_there |= {(x, y) for x in re.findall(r"`(-[\w-]+)`", cells[0]) for y in of}
+            for call in re.findall(r"`(\w+)\(", cells[2]):
+                assert call in garkcli.__all__, call
+    others = [(option.flags, command) for command, option in declared() if not option.of]
+    for flags, command in others:
+        written = {x.partition("/")[0] for x in flags}
+        assert any((x, command) in told_there for x in written), (command, flags)
+    known = {x.partition("/")[0] for flags, _ in others for x in flags}
+    assert {x for x, _ in told_there} <= known | {"-h", "--folder", "--sort", "--judge"}
 
 
 def shown(*arguments: str) -> str:
