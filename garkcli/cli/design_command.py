@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from garkcli.cli.design_options import Wanted
 from garkcli.cli.options import Output, declared
 from garkcli.cli.streams import say_problem
 from garkcli.deadline import seconds_left, until, within
 from garkcli.errors import ExpressionError, NotDecided, UsageProblem, counted, did_you_mean
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.family import Stability as Asked
 
 
-@declared("design", ["text", "json"])
+@declared("design", FORMATS)
 def command(
     file: str, settings: dict[str, str], choices: dict[str, str], output: Output, **options: Any
 ) -> int:
@@ -158,6 +159,7 @@ def _told(
 ) -> int:
     """Find the values, write the report and the files, and return the exit code."""
     from garkcli.methodfile.naming import called
+    from garkcli.report.design import REPORT, DesignReport
 
     with _half(wanted) if wanted.objective is not None else until(wanted.moment):
         found = _found(family, wanted)
@@ -173,8 +175,8 @@ def _told(
 
         with until(wanted.moment):
             minimum = least(found, wanted.objective)
-    report = Report(called(file), found, chosen, minimum, sets or (), wanted.digits)
-    output.write(_rendered(report, output))
+    report = DesignReport(called(file), found, wanted.digits, chosen, minimum, sets or ())
+    output.tell(REPORT, [report])
     if is_compared and minimum is None:
         return _exit_code(None)
     _emit(family, found, minimum, wanted, output)
@@ -200,43 +202,6 @@ def _sets(found: Design, wanted: Wanted) -> tuple[StableValues, ...] | None:
     except NotDecided as error:
         say_problem(error)
         return None
-
-
-class Report(NamedTuple):
-    """What is told.
-
-    Attributes:
-        file: its path.
-        found: for which values the method has the order.
-        chosen: what each value of --choose leaves.
-        minimum: of an objective, where one was asked for.
-        sets: the values that are as stable as is wanted, where all have the order.
-        digits: of numbers without simple radicals.
-    """
-
-    file: str
-    found: Design
-    chosen: list[Choice]
-    minimum: Minimum | None
-    sets: tuple[StableValues, ...]
-    digits: int
-
-
-def _rendered(report: Report, output: Output) -> str:
-    """The report in the format asked for."""
-    file, found, chosen, minimum, sets, digits = report
-    if output.format == "json":
-        from garkcli.report import design_data
-
-        return design_data.render(file, found, digits, chosen, minimum, sets)
-    from garkcli.report import design_text
-
-    text = design_text.render(file, found, digits, output.width, chosen, sets)
-    if minimum is None:
-        return text
-    from garkcli.report import minimum_text
-
-    return text + minimum_text.render(minimum, digits, output.width)
 
 
 def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
@@ -287,7 +252,7 @@ def _chosen_value(name: str, text: str) -> fmpq:
 def _stable_values(family: FamilyFile, wanted: Wanted, asked: Asked, output: Output) -> int:
     """The set of values with a kind of stability."""
     from garkcli.design.stable_values import stable_values
-    from garkcli.report import stable_values as report
+    from garkcli.report.stable_values import REPORT, StableReport
 
     two_springs = _two_springs(family, wanted)
     kind = cast("Kind", asked.kind)
@@ -297,12 +262,7 @@ def _stable_values(family: FamilyFile, wanted: Wanted, asked: Asked, output: Out
     except NotDecided as error:
         say_problem(error)
         return _exit_code(None)
-    file, digits = family.source, wanted.digits
-    if output.format == "json":
-        text = report.render_json(file, found, digits)
-    else:
-        text = report.render_text(file, found, digits, output.width)
-    output.write(text)
+    output.tell(REPORT, [StableReport(family.source, found, wanted.digits)])
     return _exit_code(found.has_values)
 
 

@@ -28,6 +28,7 @@ LABELS = {
     "phase_order": "phase lag",
     "real_interval": "real axis",
     "sdirk": "SDIRK",
+    "springs": "two springs",
     "ssp": "SSP coefficient",
     "ssp_radii": "additive SSP radii",
     "stable_for_every_fast": "stable for all x > 0",

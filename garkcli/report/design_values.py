@@ -1,4 +1,4 @@
-"""Which values of parameters are meant: polynomials that are zero, and where, as text."""
+"""Which values of parameters are meant: polynomials that are zero, and what else holds."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from garkcli.design.step import Step
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.tableau.family import Family, Radical
+from garkcli.tell.facts import Reason
+from garkcli.tell.kinds import EXPRESSION
 
 AnyPolynomial: TypeAlias = "fmpq_mpoly | fmpz_mpoly"
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -26,22 +28,29 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
     return [_text(family, p) for p in polynomials if _terms(p) not in known]
 
 
-def conditions(family: Family, step: Step) -> list[str]:
+def conditions(family: Family, step: Step) -> list[Reason]:
     """What else is true of the values: where there is a method, and which the file admits."""
-    found = [f"{_text(family, p)} ≠ 0" for p in step.nonzero if _may_vanish(family, p)]
+
+    def holds(p: fmpq_mpoly, relation: str) -> Reason:
+        return Reason(f"{{}} {relation} 0", EXPRESSION(_text(family, p)))
+
+    found = [holds(p, "≠") for p in step.nonzero if _may_vanish(family, p)]
     ends, others = _bounds(family)
-    for name, (least, greatest) in ends.items():
-        below = "" if least is None else f"{least} ≤ "
-        above = "" if greatest is None else f" ≤ {greatest}"
-        found.append(f"{below}{name}{above}")
+    for name, bounds in ends.items():
+        least, greatest = (None if x is None else EXPRESSION(str(x)) for x in bounds)
+        if least is None or greatest is None:
+            parts = [x for x in (least, EXPRESSION(name), greatest) if x is not None]
+            found.append(Reason("{} ≤ {}", *parts))
+        else:
+            found.append(Reason("{} ≤ {} ≤ {}", least, EXPRESSION(name), greatest))
     numbers: set[str] = set()
     for radical in family.radicals:
         if _is_number(family, radical, numbers):
             numbers.add(radical.name)
         elif radical.is_even:
-            found.append(f"{radical.text} is real")
+            found.append(Reason("{} is real", EXPRESSION(radical.text)))
     for relation, polynomials in ((">", family.positive), ("≥", others)):
-        found += [f"{_text(family, p)} {relation} 0" for p in polynomials if not p.is_constant()]
+        found += [holds(p, relation) for p in polynomials if not p.is_constant()]
     return list(dict.fromkeys(found))
 
 

@@ -20,10 +20,6 @@ if TYPE_CHECKING:
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.summary import Stability
 
-DIGITS = 12
-"""Of numbers without simple radicals."""
-WIDTH = 76
-"""Columns of a text."""
 _PLAIN = Paint()
 
 
@@ -60,18 +56,17 @@ def comparison_html(found: Comparison) -> str:
 
 
 def design_html(design: Design) -> str:
-    """What ``gark design`` prints."""
-    from garkcli.report.design_text import render
+    """What ``gark design`` tells."""
+    from garkcli.report.design import REPORT, DesignReport
 
-    _, *lines = render("", design, DIGITS, WIDTH).splitlines()
-    return preformatted(lines)
+    return REPORT.html(DesignReport("", design))
 
 
 def minimum_html(minimum: Minimum) -> str:
-    """What ``gark design --minimise`` prints below the design."""
-    from garkcli.report.minimum_text import render
+    """What ``gark design --minimise`` tells."""
+    from garkcli.report.design import REPORT, DesignReport
 
-    return preformatted(render(minimum, DIGITS, WIDTH).splitlines())
+    return REPORT.html(DesignReport("", minimum.design, minimum=minimum))
 
 
 def backward_html(found: BackwardAnalysis) -> str:

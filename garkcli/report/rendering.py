@@ -28,8 +28,6 @@ Writer: TypeAlias = "Callable[[Any, str, str], str]"
 """Of a value, a format, and what to call the method."""
 WIDTH = 80
 """Columns of texts."""
-DIGITS = 12
-"""Of numbers without simple radicals."""
 _PLAIN = Paint()
 
 
@@ -158,15 +156,11 @@ def _modified_run(run: ModifiedRun, format: str, name: str) -> str:
 
 
 def _design(design: Design, format: str, name: str, minimum: Minimum | None = None) -> str:
-    from garkcli.report import design_data, design_text, minimum_text
+    from garkcli.report.design import REPORT, DesignReport
 
-    source = name or design.family.name
-    if format == "json":
-        return design_data.render(source, design, DIGITS, minimum=minimum)
-    text = design_text.render(source, design, DIGITS, WIDTH)
-    if minimum is not None:
-        text += minimum_text.render(minimum, DIGITS, WIDTH)
-    return text
+    return REPORT.render(
+        [DesignReport(name or design.family.name, design, minimum=minimum)], format
+    )
 
 
 def _minimum(minimum: Minimum, format: str, name: str) -> str:
@@ -207,8 +201,8 @@ _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     Comparison: (_comparison, FORMATS),
     BackwardAnalysis: (_backward, ("text", "json", "latex")),
     ModifiedRun: (_modified_run, ("text", "json", "csv")),
-    Design: (_design, ("text", "json")),
-    Minimum: (_minimum, ("text", "json")),
+    Design: (_design, FORMATS),
+    Minimum: (_minimum, FORMATS),
     SweepReport: (_sweep, ("text", "json", "jsonl", "csv")),
     Meaning: (_meanings, ("text", "json")),
     Audited: (_audited, (*AUDIT_FORMATS,)),

@@ -167,7 +167,7 @@ class Plain:
         if simple is None:
             if self.is_brief:
                 return f"{decimals}…"
-            return f"{decimals}, a root of {self.minimal(root)}"
+            return f"{decimals}…, a root of {self.minimal(root)}"
         text = self.expression(simple)
         return text if root.exact is not None or self.is_brief else f"{text} = {decimals}…"
 

@@ -68,7 +68,7 @@ RUNS = [
     (("diff", VERLET, VERLET), ("text", "json", "markdown", "latex")),
     (("modified", VERLET), ("text", "json", "latex")),
     (("certificate", VERLET), ("json",)),
-    (("design", FREE), ("text", "json")),
+    (("design", FREE), ("text", "json", "markdown", "latex")),
     (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "jsonl", "csv")),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),

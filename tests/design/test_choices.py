@@ -19,8 +19,8 @@ def test_each_choice_says_what_it_leaves(tmp_path: Path) -> None:
     command = ["design", str(path), "--order", "3"]
     run = gark(*command, "--choose", "c2=1/3", "--choose", "c3=2/3")
     assert run.code == 0
-    assert "c2 = 1/3 leaves dimension 1 of order 3, dimension 2" in run.out
-    assert "c3 = 2/3 leaves dimension 0 of order 3, dimension 1" in run.out
+    assert "c2 = 1/3  leaves dimension 1 of order 3, dimension 2" in run.out
+    assert "c3 = 2/3  leaves dimension 0 of order 3, dimension 1" in run.out
     assert "b3 = 3/4" in run.out
     chosen = ["--choose", "c2=1/3", "--choose", "a32=0", "--format", "json"]
     none = gark(*command, *chosen)
@@ -28,8 +28,8 @@ def test_each_choice_says_what_it_leaves(tmp_path: Path) -> None:
     dimensions = [(x["dimension_before"], x["dimension"]) for x in data["choices"]]
     assert (none.code, dimensions) == (1, [(2, 1), (1, -1)])
     lost = gark(*command, "--choose", "c2=1/3", "--choose", "a32=0", "--choose", "c3=1")
-    assert "a32 = 0 leaves no method of order 3, dimension 1" in lost.out
-    assert "c3 = 1: no method of order 3 is left to choose from" in lost.out
+    assert "a32 = 0   leaves no method of order 3, dimension 1" in lost.out
+    assert "c3 = 1    no method of order 3 is left to choose from" in lost.out
     assert "dimension -1" not in lost.out
 
 

@@ -14,7 +14,7 @@ from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
 from garkcli.errors import NotDecided
 from garkcli.methodfile.family import loads_family
-from garkcli.report import design_text
+from garkcli.report.design import REPORT, DesignReport
 
 CONTEXT = fmpz_mpoly_ctx.get(("x", "y"), Ordering.degrevlex)
 X, Y = CONTEXT.gens()
@@ -113,7 +113,7 @@ def test_gauss_from_three_stages(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(nodes) == 6
     for found_nodes in nodes:
         assert sorted(found_nodes) == pytest.approx(gauss)
-    text = design_text.render("full.yaml", found, 12, 80)
+    text = REPORT.render([DesignReport("full.yaml", found)])
     assert "that there are no others is not" in " ".join(text.split())
 
 

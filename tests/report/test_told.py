@@ -309,3 +309,26 @@ def test_an_expression_is_one_in_every_format() -> None:
     assert rf"\texttt{{{text.replace('^', chr(92) + 'textasciicircum{}')} + " in report.render(
         [long], "latex"
     )
+
+
+@pytest.mark.parametrize("format", ["text", "markdown", "latex"])
+def test_a_design_says_how_its_values_are_known(format: str, tmp_path: Path) -> None:
+    """Whatever the format: the answer first; that a solution is proved; that an end is a root of a
+    polynomial, and no decimal; what is not decided, and why.
+    """
+
+    def told(*options: str) -> str:
+        text = gark("design", "sdirk.yaml", *options, "--format", format, cwd=tmp_path).out
+        return " ".join(text.split())
+
+    path = tmp_path / "sdirk.yaml"
+    path.write_text("unknown: {stages: 2, shape: sdirk}\n", encoding="utf-8")
+    answer = "sdirk.yaml: order 3 for 2 solutions; order 4 for no value"
+    assert told().strip("*").removeprefix(r"\subsection*{").startswith(answer)
+    assert told().count("order 3 of the method, proved") == 2
+    stable = told("--set", "c2=1/2", "--order", "1", "--a-stable")
+    assert "decided for single solutions, or for one parameter: --set" in stable
+    path.write_text("unknown: {stages: 3, shape: full}\n", encoding="utf-8")
+    is_open = told("--order", "6", "--seconds", "0.01")
+    assert re.search(r"sdirk.yaml: .*order \d is not decided", is_open)
+    assert "not decided in the time of --seconds; fewer unknowns make it decidable" in is_open

@@ -1,0 +1,569 @@
+"""``gark design``: what each order asks of the parameters, and the best methods."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import groupby
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+
+from garkcli.design.choices import Choice
+from garkcli.design.design import Design, Whose
+from garkcli.design.minimise.objective import Level as LevelObjective
+from garkcli.design.minimise.refining import DECIMALS
+from garkcli.design.minimise.result import Candidate, Extent, Minimum, Proof
+from garkcli.design.solutions import value_at
+from garkcli.design.stable_values import StableValues
+from garkcli.design.step import Found, Step
+from garkcli.design.step import Kind as Verdict
+from garkcli.errors import counted
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal, root_text
+from garkcli.exact.roots import RealRoot
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.exactly import ALGEBRAIC, root_data
+from garkcli.report.design_values import conditions, zeros
+from garkcli.report.stable_values import VALUES, ends, number, stability
+from garkcli.tell.facts import Kind, Level, Reason, Row, Section, part, parts, rows_of, told, via
+from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
+from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+Rows = list[tuple[str, str]]
+ROOM = 400
+"""So many signs of polynomials are usual; with details all of them are told."""
+MOST = 4
+"""So many of the best methods are usual."""
+LONG = 2000
+"""A longer polynomial is for programs alone."""
+
+
+class DesignReport(NamedTuple):
+    """What is told.
+
+    Attributes:
+        file: its path.
+        design: for which values the method has the order.
+        digits: of numbers without simple radicals.
+        choices: what each value of --choose leaves.
+        minimum: of an objective, where one was asked for.
+        sets: the values that are as stable as is wanted, where all have the order.
+    """
+
+    file: str
+    design: Design
+    digits: int = 12
+    choices: Sequence[Choice] = ()
+    minimum: Minimum | None = None
+    sets: Sequence[StableValues] = ()
+
+
+class Order(NamedTuple):
+    """What one order asks."""
+
+    design: Design
+    step: Step
+
+    @property
+    def zeros(self) -> list[str]:
+        """The polynomials that are zero."""
+        return zeros(self.design.family, self.step.polynomials)
+
+    @property
+    def conditions(self) -> list[Reason]:
+        """What else is true of the values."""
+        return conditions(self.design.family, self.step)
+
+    @property
+    def solutions(self) -> list[Solutions]:
+        """Each real root of what was found, then the others as one."""
+        found = []
+        for x in self.step.found:
+            found += [Solutions(self.design, x, k) for k in range(len(x.solution.real))]
+            if x.solution.degree > len(x.solution.real):
+                found.append(Solutions(self.design, x, None))
+        return found
+
+    @property
+    def likeness(self) -> tuple[object, ...]:
+        """What steps have in common that are told as one."""
+        return self.step.kind, self.step.is_real, self.zeros, self.conditions
+
+
+class Solutions(NamedTuple):
+    """A real solution, by its number among the roots of what was found, or those that are not
+    real.
+    """
+
+    design: Design
+    found: Found
+    number: int | None
+
+    @property
+    def values(self) -> dict[str, RealRoot] | None:
+        """The parameters."""
+        if self.number is None:
+            return None
+        values = self.found.solution.real_values[self.number]
+        return {name: values[name] for name in self.design.family.parameters}
+
+    @property
+    def others(self) -> int:
+        """How many are not real."""
+        return self.found.solution.degree - len(self.found.solution.real)
+
+
+# for people
+
+
+def joined(values: dict[str, RealRoot], d: Plain) -> str:
+    """The values of parameters; usually decimals where their polynomials are long."""
+    texts = [f"{d.expression(name)} = {number(x, d)}" for name, x in values.items()]
+    if d.is_brief and sum(map(len, texts)) > ROOM:
+        texts = [f"{d.expression(name)} = {d.root(x)}" for name, x in values.items()]
+    return ("; " if any(", " in x for x in texts) else ", ").join(texts)
+
+
+def _where(found: Order, d: Plain) -> str:
+    """What else is true of values, in words; nothing where nothing is."""
+    texts = [d.reason(x) for x in found.conditions]
+    if not texts:
+        return ""
+    *others, last = texts
+    return f" where {', '.join(others)} and {last}" if others else f" where {last}"
+
+
+def _polynomials(texts: Sequence[str], d: Plain) -> str:
+    """Polynomials that are zero; usually the first of many."""
+    shown: list[str] = []
+    room = ROOM if d.is_brief else len(texts) * LONG
+    for text in texts:
+        room -= len(text)
+        if shown and room < 0:
+            break
+        is_long = len(text) > LONG
+        shown.append(f"a polynomial of {len(text)} signs" if is_long else d.expression(text))
+    found = "the zeros, real and complex, of " + "; ".join(shown)
+    if more := len(texts) - len(shown):
+        return f"{found} and {counted(more, 'polynomial')} more with -v"
+    return f"{found}, see --format json" if any(len(x) > LONG for x in texts) else found
+
+
+UNDECIDED = (
+    "fewer unknowns make it decidable: values for some by --set or design: fix, a shape with"
+    " fewer such as palindromic; --search N looks for methods and decides nothing"
+)
+
+
+def _undecided(found: Order) -> Iterator[str]:
+    """Why an order is not decided, and what helps."""
+    yield "not decided in the time of --seconds"
+    ideal, keys = found.step.ideal, found.design.family.unsettled
+    if ideal is not None and ideal.is_everything:
+        yield "msolve finds that no value has it, which is no proof"
+    elif ideal is not None:
+        yield "which values have it is not worked out in that time"
+    if keys:
+        yield (
+            f"the conditions of {', '.join(keys)} under design take longer than that; ask for"
+            " a lower order of the pair, or fix unknowns by --set or design: fix"
+        )
+    else:
+        yield UNDECIDED
+
+
+def _real(found: Order, d: Plain) -> Iterator[str]:
+    """What is known of the real values of a family, where these are not a family too."""
+    step = found.step
+    if step.real is not None and step.real.is_everything:
+        yield "none of them is real"
+    elif step.real is not None:
+        texts = zeros(found.design.family, step.polynomials_of_real)
+        yield f"the real ones are among {_polynomials(texts, d)}"
+    elif step.is_real is False:
+        yield "no real value of them is a method that the file admits"
+    if step.is_real is None:
+        yield "whether a real value of them is a method that the file admits is not decided"
+
+
+def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
+    """For which values an order is reached.
+
+    Args:
+        found: what the order asks.
+        d: the signs of the output.
+        is_whole: whether the polynomials are told too.
+    """
+    step = found.step
+    match step.kind:
+        case "none":
+            wish = "what is wanted besides"
+            if step.witness is not None:
+                wish = f"with the conditions before it, that of {d.tree(step.witness)}"
+            yield f"no value: {wish} cannot be met, not even by complex values"
+        case "undecided":
+            yield from map(d.prose, _undecided(found))
+        case "every-value":
+            yield f"every value{_where(found, d)}"
+            yield from _real(found, d)
+        case kind:
+            assert step.ideal is not None
+            what = counted(sum(x.solution.degree for x in step.found), "solution")
+            if kind == "family":
+                what = f"a family of dimension {step.ideal.dimension}{_where(found, d)}"
+            yield f"{what}: {_polynomials(found.zeros, d)}" if is_whole else what
+            if kind == "family":
+                yield from _real(found, d)
+    if step.ideal is not None and not step.is_all and step.kind != "undecided":
+        yield "found by msolve: each is proved, that there are no others is not"
+
+
+def certified(order: Any, whose: str) -> str:
+    """The order of a solution."""
+    return f"order {'at least ' * order.is_lower_bound}{order.order} of the {whose}"
+
+
+def _verdict(x: Solutions, d: Plain) -> str:
+    """What a real solution is."""
+    design, found, index = x.design, x.found, x.number
+    if found.order is None:
+        return "no method: a weight or a denominator is zero there"
+    order = certified(found.order, design.whose)
+    kinds = [d.prose(kind.in_words(design.tableau)) for kind in design.family.stable]
+    if index in found.unstable:
+        return f"{order}; not {' and '.join(kinds)}, which is wanted"
+    if index in found.open:
+        return f"{order}; stability not decided: its field is too large, or the time too short"
+    if index not in found.accepted:
+        return "not of this file: out of a range, a sign not wanted, or another root"
+    return ", ".join([f"{order}, proved", *kinds])
+
+
+TIMES = {1: "", 2: ", a double solution", 3: ", a triple solution"}
+
+
+def _solution(x: Solutions, d: Plain) -> str:
+    times = x.found.solution.multiplicity
+    often = TIMES.get(times, f", {times} times")
+    if x.values is None:
+        return f"{counted(x.others, 'solution')} not real{often}"
+    return f"{joined(x.values, d)}: {_verdict(x, d)}{often}"
+
+
+def groups(design: Design) -> list[list[Order]]:
+    """Orders that ask the same, together."""
+    found = (Order(design, step) for step in design.steps)
+    return [list(group) for _, group in groupby(found, key=lambda x: x.likeness)]
+
+
+def order_rows(x: DesignReport, d: Plain) -> Rows:
+    """What each order asks; usually only the highest that is reached with its polynomials."""
+    rows: Rows = []
+    best = _best(x.design)
+    for group in groups(x.design):
+        first, last = group[0].step.order, group[-1]
+        label = f"order {first}" if len(group) == 1 else f"order {first} to {last.step.order}"
+        is_whole = not d.is_brief or best is None or best.order <= last.step.order
+        rows.append((label, "; ".join(filter(None, _values(last, d, is_whole)))))
+        rows += [("", _solution(solution, d)) for solution in last.solutions]
+    return rows
+
+
+def choice_rows(choices: Sequence[Choice], d: Plain) -> Rows:
+    """What each choice leaves."""
+    rows = []
+    for x in choices:
+        left = "no method" if x.after < 0 else f"dimension {x.after}"
+        text = f"leaves {left} of order {x.order}, dimension {x.before}"
+        if x.before < 0:
+            text = f"no method of order {x.order} is left to choose from"
+        rows.append((f"{d.expression(x.name)} = {d.expression(x.value)}", text))
+    return rows
+
+
+def _best(design: Design) -> Step | None:
+    """The highest order that is reached."""
+    reached = [step for step in design.steps if step.may_have_methods]
+    return reached[-1] if reached else None
+
+
+def answer(x: DesignReport, d: Plain) -> str:
+    """The highest order and its values; what stops the next one."""
+    design, last, best = x.design, x.design.last, _best(x.design)
+    whose = "" if design.whose == "method" else f" of the {design.whose}"
+    texts = []
+    if best is not None:
+        texts.append(f"order {best.order}{whose} for {_briefly(best)}")
+    if best is not last:
+        no = {"undecided": "is not decided", "none": "for no value"}
+        text = f"order {last.order}{'' if best else whose}"
+        texts.append(f"{text} {no.get(last.kind, 'for no method of the file')}")
+    texts += [f"{'' if best else whose}{stability(values, d)}" for values in x.sets]
+    return "; ".join(texts)
+
+
+def _briefly(step: Step) -> str:
+    """For which values an order is reached, in a few words."""
+    if step.kind == "every-value":
+        return "every value"
+    if step.kind == "family" and step.ideal is not None:
+        return f"a family of dimension {step.ideal.dimension}"
+    count = sum(found.solution.degree for found in step.found)
+    real = sum(len(found.accepted) for found in step.found if found.order is not None)
+    return counted(count, "solution") if real == count else f"{real} of {count} solutions"
+
+
+def stable_rows(x: DesignReport, d: Plain) -> Rows:
+    """What the ends of the stable values are; how stability is decided where it is not."""
+    kinds = ", ".join(map(str, x.design.family.stable))
+    if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:
+        text = f"{kinds}: decided for single solutions, or for one parameter: --set"
+        return [("stable", d.prose(text))]
+    return [row for values in x.sets for row in ends(values, d)]
+
+
+# the best methods
+
+
+def _least(minimum: Minimum, d: Plain) -> str:
+    """The value: ``least error 1/2``."""
+    is_level = isinstance(minimum.objective, LevelObjective)
+    what = d.prose(minimum.objective.key.removeprefix("-"))
+    if minimum.value is None and not minimum.is_infinite:
+        return f"no method of order {minimum.step.order} was found"
+    value = d.infinity if minimum.value is None else _number(minimum.value, d)
+    if minimum.minimisers:
+        return f"{'greatest' if is_level else 'least'} {what} {value}"
+    of = " of what was found" if minimum.extent in {"critical-points", "found"} else ""
+    return f"no {'maximum' if is_level else 'minimum'} of {what}{of}: it comes near {value}"
+
+
+def _number(value: RealRoot, d: Plain) -> str:
+    """Radicals where there are simple ones, and decimals."""
+    simple, decimals = root_text(value), root_decimal(value, d.digits)
+    if simple is None or len(simple) > 40:
+        return d.prose(f"{decimals}…")
+    if simple == decimals:
+        return d.expression(simple)
+    is_whole = value.exact is not None and Fraction(decimals) == Fraction(simple)
+    return f"{d.expression(simple)} = {decimals}{'' if is_whole else d.prose('…')}"
+
+
+def _among(minimum: Minimum) -> str:
+    """What was compared."""
+    order = minimum.step.order
+    match minimum.extent:
+        case "all":
+            return f"of all methods of order {order}"
+        case "nearly":
+            return f"and no method of order {order} has one that is less by more than 1e-9 of it"
+        case "critical-points":
+            points = counted(minimum.candidates, "critical point")
+            return (
+                f"the least of {points}, which are all there are; whether it is less towards"
+                " infinity or where denominators vanish is open"
+            )
+        case "found":
+            return "the best of what was found"
+
+
+def _parameters(minimum: Minimum, candidate: Candidate) -> dict[str, RealRoot]:
+    solution = candidate.found.solution
+    root = solution.real[candidate.index]
+    names = minimum.design.family.parameters
+    return {name: value_at(solution.values[name], root) for name in names}
+
+
+def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
+    """A best method and what is known of it."""
+    said = []
+    if candidate.proof == "exists":
+        text = f"within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test"
+        said.append(text)
+    if candidate.proof == "numerical":
+        said.append("better than what was tried around it")
+    if candidate.is_constant:
+        said.append("and others: the value is the same at all methods near it")
+    if candidate.found.order is not None:
+        said.append(f"{certified(candidate.found.order, minimum.design.whose)}, proved")
+    return f"{joined(_parameters(minimum, candidate), d)}: {'; '.join(said)}"
+
+
+def _toward(limit: Any, d: Plain) -> str:
+    toward, name = limit.toward, d.expression(limit.parameter)
+    if toward.end is not None:
+        return f"{name} {d.prose('→')} {number(toward.end, d)}"
+    return f"{name} {d.prose('→')} {'' if toward.is_right else '-'}{d.infinity}"
+
+
+def best_rows(minimum: Minimum, d: Plain) -> Rows:
+    """What is made small, its value, and where it is reached or approached."""
+    what = minimum.objective.summary.format(next=minimum.step.order + 1)
+    said = f": {_among(minimum)}" if minimum.minimisers else ""
+    rows = [("best", f"{_least(minimum, d)}{said}"), ("", d.prose(what))]
+    most = MOST if d.is_brief else len(minimum.minimisers)
+    rows += [("", _candidate(minimum, x, d)) for x in minimum.minimisers[:most]]
+    if (more := len(minimum.minimisers) - most) > 0:
+        rows.append(("", f"{counted(more, 'method')} more with -v"))
+    if not minimum.minimisers:
+        rows += [("", f"as {_toward(x, d)}") for x in minimum.limits]
+    return rows
+
+
+# for programs
+
+VALUES_OF = Kind(
+    {"type": "object", "additionalProperties": ALGEBRAIC},
+    lambda values, d: {name: root_data(x, d.digits) for name, x in values.items()},
+    joined,
+)
+NO_VALUES = Kind(S.NULL, lambda *_: None)
+
+
+def _accepted(x: Solutions) -> bool | None:
+    """Whether it is as stable as is wanted; None where nothing is, or it is not decided."""
+    if not x.design.family.stable:
+        return None
+    if x.number in x.found.unstable:
+        return False
+    return True if x.number in x.found.accepted else None
+
+
+OF_FOUND = via(
+    lambda x: x.found,
+    [
+        Row("multiplicity", POSITION, lambda x: x.solution.multiplicity),
+        Row("order", COUNT, lambda x: x.order and x.order.order, has_null=True),
+    ],
+)
+REAL = Section(
+    Row("values", VALUES_OF),
+    Row("real", constant(True), lambda _: True),
+    Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
+    Row("stable", TRUTH, _accepted, has_null=True, is_optional=True),
+    *OF_FOUND,
+)
+NOT_REAL = Section(
+    Row("values", NO_VALUES),
+    Row("real", constant(False), lambda _: False),
+    Row("count", POSITION, lambda x: x.others),
+    *OF_FOUND,
+)
+SOLUTION = Kind(
+    S.one_of(REAL.schema, NOT_REAL.schema),
+    lambda x, d: (NOT_REAL if x.number is None else REAL).data(x, d),
+    is_list=True,
+)
+CONDITIONS = Kind(S.array(S.TEXT), lambda xs, _: list(map(str, xs)))
+
+
+def _known(get: Any) -> Any:
+    """What is known of an ideal, where it was found."""
+
+    def value(x: Order) -> Any:
+        return None if x.step.ideal is None or x.step.kind == "undecided" else get(x)
+
+    return value
+
+
+STEP = [
+    Row("order", POSITION, lambda x: x.step.order, DATA),
+    Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
+    Row("reached", TRUTH, lambda x: x.step.has_methods, DATA, has_null=True),
+    Row("ideal", TEXTS, _known(lambda x: x.zeros), DATA, is_optional=True),
+    Row("restrictions", CONDITIONS, lambda x: x.conditions, DATA),
+    Row(
+        "real_ideal",
+        TEXTS,
+        lambda x: x.step.real and zeros(x.design.family, x.step.polynomials_of_real),
+        DATA,
+        is_optional=True,
+    ),
+    Row("dimension", INTEGER, _known(lambda x: x.step.ideal.dimension), DATA, is_optional=True),
+    Row(
+        "complete",
+        TRUTH,
+        lambda x: None if x.step.ideal is None else x.step.is_all,
+        DATA,
+        is_optional=True,
+    ),
+    Row("solutions", SOLUTION, level=DATA),
+    Row("witness", TREE, lambda x: x.step.witness, DATA, has_null=True),
+]
+CHOICE = Section(
+    Row("name", TEXT),
+    Row("value", TEXT),
+    Row("order", POSITION),
+    Row("dimension_before", INTEGER, lambda x: x.before),
+    Row("dimension", INTEGER, lambda x: x.after),
+)
+END = Kind(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
+DECIMAL = Kind(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
+
+
+def _value(minimum: Minimum) -> RealRoot | str | None:
+    return minimum.value or ("infinity" if minimum.is_infinite else None)
+
+
+def _gradient(minimum: Minimum) -> str | None:
+    gradient, name = minimum.gradient, minimum.parameter
+    if gradient is None or name is None:
+        return None
+    [primitive] = integral([gradient]) if gradient else [Polynomial([])]
+    return polynomial_text(primitive, name)
+
+
+def _end(limit: Any) -> RealRoot | str:
+    end = limit.toward.end
+    return end if end is not None else "infinity" if limit.toward.is_right else "-infinity"
+
+
+MINIMISER = Section(
+    Row("values", VALUES_OF, lambda x: _parameters(*x)),
+    Row("order", COUNT, lambda x: x[1].found.order and x[1].found.order.order, has_null=True),
+    Row("proof", choice(*get_args(Proof)), lambda x: x[1].proof),
+    Row("constant", TRUTH, lambda x: x[1].is_constant),
+)
+OBJECTIVE = Section(
+    Row("name", TEXT, lambda x: x.objective.key),
+    Row("order", POSITION, lambda x: x.step.order),
+    Row("value", DECIMAL, _value, has_null=True),
+    Row("exact", END, _value, has_null=True),
+    Row("among", choice(*get_args(Extent)), lambda x: x.extent),
+    Row("compared", COUNT, lambda x: x.candidates),
+    Row("gradient", TEXT, _gradient, is_optional=True),
+    Row("minimisers", parts(MINIMISER), lambda x: [(x, one) for one in x.minimisers]),
+    Row("limits", parts(Section(Row("parameter", TEXT), Row("toward", END, _end)))),
+)
+WHOLE = Section(
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, lambda x: x.design.family.name, DETAIL),
+    Row("of", choice(*get_args(Whose)), lambda x: x.design.whose, DATA),
+    Row("answer", told(answer), lambda x: x, HEADLINE, label=""),
+    Row("least", told(_least), lambda x: x.minimum, HEADLINE, label=""),
+    Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
+    Row("choices", parts(CHOICE), level=DATA),
+    Row("choices_in_words", rows_of(choice_rows), lambda x: x.choices),
+    *via(lambda x: Order(x.design, x.design.last), STEP),
+    Row(
+        "orders",
+        parts(Section(*STEP)),
+        lambda x: [Order(x.design, step) for step in x.design.steps],
+        DATA,
+    ),
+    Row("orders_in_words", rows_of(order_rows), lambda x: x),
+    Row("objective", part(OBJECTIVE), lambda x: x.minimum, DATA, is_optional=True),
+    Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
+    Row("stable", parts(VALUES), lambda x: x.sets or None, DATA, is_optional=True),
+    Row("stable_in_words", rows_of(stable_rows), lambda x: x),
+    title=lambda x, d: d.prose(x.file),
+)
+REPORT: Report[DesignReport] = Report.only(
+    "gark/design/1",
+    "report of gark design",
+    WHOLE,
+    lambda x: {"digits": x.digits, "colours": [c.name for c in x.design.tableau.colours]},
+)
