@@ -8,6 +8,7 @@ when they are first used, so importing the package costs nothing.
 
 from importlib import import_module
 
+from garkcli import upward
 from garkcli.version import __version__ as __version__
 
 NAMES = {
@@ -79,6 +80,39 @@ HOMES = {
     for name in names.split()
 }
 __all__ = sorted(HOMES)
+ANSWERS = {
+    "api.asserting": "GarkMethod.orders=find_orders",
+    "api.methods": "GarkMethod.order=find_order GarkMethod.symplectic=is_symplectic "
+    "GarkMethod.conjugate=conjugate GarkMethod.pair=pair",
+    "backward.formulas": "Algebraic.sympy=in_sympy",
+    "exact.display": "Algebraic.float=nearest_float",
+    "exact.polynomial_text": "RealRoot.text=root_in_short",
+    "trees.notation": "Tree.text=format_tree",
+    "trees.svg": "Tree.svg=draw_svg",
+    "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "
+    "Witness.html=witness_html Order.html=order_html RoundedOrder.html=order_html "
+    "DenseOrder.html=dense_order_html Condition.html=condition_html Analysis.html=analysis_html "
+    "Outcome.html=outcome_html",
+    "report.notebook_texts": "Stability.html=stability_html Stability.latex=stability_latex "
+    "StabilityFunction.latex=function_latex Comparison.html=comparison_html "
+    "Design.html=design_html Minimum.html=minimum_html BackwardAnalysis.html=backward_html "
+    "ModifiedFormula.latex=formula_latex ModifiedRun.html=modified_run_html",
+    "webpage.notebook": "Convergence.html=convergence_html LongRun.html=long_run_html",
+}
+"""What values of lower rooms show and answer: the question, and the function that answers it."""
+_ANSWERING = {
+    question: (room, function)
+    for room, answers in ANSWERS.items()
+    for question, _, function in (answer.partition("=") for answer in answers.split())
+}
+
+
+def _answering(kind, question):
+    room, function = _ANSWERING.get(f"{kind}.{question}", ("", ""))
+    return getattr(import_module(f"garkcli.{room}"), function) if room else None
+
+
+upward.hand_down(_answering)
 
 
 def _told() -> str:

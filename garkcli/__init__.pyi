@@ -84,5 +84,6 @@ from garkcli.webpage.calls import report_page as report_page
 
 NAMES: dict[str, dict[str, str]]
 HOMES: dict[str, str]
+ANSWERS: dict[str, str]
 __all__: list[str]
 catalogue: Catalogue

@@ -31,7 +31,7 @@ from garkcli.problems.vectorfield import is_constant
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.linear import whole_steps
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
@@ -79,7 +79,7 @@ class ModifiedEnergy:
 
 
 @dataclass(frozen=True)
-class ModifiedRun:
+class ModifiedRun(Shown):
     """Energy errors in H and in its modifications.
 
     Attributes:
@@ -106,10 +106,6 @@ class ModifiedRun:
     def __repr__(self) -> str:
         found = ", ".join(f"h^{x.power} {x.verdict}" for x in self.energies)
         return f"<ModifiedRun {self.problem.name}: {found}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook_texts", "modified_run_html")(self)
-        return html
 
 
 def modified_run(

@@ -17,7 +17,7 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -45,7 +45,7 @@ class PowerTerm:
 
 
 @dataclass(frozen=True)
-class ModifiedFormula:
+class ModifiedFormula(Shown):
     """The modified Hamiltonian or the right-hand side of the modified equation.
 
     Attributes:
@@ -78,10 +78,6 @@ class ModifiedFormula:
     def __repr__(self) -> str:
         powers = ", ".join(f"h^{term.power}" for term in self.terms)
         return f"<ModifiedFormula {self.of} of {self.problem.name}: {powers}>"
-
-    def _repr_latex_(self) -> str:
-        latex: str = found("report.notebook_texts", "formula_latex")(self)
-        return latex
 
 
 @doing("modified Hamiltonian of the problem")

@@ -18,7 +18,7 @@ from garkcli.doing import doing
 from garkcli.order.deciding import order_of
 from garkcli.order.defects import is_symplectic
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -40,7 +40,7 @@ class Reached:
 
 
 @dataclass(frozen=True)
-class BackwardAnalysis:
+class BackwardAnalysis(Shown):
     """The modified equation of a method and the orders that it tells.
 
     Attributes:
@@ -70,10 +70,6 @@ class BackwardAnalysis:
         is_so = ", symplectic" if self.is_symplectic else ""
         least = "at least " if self.order.is_lower_bound else ""
         return f"<BackwardAnalysis order {least}{self.order.order}{is_so}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook_texts", "backward_html")(self)
-        return html
 
 
 @doing("modified equation")

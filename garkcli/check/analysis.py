@@ -16,7 +16,7 @@ from garkcli.order.simplifying import Simplifying, consistent_blocks
 from garkcli.tableau.meant import derived, printed
 from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -32,7 +32,7 @@ Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
 
 
 @dataclass(frozen=True, repr=False)
-class Analysis:
+class Analysis(Shown):
     """The truth about a tableau, its symplectic conjugate, and their pair.
 
     Attributes:
@@ -97,10 +97,6 @@ class Analysis:
 
         tolerance = ZERO if self.tolerance is None else self.tolerance
         return Subject(self.tableau, self.order.order, self.simplifying, self.limit, tolerance)
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "analysis_html")(self)
-        return html
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]

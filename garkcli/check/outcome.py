@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.check.analysis import Analysis
 from garkcli.errors import Fault, counted, printable
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
@@ -39,7 +39,7 @@ class Claim:
 
 
 @dataclass(frozen=True, repr=False)
-class Outcome:
+class Outcome(Shown):
     """One checked file.
 
     Attributes:
@@ -115,10 +115,6 @@ class Outcome:
         if not self.is_read:
             return 3 if self.is_crash else 2
         return 0 if self.ok else 1
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "outcome_html")(self)
-        return html
 
     def __repr__(self) -> str:
         said = counted(len(self.faults), "fault")

@@ -23,7 +23,7 @@ from garkcli.properties.property import Verdict
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 Relation: TypeAlias = Literal["identical", "same", "within-rounding", "different", "undecided"]
 """Entry by entry; as a method; up to the rounding that the files admit; not; not known."""
@@ -72,7 +72,7 @@ class PropertyPair:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison:
+class Comparison(Shown):
     """What is the same of two methods, and what is not.
 
     Attributes:
@@ -135,10 +135,6 @@ class Comparison:
 
     def __repr__(self) -> str:
         return f"<Comparison {self.relation}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook_texts", "comparison_html")(self)
-        return html
 
 
 @doing("differences")

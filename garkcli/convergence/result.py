@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.problems.oscillator import Oscillator
@@ -112,7 +112,7 @@ class Stiffness:
 
 
 @dataclass(frozen=True)
-class Convergence:
+class Convergence(Shown):
     """The outcome of a convergence test.
 
     Attributes:
@@ -224,10 +224,6 @@ class Convergence:
             seen = f"observed order {self.observed_order:.1f}"
         name = getattr(self.problem, "name", "oscillator")
         return f"<Convergence {name}: {seen}, {self.verdict}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("webpage.notebook", "convergence_html")(self)
-        return html
 
 
 def absolute(x: arb) -> arb:

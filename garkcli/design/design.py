@@ -28,13 +28,13 @@ from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.family import Family
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 Whose: TypeAlias = Literal["method", "conjugate", "pair"]
 
 
 @dataclass(frozen=True)
-class Design:
+class Design(Shown):
     """What each order asks of the parameters of a family.
 
     Attributes:
@@ -65,10 +65,6 @@ class Design:
         reached = [step.order for step in self.steps if step.may_have_methods]
         highest = max(reached, default=0)
         return f"<Design {self.family.name}: order {highest} is reached>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook_texts", "design_html")(self)
-        return html
 
 
 SHARE = 0.25

@@ -18,7 +18,7 @@ from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.nodes import Expression
 from garkcli.exact.pickling import register
 from garkcli.exact.rewriting import format_expression
-from garkcli.upward import found
+from garkcli.upward import answered
 
 register()  # methods are copied, and sent to other processes
 
@@ -215,12 +215,12 @@ class Algebraic:
 
     def __float__(self) -> float:
         """The nearest float; nothing is decided with it."""
-        value: float = found("exact.display", "nearest_float")(self)
+        value: float = answered(self, "float")
         return value
 
     def _sympy_(self) -> Any:
         """The same number for SymPy, which asks for it."""
-        return found("backward.formulas", "in_sympy")(self)
+        return answered(self, "sympy")
 
     def __bool__(self) -> bool:
         return True  # zero is rational, hence never an Algebraic

@@ -16,7 +16,7 @@ from garkcli.exact.isolating import isolated, precision
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.signs import FIRST_BITS as FIRST_BITS
 from garkcli.exact.signs import sign as sign
-from garkcli.upward import found
+from garkcli.upward import answered
 
 
 @total_ordering
@@ -62,7 +62,7 @@ class RealRoot:
         return float(self.ball(80))
 
     def __repr__(self) -> str:
-        text: str = found("exact.polynomial_text", "root_in_short")(self)
+        text: str = answered(self, "text")
         return f"<RealRoot {text}>"
 
     def __lt__(self, other: RealRoot) -> bool:

@@ -15,7 +15,7 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.stepping.linear import whole_steps
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
@@ -89,7 +89,7 @@ class InvariantHistory:
 
 
 @dataclass(frozen=True)
-class LongRun:
+class LongRun(Shown):
     """A problem stepped over a long time.
 
     Attributes:
@@ -150,10 +150,6 @@ class LongRun:
         found = [f"{x.name} {x.verdict}" for x in self.invariants]
         words = ", ".join([f"{self.steps} steps of {self.step}", *found])
         return f"<LongRun {name}: {words}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("webpage.notebook", "long_run_html")(self)
-        return html
 
 
 def count_steps(t_end: fmpq, step: fmpq) -> int:

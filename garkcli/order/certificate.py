@@ -27,14 +27,14 @@ from garkcli.exact.span import AffineSpan
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
 
 
 @dataclass(frozen=True, repr=False)
-class Witness:
+class Witness(Shown):
     """A tree whose order condition fails.
 
     Attributes:
@@ -61,13 +61,9 @@ class Witness:
             tree = f"of order {self.tree.order}"
         return f"<Witness {tree}: {value} instead of {self.required}>"
 
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "witness_html")(self)
-        return html
-
 
 @dataclass(frozen=True, repr=False)
-class Order:
+class Order(Shown):
     """The outcome: every condition up to ``order`` holds.
 
     Attributes:
@@ -86,10 +82,6 @@ class Order:
     def __repr__(self) -> str:
         least = "at least " if self.is_lower_bound else ""
         return f"<Order {least}{self.order}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "order_html")(self)
-        return html
 
 
 @doing("order")

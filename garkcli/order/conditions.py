@@ -16,14 +16,14 @@ from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.tableau.rounded import RoundedTableau
 
 
 @dataclass(frozen=True)
-class Condition:
+class Condition(Shown):
     """The order condition b_lᵀ 𝒜^[u] = 1/γ(u) of one tree, eq. (bA).
 
     Attributes:
@@ -78,10 +78,6 @@ class Condition:
         if self.is_exact:
             return f"<Condition {what}>"
         return f"<Condition {what} instead of {self.required}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "condition_html")(self)
-        return html
 
 
 def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]:

@@ -27,7 +27,7 @@ from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.meant import AnyTableau, meant, printed, tolerance_of
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class DenseWitness:
 
 
 @dataclass(frozen=True, repr=False)
-class DenseOrder:
+class DenseOrder(Shown):
     """The order of dense output.
 
     Attributes:
@@ -63,10 +63,6 @@ class DenseOrder:
         least = "at least " if self.is_lower_bound else ""
         within = "" if self.tolerance is None else f" within {decimal(self.tolerance)}"
         return f"<DenseOrder {least}{self.order}{within}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "dense_order_html")(self)
-        return html
 
 
 def dense_order(

@@ -28,7 +28,7 @@ from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.rounded import RoundedTableau, Row
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.tree import Tree
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 FEW_TREES = 20_000
 """Up to so many trees an order is decided by listing them; beyond, spans are tried first."""
@@ -49,7 +49,7 @@ _Doubt: TypeAlias = tuple[arb, arb, int]
 
 
 @dataclass(frozen=True, repr=False)
-class RoundedOrder:
+class RoundedOrder(Shown):
     """The outcome: every condition up to ``order`` is met within ``tolerance``.
 
     Attributes:
@@ -74,10 +74,6 @@ class RoundedOrder:
     def __repr__(self) -> str:
         least = "at least " if self.is_lower_bound else ""
         return f"<RoundedOrder {least}{self.order} within {decimal(self.tolerance)}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "order_html")(self)
-        return html
 
     @property
     def is_lower_bound(self) -> bool:

@@ -23,11 +23,11 @@ from garkcli.exact.roots import sign
 from garkcli.stability.step_function import step_function
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 
 @dataclass(frozen=True)
-class StabilityFunction:
+class StabilityFunction(Shown):
     """R = P/Q in lowest terms, with Q(0) = 1.
 
     Attributes:
@@ -54,10 +54,6 @@ class StabilityFunction:
     def __repr__(self) -> str:
         P, Q = (polynomial_text(x, "z") for x in (self.numerator, self.denominator))
         return f"<R(z) = {P}>" if Q == "1" else f"<R(z) = ({P})/({Q})>"
-
-    def _repr_latex_(self) -> str:
-        latex: str = found("report.notebook_texts", "function_latex")(self)
-        return latex
 
 
 def stability_function(

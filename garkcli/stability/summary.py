@@ -33,7 +33,7 @@ from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 
 def _word(word: str, is_so: bool | None) -> str:
@@ -80,7 +80,7 @@ class LinearStability:
 
 
 @dataclass(frozen=True)
-class Stability:
+class Stability(Shown):
     """The stability of one method.
 
     Attributes:
@@ -116,14 +116,6 @@ class Stability:
         if together.a_stable:
             words += f", {_word('L-stable', together.l_stable)}"
         return f"<Stability {words}>"
-
-    def _repr_latex_(self) -> str:
-        latex: str = found("report.notebook_texts", "stability_latex")(self)
-        return latex
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook_texts", "stability_html")(self)
-        return html
 
 
 @doing("stability")

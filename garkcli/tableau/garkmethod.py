@@ -14,7 +14,7 @@ from garkcli.tableau.bycolour import ByColour
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.meant import AnyTableau, derived, meant
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import found
+from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
@@ -43,7 +43,7 @@ def word_for(method: GarkMethod | None) -> str:
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class GarkMethod:
+class GarkMethod(Shown):
     """A GARK method of one colour or of several, with its entries as they are printed.
 
     Entries are exact numbers, ``flint.fmpq`` or elements of a number field, whose ``str`` is the
@@ -118,7 +118,7 @@ class GarkMethod:
         """The order, exactly or within the tolerance of the method, as ``find_order`` has it; where
         that is a lower bound, the bound.
         """
-        order: int = found("api.methods", "find_order")(self).order
+        order: int = answered(self, "order").order
         return order
 
     @property
@@ -126,8 +126,7 @@ class GarkMethod:
         """The order of the method and those of its embedded weights, of its conjugate and of its
         pair, as ``find_orders`` has them.
         """
-        orders: dict[str, int | str]
-        orders = found("api.asserting", "find_orders")(self)
+        orders: dict[str, int | str] = answered(self, "orders")
         return orders
 
     @property
@@ -137,7 +136,7 @@ class GarkMethod:
         Raises:
             ZeroWeight: a conjugate would divide by zero.
         """
-        made: GarkMethod = found("api.methods", "conjugate")(self)
+        made: GarkMethod = answered(self, "conjugate")
         return made
 
     @property
@@ -147,7 +146,7 @@ class GarkMethod:
         Raises:
             ZeroWeight: a conjugate would divide by zero.
         """
-        made: GarkMethod = found("api.methods", "pair")(self)
+        made: GarkMethod = answered(self, "pair")
         return made
 
     @property
@@ -155,7 +154,7 @@ class GarkMethod:
         """Whether the method is its own conjugate; of a partitioned one, whether its parts are each
         other's. Within its tolerance where it has one.
         """
-        is_so: bool = found("api.methods", "is_symplectic")(self)
+        is_so: bool = answered(self, "symplectic")
         return is_so
 
     @property
@@ -174,14 +173,6 @@ class GarkMethod:
         """The number of stages s_l of each colour, in their order."""
         colours = range(self.tableau.size)
         return tuple(self.tableau.space(l).stages for l in colours)
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook", "method_html")(self)
-        return html
-
-    def _repr_latex_(self) -> str | None:
-        latex: str | None = found("report.notebook", "method_latex")(self)
-        return latex
 
     def __repr__(self) -> str:
         name = f"{self.name}: " if self.name else ""

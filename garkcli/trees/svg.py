@@ -27,6 +27,11 @@ Vertices: TypeAlias = "Sequence[Vertex]"
 Pixels: TypeAlias = list[float]
 
 
+def draw_svg(tree: Tree) -> str:
+    """A picture of one tree, as notebooks show it; colours count from 1 there."""
+    return draw_svg_sheet([tree])
+
+
 def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns: int = 6) -> str:
     """An SVG document with the trees in rows of ``columns``, beneath each its caption, σ and γ.
 

@@ -7,13 +7,13 @@ from itertools import groupby
 from math import factorial, prod
 from typing import TYPE_CHECKING
 
-from garkcli.upward import found
+from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 
-class Tree:
+class Tree(Shown):
     """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` and the branches left when it is
     removed.
 
@@ -95,14 +95,9 @@ class Tree:
     def __hash__(self) -> int:
         return hash(self._key)
 
-    def _repr_svg_(self) -> str:
-        """The picture that a notebook shows; colours count from 1 there."""
-        picture: str = found("trees.svg", "draw_svg_sheet")([self])
-        return picture
-
     def __str__(self) -> str:
         """The bracket text, with colours from 1 as people count them."""
-        text: str = found("trees.notation", "format_tree")(self)
+        text: str = answered(self, "text")
         return text
 
     def __repr__(self) -> str:

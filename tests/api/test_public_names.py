@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import os
+from importlib import import_module
+from inspect import signature
 from pathlib import Path
 
+import pytest
+
 import garkcli
+from garkcli.upward import Shown, answered
 
 STUB = Path(garkcli.__file__).with_suffix(".pyi")
 CATALOGUE = "catalogue"
@@ -21,6 +26,7 @@ def stub() -> str:
         "",
         "NAMES: dict[str, dict[str, str]]",
         "HOMES: dict[str, str]",
+        "ANSWERS: dict[str, str]",
         "__all__: list[str]",
         f"{CATALOGUE}: Catalogue",
     ]
@@ -40,3 +46,22 @@ def test_no_name_is_listed_twice() -> None:
         name for homes in garkcli.NAMES.values() for some in homes.values() for name in some.split()
     ]
     assert len(names) == len(set(names)) == len(garkcli.__all__)
+
+
+@pytest.mark.parametrize("room", garkcli.ANSWERS)
+def test_what_answers_is_there(room: str) -> None:
+    """Each function of the table takes a value of the class that it is for."""
+    module = import_module(f"garkcli.{room}")
+    for answer in garkcli.ANSWERS[room].split():
+        question, _, name = answer.partition("=")
+        function = getattr(module, name)
+        (first, *_) = signature(function).parameters.values()
+        kind = question.partition(".")[0]
+        takes = str(first.annotation)
+        assert kind in takes or takes in {"AnyMethod", "Any", "AnyOrder", "Number"}, answer
+
+
+def test_what_nobody_answers_is_nothing() -> None:
+    """A value of which there is no picture has none."""
+    assert answered(Shown(), "svg") is None
+    assert Shown()._repr_html_() is None

@@ -11,7 +11,7 @@ from garkcli.design.minimise.objective import Level, Objective
 from garkcli.design.step import Found, Step
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
-from garkcli.upward import found
+from garkcli.upward import Shown
 
 Extent: TypeAlias = Literal["all", "nearly", "critical-points", "found"]
 """Among what a minimum is the least: all methods; all critical points, and no method is less by
@@ -61,7 +61,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Minimum:
+class Minimum(Shown):
     """The methods with the least value of an objective.
 
     Attributes:
@@ -94,7 +94,3 @@ class Minimum:
 
     def __repr__(self) -> str:
         return f"<Minimum of {self.objective.key}>"
-
-    def _repr_html_(self) -> str:
-        html: str = found("report.notebook_texts", "minimum_html")(self)
-        return html
