@@ -20,7 +20,7 @@ from garkcli.errors import NotDecided, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.methodfile.search_file import FileSearch
 from garkcli.page.writing import write_whole
-from garkcli.report import search_data, search_text
+from garkcli.report.search import REPORT, SearchReport
 
 if TYPE_CHECKING:
     from garkcli.cli.design_options import Wanted
@@ -52,9 +52,7 @@ def search(family: FamilyFile, wanted: Wanted, starts: int, output: Output) -> i
     looking = asked.search
     result, ended = _searched(asked, wanted, starts)
     files = _written(family, looking, result, wanted)
-    as_json = output.format == "json"
-    render = search_data.render if as_json else search_text.render
-    output.write(render(family.source, looking, result, files, output.width))
+    output.tell(REPORT, [SearchReport(family.source, looking, result, files)])
     if ended is not None:
         return ended
     # that nothing was found says nothing of what there is

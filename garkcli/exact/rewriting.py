@@ -233,11 +233,11 @@ class _Latex(PlainText):
     r"""The same in LaTeX: products without signs, quotients as fractions.
 
     >>> from garkcli.exact.expression import parse
-    >>> for text in ("1/2 - 3*sqrt(154)/77", "1/2*x", "-2*a12_31*(x^2 - tau)", "-(-2*(3/4))/x"):
+    >>> for text in ("1/2 - 3*sqrt(154)/77", "1/2*x", "-2*a12_31*(-x^2 + tau)", "-(-2*(3/4))/x"):
     ...     print(format_expression(parse(text), latex=True))
     \frac{1}{2}-\frac{3\sqrt{154}}{77}
     \frac{x}{2}
-    -2a_{12,31}\left(x^{2}-\tau \right)
+    -2a_{12,31}\left(-x^{2}+\tau \right)
     -\frac{\left(-2\cdot \frac{3}{4}\right)}{x}
     """
 
@@ -246,8 +246,10 @@ class _Latex(PlainText):
 
     def chain(self, chain: Chain) -> str:
         if chain.signs[0] in "+-":
-            operands = zip(chain.signs, map(self.factor, chain.operands), strict=True)
-            return "".join(sign + text for sign, text in operands).removeprefix("+")
+            first, *others = chain.operands
+            start = self.written(first) if chain.signs[0] == "+" else "-" + self.factor(first)
+            rest = zip(chain.signs[1:], map(self.factor, others), strict=True)
+            return start + "".join(sign + text for sign, text in rest)
         over = [x for sign, x in zip(chain.signs, chain.operands, strict=True) if sign == "*"]
         under = [x for sign, x in zip(chain.signs, chain.operands, strict=True) if sign == "/"]
         top = self.product(over)

@@ -14,6 +14,7 @@ LABELS = {
     "l_stable": "L-stable",
     "p_stable": "P-stable",
     "conserved": "conserved form",
+    "degenerate": "in floats with no method near",
     "discriminant": "4D² − N²",
     "e_polynomial": "E(x), x = y²",
     "esdirk": "ESDIRK",

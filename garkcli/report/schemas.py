@@ -27,7 +27,7 @@ REPORTS = {
     "stability": "garkcli.report.stability:REPORT",
     "stability-every": "garkcli.report.every:STABILITY",
     "design": "garkcli.report.design:REPORT",
-    "design-search": "garkcli.report.search_data:search_report_schema",
+    "design-search": "garkcli.report.search:REPORT",
     "design-stability": "garkcli.report.stable_values:REPORT",
     "modified": "garkcli.report.modified_data:modified_report_schema",
     "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",

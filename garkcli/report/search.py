@@ -1,0 +1,141 @@
+"""``gark design --search``: the methods that random starts lead to."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, get_args
+
+from garkcli.design.design import Whose
+from garkcli.design.search.run import Ending, Result
+from garkcli.design.search.search import Proof, Search
+from garkcli.design.search.told import Method
+from garkcli.errors import counted
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.tell.facts import Kind, Level, Row, Section, parts, rows_of, told, via
+from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+SHOWN = 24
+"""Decimals of numbers that are not exact; files have all."""
+ROOT = re.compile(r"root_of\([^()]*\)")
+ENDINGS: dict[Ending, str] = {
+    "interrupt": "interrupted",
+    "time": "the time of --seconds was over",
+    "worker": "a process was lost",
+}
+
+
+class SearchReport(NamedTuple):
+    """What is told.
+
+    Attributes:
+        file: with the unknowns.
+        search: what was looked for.
+        result: what was found.
+        files: where each method was written, if it was.
+    """
+
+    file: str
+    search: Search
+    result: Result
+    files: Sequence[str | None]
+
+    @property
+    def methods(self) -> list[tuple[Method, str | None]]:
+        """The methods with their files."""
+        return list(zip(self.result.methods, self.files, strict=True))
+
+
+def _found(x: SearchReport, d: Plain) -> str:
+    """What was found, and of how many starts."""
+    search, result = x.search, x.result
+    order = f"order {search.order}" + f" of the {search.whose}" * (search.whose != "method")
+    found = f"{counted(len(result.methods), 'method')} of {order} found"
+    if not result.methods:
+        found = f"no method of {order} found, which does not say that there is none"
+    starts = counted(result.starts, "start")
+    end = "" if result.ending is None else f", then {ENDINGS[result.ending]}"
+    return d.prose(f"{found}; {result.successes} of {starts} solve the conditions in floats{end}")
+
+
+def _verdict(method: Method) -> str:
+    match method.proof:
+        case "exact":
+            return f"exact: order {method.order}, by the certificate"
+        case "exists":
+            return f"proved to exist: order at least {method.order}, by Krawczyk's test"
+        case "numerical":
+            return f"numerical: residuals below {method.residual} up to order {method.order}"
+
+
+def _values(method: Method, d: Plain) -> Iterator[str]:
+    """The parameters; a long root that is in them has a name of its own."""
+    values = dict(method.values)
+    if not method.is_exact:
+        for name, value in values.items():
+            whole, _, decimals = value.partition(".")
+            yield f"{d.expression(name)} = {d.prose(f'{whole}.{decimals[:SHOWN]}…')}"
+        return
+    roots = {root for x in values.values() for root in ROOT.findall(x)}
+    if len(roots) == 1 and "r" not in values:
+        (root,) = roots
+        values = {"r": root, **{name: x.replace(root, "r") for name, x in values.items()}}
+    yield from (f"{d.expression(name)} = {d.expression(x)}" for name, x in values.items())
+
+
+def method_rows(methods: Sequence[tuple[Method, str | None]], d: Plain) -> list[tuple[str, str]]:
+    """Each method: what is known of it, where it is, its values."""
+    rows = []
+    for number, (method, path) in enumerate(methods, start=1):
+        where = "" if path is None else f", written to {path}"
+        head = d.prose(f"{_verdict(method)}; start {method.start}{where}")
+        rows.append((str(number), f"{head}: {', '.join(_values(method, d))}"))
+    return rows
+
+
+RESIDUAL = Kind(
+    {**S.TEXT, "description": "A power of ten that no residual is above; 0 where all vanish."}
+)
+VALUES: S.Schema = {
+    "type": "object",
+    "description": "Exact numbers; decimals where the proof is not exact.",
+    "additionalProperties": S.TEXT,
+}
+OF_METHOD = [
+    Row("proof", choice(*get_args(Proof))),
+    Row("order", POSITION),
+    Row("residual", RESIDUAL),
+    Row("start", POSITION),
+    Row("values", Kind(VALUES, lambda values, _: dict(values))),
+]
+METHOD = Section(Row("file", TEXT, lambda x: x[1], has_null=True), *via(lambda x: x[0], OF_METHOD))
+SECONDS = Kind({"type": "number", "minimum": 0, "description": "Of the processor."})
+WHOLE = Section(
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, lambda x: x.search.family.name, DETAIL),
+    Row("of", choice(*get_args(Whose)), lambda x: x.search.whose, DATA),
+    Row("answer", told(_found), lambda x: x, HEADLINE, label=""),
+    Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
+    Row("order", POSITION, lambda x: x.search.order, DATA),
+    *via(
+        lambda x: x.result,
+        [
+            Row("starts", COUNT, level=DATA),
+            Row("successes", COUNT, level=DATA),
+            Row("degenerate", COUNT, level=lambda a: USUAL if a.value else DATA),
+            Row("interrupted", TRUTH, lambda x: x.is_interrupted, DATA),
+            Row("seconds", SECONDS, lambda x: round(x.seconds, 3), DATA),
+        ],
+    ),
+    Row("methods", parts(METHOD), level=DATA),
+    Row("methods_in_words", rows_of(method_rows), lambda x: x.methods),
+    title=lambda x, d: d.prose(x.file),
+)
+REPORT: Report[SearchReport] = Report.only(
+    "gark/design-search/1", "A report of gark design --search", WHOLE
+)
