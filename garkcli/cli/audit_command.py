@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 from garkcli.cli.options import Output, declared
 from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted
+from garkcli.tell.report import FORMATS as TOLD
 
 if TYPE_CHECKING:
     from garkcli.bridges.audit import Audited
 
-FORMATS = ("text", "json", "github", "sarif", "markdown")
+FORMATS = (*TOLD, "github", "sarif")
 
 
 @declared("audit", ["auto", *FORMATS])
@@ -32,7 +33,6 @@ def command(paths: tuple[str, ...], output: Output) -> int:
     from garkcli.bridges.audit import audited
     from garkcli.bridges.sources import source_files
     from garkcli.report.audited import FORMATS as RENDERERS
-    from garkcli.report.audited import render_text
 
     files = list(source_files(paths, output.note))
     found: list[Audited] = []
@@ -41,10 +41,8 @@ def command(paths: tuple[str, ...], output: Output) -> int:
     if not found:
         raise _no_table(paths, files)
     chosen = _format(output)
-    report = render_text(found, output.verbosity)
-    if chosen in RENDERERS:
-        report = RENDERERS[chosen](found)
-    output.write(report, chosen)
+    render = RENDERERS[chosen]
+    output.write(render(found, output.paint, output.verbosity, output.width), chosen)
     if any(x.has_errors for x in found):
         return 1
     return 0 if any(x.is_read for x in found) else 2

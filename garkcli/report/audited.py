@@ -3,48 +3,69 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.bridges.audit import CODES, Audited, AuditFinding
-from garkcli.bridges.judging import Judged
 from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import counted
-from garkcli.page.paint import folded
-from garkcli.page.plain import printable
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import COUNT, POSITION, TEXT, Schema, nullable, published
+from garkcli.page.paint import Paint
 from garkcli.report import check_github, check_sarif
-from garkcli.report.check_findings import table_cell
+from garkcli.tell.facts import Level, Row, Section, part, parts, rows_of, table, told
+from garkcli.tell.kinds import COUNT, POSITION, TEXT, choice
+from garkcli.tell.report import FORMATS as TOLD
+from garkcli.tell.report import Report
 
-SCHEMA = "gark/audit/1"
-_WIDTH = 80
-_LEVEL: Schema = {"enum": ["error", "warning", "note"]}
-_CODE: Schema = {"enum": list(CODES)}
+if TYPE_CHECKING:
+    from garkcli.bridges.judging import Judged
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+PLAIN = Paint()
+MOST = 100
+"""So many tables with findings are usual."""
 
 
-def _number(order: Judged | None) -> int | None:
-    return None if order is None else order.order
+class Audit(NamedTuple):
+    """What is told: the tables, and whether errors are all that is wanted."""
+
+    tables: Sequence[Audited]
+    errors_alone: bool = False
+
+    @property
+    def wrong(self) -> list[tuple[Audited, list[AuditFinding]]]:
+        """The tables with findings, and these."""
+        least = ("error",) if self.errors_alone else ("error", "warning", "note")
+        found = ((x, [y for y in x.findings if y.level in least]) for x in self.tables)
+        return [(x, findings) for x, findings in found if findings]
 
 
-_FINDING: Record[AuditFinding] = Record(
-    Field("code", _CODE, lambda x: x.code),
-    Field("level", _LEVEL, lambda x: x.level),
-    Field("message", TEXT, lambda x: x.message),
-    Field("help", TEXT, lambda x: x.help),
-)
-_ORDER = nullable(COUNT)
-_TABLE: Record[Audited] = Record(
-    Field("source", TEXT, lambda x: x.table.source),
-    Field("line", POSITION, lambda x: x.table.line),
-    Field("format", TEXT, lambda x: x.table.format),
-    Field("name", TEXT, lambda x: x.table.name),
-    Field("order", _ORDER, lambda x: _number(x.order)),
-    Field("declared_order", _ORDER, lambda x: x.table.order),
-    Field("embedded_order", _ORDER, lambda x: _number(x.embedded_order)),
-    Field("declared_embedded", _ORDER, lambda x: x.table.embedded_order),
-    Field("nonautonomous_order", _ORDER, lambda x: _number(x.nonautonomous_order)),
-    _FINDING.every("findings", lambda x: x.findings),
-)
+def _title(found: Audited, d: Plain) -> str:
+    """Where a table is, and its orders."""
+    words = [] if found.order is None else [f"order {found.order.order}"]
+    if words and found.embedded_order is not None:
+        words.append(f"embedded order {found.embedded_order.order}")
+    name = ": ".join(filter(None, [found.table.name or "a table", ", ".join(words)]))
+    return d.prose(f"{found.table.source}:{found.table.line} {name}")
+
+
+def _finding_rows(findings: Sequence[AuditFinding], d: Plain) -> list[tuple[str, str]]:
+    """A finding with its level, and the cure."""
+    rows: list[tuple[str, str]] = []
+    for x in findings:
+        rows.append((x.level, d.prose(x.message)))
+        rows += [("help", d.prose(x.help))] if x.help else []
+    return rows
+
+
+def _answer(x: Audit, _: Plain) -> str:
+    """How many tables are wrong."""
+    wrong, unread = _errors(x.tables), _unread(x.tables)
+    texts = [counted(len(x.tables), "table")]
+    if wrong or unread < len(x.tables):
+        texts.append(f"{wrong} wrong" if wrong else "none wrong")
+    return ", ".join([*texts, f"{unread} could not be read"] if unread else texts)
 
 
 def _errors(tables: Sequence[Audited]) -> int:
@@ -56,70 +77,59 @@ def _unread(tables: Sequence[Audited]) -> int:
     return sum(not (x.is_read or x.has_errors) for x in tables)
 
 
-_SUMMARY: Record[Sequence[Audited]] = Record(
-    Field("tables", COUNT, len), Field("wrong", COUNT, _errors), Field("unread", COUNT, _unread)
+def _number(order: Judged | None) -> int | None:
+    return None if order is None else order.order
+
+
+FINDING = Section(
+    Row("code", choice(*CODES)),
+    Row("level", choice("error", "warning", "note")),
+    Row("message", TEXT),
+    Row("help", TEXT),
 )
-_REPORT: Record[Sequence[Audited]] = Record(
-    schema_named(SCHEMA),
-    _TABLE.every("tables", lambda x: x),
-    _SUMMARY.whole("summary", lambda x: x),
+
+
+def _count(key: str, get: Callable[[Audited], int | None]) -> Row:
+    return Row(key, COUNT, get, DETAIL, has_null=True)
+
+
+TABLE = Section(
+    Row("source", TEXT, lambda x: x.table.source, DATA),
+    Row("line", POSITION, lambda x: x.table.line, DATA),
+    Row("format", TEXT, lambda x: x.table.format, DETAIL),
+    Row("name", TEXT, lambda x: x.table.name, DATA),
+    Row("order", COUNT, lambda x: _number(x.order), DATA, has_null=True),
+    _count("declared_order", lambda x: x.table.order),
+    Row("embedded_order", COUNT, lambda x: _number(x.embedded_order), DATA, has_null=True),
+    _count("declared_embedded", lambda x: x.table.embedded_order),
+    _count("nonautonomous_order", lambda x: _number(x.nonautonomous_order)),
+    Row("findings", parts(FINDING), level=DATA),
+    Row("findings_in_words", rows_of(_finding_rows), lambda x: x.findings, DETAIL),
+    title=_title,
 )
-
-
-def audit_report_schema() -> Schema:
-    """The JSON Schema of ``gark audit --format json``."""
-    return published("report of gark audit", _REPORT.schema)
-
-
-def render_text(tables: Sequence[Audited], verbosity: int = 0) -> str:
-    """Each table with its findings; those without any where ``verbosity`` is above 0."""
-    lines: list[str] = []
-    for found in tables:
-        told = [x for x in found.findings if _is_told(x, verbosity)]
-        if not told and verbosity < 1:
-            continue
-        lines.append(f"{_place(found)}  {_title(found)}")
-        for finding in told:
-            lines += _lines(finding.level, finding.message)
-            if finding.help:
-                lines += _lines("help", finding.help)
-    lines.append(_summary(tables))
-    return "\n".join(lines) + "\n"
-
-
-def _is_told(finding: AuditFinding, verbosity: int) -> bool:
-    return verbosity >= 0 or finding.level == "error"
-
-
-def _lines(head: str, text: str) -> list[str]:
-    """A sentence with its level before it, folded."""
-    told = folded(f"{head}: {printable(text)}", _WIDTH - 4, "    ")
-    return [f"    {line}" for line in told]
-
-
-def _place(found: Audited) -> str:
-    return printable(f"{found.table.source}:{found.table.line}")
-
-
-def _title(found: Audited) -> str:
-    name = printable(found.table.name or "a table")
-    if found.order is None:
-        return name
-    words = [f"order {found.order.order}"]
-    if found.embedded_order is not None:
-        words.append(f"embedded order {found.embedded_order.order}")
-    return f"{name}: {', '.join(words)}"
-
-
-def _summary(tables: Sequence[Audited]) -> str:
-    wrong = _errors(tables)
-    unread = _unread(tables)
-    parts = [counted(len(tables), "table")]
-    if wrong or unread < len(tables):
-        parts.append(f"{wrong} wrong" if wrong else "none wrong")
-    if unread:
-        parts.append(f"{unread} could not be read")
-    return ", ".join(parts)
+WRONG = Section(
+    Row("findings_in_words", rows_of(_finding_rows), lambda x: x[1]),
+    title=lambda x, d: _title(x[0], d),
+)
+SUMMARY = Section(
+    Row("tables", COUNT, len), Row("wrong", COUNT, _errors), Row("unread", COUNT, _unread)
+)
+REPORT: Report[Audit] = Report.only(
+    "gark/audit/1",
+    "report of gark audit",
+    Section(
+        Row("answer", told(_answer), lambda x: x, HEADLINE, label=""),
+        Row("tables", parts(TABLE), level=DETAIL),
+        Row(
+            "wrong_tables",
+            table(WRONG, MOST, is_data=False),
+            lambda x: x.wrong,
+            label="tables",
+            is_short=True,
+        ),
+        Row("summary", part(SUMMARY), lambda x: x.tables, DATA),
+    ),
+)
 
 
 def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
@@ -134,41 +144,31 @@ def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
             yield Finding(x.code, file, line, 1, message, x.help, key, x.level)
 
 
-def _github(tables: Sequence[Audited]) -> str:
+def _told(
+    tables: Sequence[Audited],
+    paint: Paint = PLAIN,
+    verbosity: int = 0,
+    width: int = 80,
+    format: str = "text",
+) -> str:
+    audit, verbosity = Audit(tables, verbosity < 0), max(verbosity, 0)
+    return REPORT.render([audit], format, paint, verbosity, width=width)
+
+
+def _github(tables: Sequence[Audited], *_: Any) -> str:
     """A workflow command for each finding, and the text for the log."""
     commands = [check_github.annotation(x) for x in _findings(tables)]
     told = "".join(f"{x}\n" for x in commands)
-    return told + check_github.inert(render_text(tables, -1))
+    return told + check_github.inert(_told(tables, verbosity=-1))
 
 
-def _sarif(tables: Sequence[Audited]) -> str:
+def _sarif(tables: Sequence[Audited], *_: Any) -> str:
     return check_sarif.log_of(list(_findings(tables)), CODES)
 
 
-def _markdown(tables: Sequence[Audited]) -> str:
-    """A table of what was found, for the summary of a job."""
-    lines = ["| source | name | order | declared | finding |", "|---|---|---|---|---|"]
-    for found in tables:
-        if not found.findings:
-            continue
-        declared = found.table.order
-        texts = [f"{x.level}: {x.message}" for x in found.findings]
-        cells = [
-            _place(found),
-            found.table.name,
-            "" if found.order is None else str(found.order.order),
-            "" if declared is None else str(declared),
-            "; ".join(texts),
-        ]
-        lines.append(f"| {' | '.join(map(table_cell, cells))} |")
-    lines += ["", f"{_summary(tables)}."]
-    return "\n".join(lines) + "\n"
-
-
-FORMATS: Mapping[str, Callable[[Sequence[Audited]], str]] = {
-    "json": _REPORT.text,
+FORMATS: Mapping[str, Callable[..., str]] = {
+    **{format: partial(_told, format=format) for format in TOLD},
     "github": _github,
     "sarif": _sarif,
-    "markdown": _markdown,
 }
-"""What writes each format for machines."""
+"""What writes each format, of the tables, with colours, the verbosity and the width for people."""

@@ -40,7 +40,7 @@ REPORTS = {
     "show": "garkcli.report.show:show_report_schema",
     "cite": "garkcli.report.citation:cite_report_schema",
     "list-exports": "garkcli.report.exports:exports_schema",
-    "audit": "garkcli.report.audited:audit_report_schema",
+    "audit": "garkcli.report.audited:REPORT",
     "import": "garkcli.report.imported:import_report_schema",
     "sweep": "garkcli.report.sweep:sweep_report_schema",
 }

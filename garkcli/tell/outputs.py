@@ -157,12 +157,16 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     elif kind.is_list and section.title is None:
         yield from table(fact, d, level, depth)
     else:
-        for part in value if kind.is_list else [value]:
+        values = value if kind.is_list else [value]
+        shown = values if level >= Level.DETAIL else values[: kind.most]
+        for part in shown:
             lines = list(body(section, part, d, level, depth + 1))
             if lines:
                 named = section.title(part, d) if section.title else label(fact, d)
                 yield from d.title(named, depth)
                 yield from lines
+        if more := len(values) - len(shown):
+            yield from d.more(more, depth)
 
 
 def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:

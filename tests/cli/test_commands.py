@@ -50,7 +50,7 @@ RUNS = [
     (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),
     (
         ("audit", "tests/bridges/sources/register.cpp"),
-        ("auto", "text", "json", "github", "sarif", "markdown"),
+        ("auto", "text", "json", "markdown", "latex", "github", "sarif"),
     ),
     (("import", "tests/bridges/sources/rotated.json"), ("text", "json", "yaml")),
     (("list",), ("text", "json")),

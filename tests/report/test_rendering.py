@@ -82,7 +82,7 @@ def test_it_is_what_the_command_prints(kind: str, format: str, values: dict[str,
     _, command, name = MADE[kind]
     printed = gark(*command, "--format", format).out.splitlines()
     shown = render(values[kind], format, name).splitlines()
-    assert len(printed) > 1 or format == "github"
+    assert len(printed) > 1 or format == "github" or kind == "Audited"
     if kind in FILES:
         told = [line for line in printed if line not in shown]
         assert len(told) <= 5 <= len(shown), told
