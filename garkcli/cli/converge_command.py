@@ -13,14 +13,15 @@ from garkcli.cli.plotting import check_plot, save_plot
 from garkcli.cli.problems import note_changing
 from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, tell_failure
 from garkcli.errors import GarkError, UsageProblem
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.convergence.result import Convergence
     from garkcli.plots.scene import Scene
-    from garkcli.report.convergence_data import Entry
+    from garkcli.report.comparison import Entry
 
 
-@declared("converge", ["text", "json", "csv"])
+@declared("converge", [*FORMATS, "csv"])
 def command(
     files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
 ) -> int:
@@ -139,7 +140,7 @@ def _one(
 ) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
-    from garkcli.report import convergence as report
+    from garkcli.report.convergence import REPORT, ConvergenceReport
 
     name = path
     try:
@@ -151,10 +152,8 @@ def _one(
             note_changing(problems.read, output)
         result = tested(method, wanted, problems)
     except GarkError as error:
-        return tell_failure(error, name, report.render_failure, output)
-    says_all = output.verbosity >= 0
-    text = report.render(result, method.name, output.format, output.paint, shown.work, says_all)
-    output.write(text)
+        return tell_failure(error, name, REPORT, output)
+    output.tell(REPORT, [ConvergenceReport(result, method.name, shown.work, shown.against)])
     hint_rounding(method, result, output)
     if shown.plot is not None:
         save_plot(_scene(result, method.name, shown), shown.plot, output)
@@ -172,12 +171,10 @@ def _scene(result: Convergence, name: str, shown: Shown) -> Scene:
 
 def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> int:
     """The comparison; what fails is told, and stops nothing."""
-    from garkcli.report import comparison as report
+    from garkcli.report.comparison import REPORT, Compared
 
     entries = compared(paths, wanted, output)
-    says_all = output.verbosity >= 0
-    text = report.render(entries, output.format, output.paint, shown.work, shown.against, says_all)
-    output.write(text)
+    output.tell(REPORT, [Compared(entries, shown.work, shown.against)])
     if shown.plot is not None:
         _draw(entries, shown.plot, shown.against, output)
     return max(entry.exit_code for entry in entries)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from garkcli.convergence.result import Convergence
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
-    from garkcli.report.convergence_data import Entry
+    from garkcli.report.comparison import Entry
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
 
@@ -177,7 +177,7 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
         UsageProblem: the steps that are wanted do not fit the time.
     """
     from garkcli.methodfile.naming import called
-    from garkcli.report.convergence_data import Entry
+    from garkcli.report.comparison import Entry
 
     problems = Problems(wanted)
     methods = [_loaded(path, wanted) for path in paths]
@@ -210,7 +210,7 @@ def _loaded(path: str, wanted: Wanted) -> GarkMethod | Entry:
 
 
 def _entry(path: str, method: GarkMethod, wanted: Wanted, problems: Problems) -> Entry:
-    from garkcli.report.convergence_data import Entry
+    from garkcli.report.comparison import Entry
 
     try:
         with doing(path):
@@ -223,7 +223,7 @@ def _entry(path: str, method: GarkMethod, wanted: Wanted, problems: Problems) ->
 def _failed(path: str, name: str, error: GarkError) -> Entry:
     """Tell an error with the name of the file."""
     from garkcli.check.outcome import Outcome
-    from garkcli.report.convergence_data import Entry
+    from garkcli.report.comparison import Entry
 
     faults = faults_of(error)
     text = error.text if isinstance(error, MethodFileError) else ""

@@ -4,8 +4,8 @@ and what they do with a run that fails.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.options import Output
 from garkcli.cli.streams import complain
@@ -15,31 +15,31 @@ if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.problems.oscillator import Oscillator
-    from garkcli.report.fault_json import Failure
     from garkcli.tableau.tableau import Tableau
 
 DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
 
 
-def tell_failure(
-    error: GarkError, name: str, render: Callable[[Failure, str], str], output: Output
-) -> int:
+def tell_failure(error: GarkError, name: str, report: Any, output: Output) -> int:
     """Tell people why a run has no result, and programs in the report; and return the exit code: a
     step that fails has 1, everything else 2.
 
     Args:
         error: what has failed.
         name: of the method.
-        render: from a failure and a format to the report.
-        output: where the report goes.
+        report: of the command.
+        output: where it goes.
     """
-    from garkcli.report.fault_json import Failure
+    from garkcli.report.failure import Failure
 
     complain(error)
-    report = render(Failure(name, faults_of(error)), output.format)
-    if report:
-        output.write(report)
+    failure = Failure(name, faults_of(error))
+    if callable(report):  # TEMP
+        if text := report(failure, output.format):
+            output.write(text)
+    elif output.format in ("json", "csv"):
+        output.tell(report, [failure])
     return failure_code(error)
 
 

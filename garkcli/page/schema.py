@@ -38,6 +38,8 @@ DERIVATION: Schema = {"enum": [*get_args(Derivation)]}
 def nullable(schema: Schema) -> Schema:
     """The same, or null."""
     kind = schema.get("type")
+    if isinstance(kind, list) and "null" in kind:
+        return schema
     if kind in ("string", "boolean", "integer", "number"):
         return {**schema, "type": [kind, "null"]}
     return one_of(NULL, schema)

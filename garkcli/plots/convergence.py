@@ -16,7 +16,7 @@ from garkcli.plots.slopes import place_line
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.convergence import order_text
 from garkcli.report.costs import curve
-from garkcli.report.problem_json import name_of
+from garkcli.report.problem import name_of
 
 _TITLE = "Convergence"
 _HEIGHT = 240

@@ -9,7 +9,7 @@ from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured
 from garkcli.plots.scales import common_exponent, in_words, power_of_ten
 from garkcli.plots.scene import Axis, Curve, Panel, Point, Rule, Scene, capitalized
-from garkcli.report.problem_json import name_of
+from garkcli.report.problem import name_of
 
 _TITLE = "Energy error over a long time"
 _HEIGHT, _LOWER = 200, 110

@@ -13,6 +13,7 @@ from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import counted, folded
 from garkcli.properties.keys import KEYS
 from garkcli.properties.registry import find
+from garkcli.report.failure import FAULT
 from garkcli.tell.facts import (
     NO_REASON,
     Answer,
@@ -858,20 +859,6 @@ CHECKED = Section(
 )
 
 
-def code(fault: Any) -> str:
-    """The code of an error."""
-    from garkcli.glossary.faults import code_of
-
-    return code_of(fault.message)
-
-
-FAULT = Section(
-    Row("line", POSITION, lambda f: f.line or None, has_null=True),
-    Row("column", POSITION, lambda f: f.column or None, has_null=True),
-    Row("code", TEXT, code),
-    Row("message", TEXT),
-    Row("help", TEXT),
-)
 AT_LEAST_ONE = Kind({}, section=FAULT, is_list=True, is_never_empty=True)
 UNREADABLE = Section(
     *HEAD,

@@ -1,80 +1,272 @@
-"""``gark converge`` with several methods: one table, one plot, one verdict a method."""
+"""``gark converge`` with several methods: side by side, a verdict each."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import chain, pairwise
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from string import ascii_lowercase, ascii_uppercase
-from textwrap import wrap
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from garkcli.convergence.result import Convergence, Row
+from flint import fmpq
+
+from garkcli.convergence.result import Convergence
+from garkcli.convergence.result import Row as Step
+from garkcli.errors import Fault
 from garkcli.page.asciiplot import SEVERAL, terminal_curves
 from garkcli.page.figures import scientific
-from garkcli.page.paint import Paint, aligned, indented, padded
+from garkcli.page.paint import counted
+from garkcli.page.schema import Schema, one_of, published
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.convergence import (
-    WIDTH,
-    exactly,
-    hidden,
+    COST,
+    NO_TIME,
+    STEP,
+    STEP_SIZE,
+    WORKED,
+    ConvergenceReport,
+    notes,
     order_text,
     predicted,
-    remarks,
-    verdict,
-    wrapped,
+    steps,
+    verdict_words,
+    visible,
 )
-from garkcli.report.convergence_data import Entry, csv_of_several
-from garkcli.report.costs import Tested, costs_of, curve
-from garkcli.tableau.garkmethod import word_for
+from garkcli.report.convergence import FORMS as ALONE
+from garkcli.report.convergence import REPORT as OF_ONE
+from garkcli.report.costs import Tested, at_equal_errors, curve
+from garkcli.report.failure import FAULT
+from garkcli.report.problem import WORDS
+from garkcli.tell.facts import (
+    Answer,
+    Choice,
+    Level,
+    Row,
+    Section,
+    part,
+    parts,
+    picture,
+    rows_of,
+    table,
+    told,
+    via,
+)
+from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
+from garkcli.tell.report import Report
 
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
-_INDENT = 2
-_GAP = "   "
+MOST_METHODS = 20
+"""Of a table in a terminal, usually."""
 
 
-def render(
-    entries: Sequence[Entry],
-    format: str,
-    paint: Paint,
-    with_work: bool = False,
-    against: str = "h",
-    says_all: bool = True,
-) -> str:
-    """The comparison as text, JSON or CSV.
+@dataclass(frozen=True)
+class Entry:
+    """One method of a comparison.
 
-    Args:
-        entries: at least one.
-        format: text, json or csv.
-        paint: of the text.
-        with_work: whether to show what the steps have cost.
-        against: the horizontal axis of the plot: h, evaluations or seconds.
-        says_all: whether the text ends with a plot.
+    Attributes:
+        file: its path.
+        name: of the method, or the path again.
+        result: None where there is none.
+        faults: why there is none.
+        exit_code: 0 no disagreement, 1 it disagrees or a step fails, 2 it cannot be tested, 3 it is
+            undecided.
     """
-    if format == "json":
-        from garkcli.report.convergence_json import json_of_several
 
-        return json_of_several(entries, with_work)
-    if format == "csv":
-        return csv_of_several(entries, with_work)
-    named = list(zip(letters(len(entries)), entries, strict=True))
-    tested = [(x, entry.result) for x, entry in named if entry.result]
-    lines = _text(named, tested, paint, with_work)
-    if says_all:
-        lines += _plot(tested, against)
-    return "\n".join(lines) + "\n"
+    file: str
+    name: str
+    result: Convergence | None
+    faults: tuple[Fault, ...]
+    exit_code: int
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What is told of several methods.
+
+    Attributes:
+        entries: at least one.
+        has_work: whether costs are told.
+        against: what the plot has below.
+    """
+
+    entries: Sequence[Entry]
+    has_work: bool = False
+    against: str = "h"
+
+    @property
+    def named(self) -> list[Named]:
+        """The methods by their letters; one with its file where another has the same name."""
+        names = Counter(x.name for x in self.entries)
+        return [
+            Named(letter, f"{x.name} ({x.file})" if names[x.name] > 1 else x.name, x, self.has_work)
+            for letter, x in zip(letters(len(self.entries)), self.entries, strict=True)
+        ]
+
+    @property
+    def tested(self) -> Tested:
+        """Those with a result."""
+        return [(x.letter, x.entry.result) for x in self.named if x.entry.result is not None]
+
+
+class Named(NamedTuple):
+    """A method of a comparison by its letter."""
+
+    letter: str
+    name: str
+    entry: Entry
+    has_work: bool
+
+    @property
+    def test(self) -> ConvergenceReport | None:
+        """Its test, where there is one."""
+        result = self.entry.result
+        return None if result is None else ConvergenceReport(result, self.entry.name, self.has_work)
 
 
 def letters(count: int) -> list[str]:
     """A, B, …, Z, a, …, z, and numbers beyond: short names of methods."""
-    numbers = [str(k) for k in range(1, count + 1)]
     single = [*ascii_uppercase, *ascii_lowercase]
-    names = single + numbers[len(single) :]
-    return names[:count]
+    return [*single, *(str(k) for k in range(len(single) + 1, count + 1))][:count]
 
 
-def title(results: Sequence[Convergence]) -> str:
+# the methods
+
+
+def _verdict(x: Named, d: Plain) -> str:
+    if x.entry.result is None:
+        return d.bad("FAILED")
+    verdict = x.entry.result.verdict
+    return d.note(verdict) if verdict == "reduced" else verdict_words(verdict, d)
+
+
+def _tested(row: Row) -> Row:
+    return row.of(lambda x: x.entry.result)
+
+
+METHOD = Section(
+    Row("letter", TEXT, label=""),
+    _tested(Row("observed", told(lambda x, _: order_text(x.observed_order)), lambda x: x)),
+    _tested(Row("visible", COUNT, visible)),
+    _tested(Row("predicted", COUNT, predicted)),
+    Row("verdict", told(_verdict), lambda x: x),
+    Row("method", TEXT, lambda x: x.name),
+)
+
+
+def _remarks(compared: Compared) -> list[tuple[str, str]]:
+    """What there is to say about each method, then what the problem sees of several, once."""
+    said: list[tuple[str, str]] = []
+    seen: dict[str, list[str]] = {}
+    for x in compared.named:
+        texts = [fault.message for fault in x.entry.faults]
+        if x.test is not None:
+            result = x.test.result
+            seen.setdefault(result.visible.trees, []).append(x.letter)
+            texts = [str(predicted(result).reason)] if result.hides_failure else []
+            texts += [text for text in notes(x.test) if text != NO_TIME]
+        said += [(x.letter, text) for text in texts]
+    said += [(", ".join(who) if len(seen) > 1 else "note", text) for text, who in seen.items()]
+    costs = [row.cost for _, result in compared.tested for row in result.rows]
+    if compared.has_work and any(x is None or x.seconds is None for x in costs):
+        said.append(("note", NO_TIME))
+    if compared.has_work and at_equal_errors(compared.tested, "evaluations"):
+        said.append(
+            ("note", "costs of equal errors are read off between rows, on logarithmic scales")
+        )
+    return said
+
+
+# the errors
+
+
+class Sizes(NamedTuple):
+    """A step size with the rows of the methods that have it."""
+
+    h: fmpq
+    rows: dict[str, Step]
+
+
+def _sizes(compared: Compared) -> list[Sizes]:
+    rows = {letter: {row.h: row for row in x.rows} for letter, x in compared.tested}
+    found = {h for of_one in rows.values() for h in of_one}
+    return [
+        Sizes(h, {letter: x[h] for letter, x in rows.items() if h in x})
+        for h in sorted(found, reverse=True)
+    ]
+
+
+def _errors(x: Sizes, d: Plain) -> Iterator[tuple[str, str]]:
+    for letter, row in x.rows.items():
+        yield f"error {letter}", d.prose(scientific(row.error))
+        yield f"slope {letter}", "" if row.slope is None else f"{row.slope:.2f}"
+
+
+SIZE = Section(
+    Row("h", STEP_SIZE), Row("errors", rows_of(lambda x, d: list(_errors(x, d))), lambda x: x)
+)
+
+# the costs
+
+
+class Work(NamedTuple):
+    """What a row of a method has cost."""
+
+    letter: str
+    row: Step
+
+
+WORK = Section(
+    Row("letter", TEXT, label=""),
+    Row("h", STEP_SIZE, lambda x: x.row.h),
+    Row("error", told(lambda x, d: d.prose(scientific(x.row.error))), lambda x: x),
+    Row("cost", part(COST), lambda x: x.row.cost, has_null=True),
+)
+EQUAL = Section(
+    Row("letter", TEXT, lambda x: x[0], label=""),
+    Row("costs", rows_of(lambda cells, _: cells), lambda x: x[1]),
+)
+
+
+def _work(compared: Compared) -> list[Work]:
+    return [
+        Work(letter, row)
+        for letter, result in compared.tested
+        for row in result.rows
+        if compared.has_work
+    ]
+
+
+def _equal(what: str) -> Row:
+    """A table of what equal errors cost."""
+    return Row(
+        f"{what}_at_equal_errors",
+        table(EQUAL, MOST_METHODS, is_data=False),
+        lambda c: at_equal_errors(c.tested, what) if c.has_work else [],
+        label=f"{what} for an error of",
+    )
+
+
+def _plot(compared: Compared, _: Any) -> list[str]:
+    curves = {letter: list(curve(x, compared.against)) for letter, x in compared.tested}
+    if not any(curves.values()):
+        return []
+    plot = terminal_curves(curves, compared.against)
+    return [*plot.splitlines(), *([f"{SEVERAL} several methods"] if SEVERAL in plot else [])]
+
+
+# the report
+
+
+def _problem(compared: Compared) -> str:
     """What all of them have solved, without its split."""
-    first = results[0]
+    if not compared.tested:
+        return ""
+    _, first = compared.tested[0]
     return f"{_about(first)}; to t = {first.t_end}"
 
 
@@ -83,154 +275,76 @@ def _about(result: Convergence) -> str:
     if isinstance(problem, Oscillator):
         return f"oscillator; q̈ = −ω²q, ω = {problem.omega}"
     if isinstance(problem, RightHandSide):
-        if problem.stiffness is None:
-            return problem.name
-        return f"{problem.name}, stiffness {problem.stiffness}"
+        stiffness = problem.stiffness
+        return problem.name + ("" if stiffness is None else f", stiffness {stiffness}")
     text = str(problem.energy).replace("**", "^")
-    if len(text) > _LONGEST:
-        return problem.name
-    return f"{problem.name}; H = {text}"
+    return problem.name + (f"; H = {text}" if len(text) <= _LONGEST else "")
 
 
-def _text(
-    named: Sequence[tuple[str, Entry]], tested: Tested, paint: Paint, with_work: bool
-) -> list[str]:
-    lines = [paint("strong", f"{len(named)} methods")]
-    if tested:
-        results = [result for _, result in tested]
-        lines += indented(wrapped(title(results)))
-    lines.append("")
-    lines += _names(named, paint)
-    for block in _blocks(tested):
-        lines.append("")
-        lines += indented(block)
-    lines.append("")
-    lines += indented(_verdicts(named, paint))
-    lines += _notes(tested)
-    if with_work and tested:
-        lines.append("")
-        lines += costs_of(tested)
-    return lines
+def _answer(_: str, answer: Answer, d: Plain) -> str:
+    """How many have which verdict."""
+    found = Counter(x.result.verdict if x.result else "failed" for x in answer.value.entries)
+    good, bad = found["agree"], found["disagree"]
+    texts = [
+        d.good("1 agrees" if good == 1 else f"{good} agree") if good else "",
+        d.bad("1 DISAGREES" if bad == 1 else f"{bad} DISAGREE") if bad else "",
+        f"{found['reduced']} reduced by stiffness" if found["reduced"] else "",
+        d.note(f"{found['undecided']} undecided") if found["undecided"] else "",
+        d.bad(f"{found['failed']} FAILED") if found["failed"] else "",
+    ]
+    return f"{counted(len(answer.value.entries), 'method')}: {', '.join(filter(None, texts))}"
 
 
-def _plot(tested: Tested, against: str) -> list[str]:
-    """All curves in one plot, after an empty line; none where there is nothing to draw."""
-    curves = {}
-    for letter, result in tested:
-        curves[letter] = list(curve(result, against))
-    if not any(curves.values()):
-        return []
-    plot = terminal_curves(curves, against)
-    lines = [""]
-    lines += indented(plot.splitlines())
-    if SEVERAL in plot:
-        lines.append(f"  {SEVERAL} several methods")
-    return lines
+HEAD = (
+    Row("file", TEXT, lambda x: x.entry.file),
+    Row("ok", TRUTH, lambda x: x.entry.exit_code == 0),
+)
+TESTED = {
+    kind: Section(
+        *HEAD,
+        Row("schema", constant(OF_ONE.schema_name), lambda _: OF_ONE.schema_name),
+        *via(lambda x: x.test, section.rows),
+    )
+    for kind, section in ALONE.items()
+}
+UNTESTED = Section(
+    *HEAD,
+    Row("name", TEXT, lambda x: x.entry.name),
+    Row("errors", parts(FAULT), lambda x: x.entry.faults),
+)
+RESULT = Choice(
+    lambda x: UNTESTED if x.test is None else TESTED[type(x.test.result.problem)],
+    UNTESTED,
+    *TESTED.values(),
+)
+LINE = (Row("file", TEXT, lambda x: x[0].file), Row("method", TEXT, lambda x: x[0].name))
+SUMMARY = Section(
+    Row("files", COUNT, lambda c: len(c.entries)),
+    Row("failed", COUNT, lambda c: sum(x.exit_code != 0 for x in c.entries)),
+)
+REPORT: Report[Compared] = Report.only(
+    "gark/converge-comparison/1",
+    "report of gark converge of several methods",
+    Section(
+        Row("answer", told(lambda _, d: "", _answer), lambda c: c, HEADLINE),
+        Row("problem_in_words", WORDS, _problem, label="problem"),
+        Row("remarks", rows_of(lambda xs, d: [(x, d.prose(text)) for x, text in xs]), _remarks),
+        Row("methods", table(METHOD, MOST_METHODS, is_data=False), lambda c: c.named, label=""),
+        Row("sizes", table(SIZE, MOST_METHODS, is_data=False), _sizes, label="errors"),
+        Row("work", table(WORK, MOST_METHODS, is_data=False), _work),
+        _equal("evaluations"),
+        _equal("seconds"),
+        Row("plot", picture(_plot), lambda c: c, DETAIL),
+        Row("results", parts(RESULT), lambda c: c.named, DATA),
+        Row("summary", part(SUMMARY), lambda c: c, DATA),
+    ),
+    lines=lambda c: (
+        Section(*LINE, *via(lambda x: x[1], (WORKED if c.has_work else STEP).rows)),
+        [(x.entry, step) for x in c.named if x.test is not None for step in steps(x.test)],
+    ),
+)
 
 
-def _names(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
-    """A line a method; with its file where another one has the same name."""
-    names = [entry.name for _, entry in named]
-    lines = []
-    for letter, entry in named:
-        text = entry.name
-        is_twin = names.count(text) > 1
-        if is_twin and text != entry.file:
-            text = f"{text} ({entry.file})"
-        margin = " " * (_INDENT + len(letter) + _INDENT)
-        left = WIDTH - len(margin)
-        first, *others = wrap(text, left) or [""]
-        painted = paint("strong", letter)
-        head = f"  {painted}  {first}"
-        lines.append(head.rstrip())
-        lines += indented(others, margin)
-    return lines
-
-
-def _blocks(tested: Tested) -> list[list[str]]:
-    """Errors and slopes side by side: as few tables as fit, with as many methods each."""
-    methods = len(tested)
-    for count in range(1, methods + 1):
-        bounds = [round(k * methods / count) for k in range(count + 1)]
-        parts = [tested[a:b] for a, b in pairwise(bounds)]
-        blocks = [_side_by_side(part) for part in parts]
-        lines = chain(*blocks)
-        widest = max(map(len, lines))
-        if widest <= WIDTH - _INDENT or count == methods:
-            return blocks
-    return []
-
-
-def _side_by_side(tested: Tested) -> list[str]:
-    found = {row.h for _, result in tested for row in result.rows}
-    sizes = sorted(found, reverse=True)
-    steps = ["", "h", *map(str, sizes)]
-    columns = [aligned([[step] for step in steps])]
-    for letter, result in tested:
-        rows = {row.h: row for row in result.rows}
-        pair = [["error", "slope"]]
-        pair += [_cells(rows.get(h)) for h in sizes]
-        lines = aligned(pair)
-        width = max(map(len, lines))
-        column = [letter.center(width)]
-        column += [line.ljust(width) for line in lines]
-        columns.append(column)
-    rows_of_cells = zip(*columns, strict=True)
-    return [_GAP.join(cells).rstrip() for cells in rows_of_cells]
-
-
-def _cells(row: Row | None) -> list[str]:
-    if row is None:
-        return ["", ""]
-    slope = ""
-    if row.slope is not None:
-        slope = f"{row.slope:.2f}"
-    return [scientific(row.error), slope]
-
-
-def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
-    """A line a method: observed, visible and predicted order, and whether they agree; then what
-    there is to say about it.
-    """
-    stepped = next((entry.result.method for _, entry in named if entry.result), None)
-    rows = [["order", "observed", "on this problem", f"of the {word_for(stepped)}"]]
-    endings = [""]
-    said: list[str] = []
-    for letter, entry in named:
-        result = entry.result
-        if result is None:
-            rows.append([letter, "", "", ""])
-            endings.append(paint("bad", "FAILED"))
-            texts = [fault.message for fault in entry.faults]
-        else:
-            observed = order_text(result.observed_order)
-            visible = exactly(result)
-            rows.append([letter, observed, visible, predicted(result)])
-            endings.append(verdict(result, paint))
-            texts = [hidden(result)] if result.hides_failure else []
-            texts += remarks(result)
-        said += [f"{letter}: {text}" for text in texts]
-    table = padded(rows)
-    width = max(map(len, table))
-    lines = []
-    for line, ending in zip(table, endings, strict=True):
-        whole = line.ljust(width) + _GAP + ending
-        lines.append(whole.rstrip())
-    for text in said:
-        lines += wrapped(text)
-    return lines
-
-
-def _notes(tested: Tested) -> list[str]:
-    """What the problem can see, once for all methods with the same answer."""
-    said: dict[str, list[str]] = {}
-    for letter, result in tested:
-        said.setdefault(result.visible.trees, []).append(letter)
-    lines = []
-    for text, who in said.items():
-        note = text
-        if len(said) > 1:
-            names = ", ".join(who)
-            note = f"{names}: {text}"
-        lines += indented(wrapped(note))
-    return lines
+def schema() -> Schema:
+    """The JSON Schema of what the command writes, of one method or of several."""
+    return published(OF_ONE.title, one_of(*OF_ONE.documents, *REPORT.documents))

@@ -1,214 +1,197 @@
-"""``gark converge``: the table of errors, the order that they show, and the verdict."""
+"""``gark converge``: the errors of a method over step sizes, the order that they show."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from textwrap import wrap
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from flint import arb
 
-from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Cost, Row, Stiffness
+from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Verdict
+from garkcli.convergence.result import Row as Step
+from garkcli.exact.display import to_float
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.asciiplot import POINT, terminal_curves
-from garkcli.page.figures import rounded, scientific
-from garkcli.page.paint import Paint, aligned, indented
-from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.convergence_data import csv_of, invariant_names
-from garkcli.report.fault_json import Failure
-from garkcli.report.problem_text import describe, driving
-from garkcli.tableau.garkmethod import word_for
+from garkcli.page.figures import for_programs, rounded, scientific
+from garkcli.problems.oscillator import Oscillator
+from garkcli.report.costs import curve
+from garkcli.report.failure import FAILURE, Failure
+from garkcli.report.problem import STEPPED
+from garkcli.tableau.garkmethod import derivation_of
+from garkcli.tell.facts import (
+    Answer,
+    Choice,
+    Kind,
+    Level,
+    Reason,
+    Row,
+    Section,
+    Status,
+    part,
+    picture,
+    rows_of,
+    table,
+    told,
+    via,
+)
+from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.report import Report
 
-WIDTH = 80
-"""Columns of a terminal."""
-NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
-WORK = ("steps", "evaluations", "iterations", "Jacobians", "seconds")
-"""What is counted, as column heads."""
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+MOST_STEPS = 10
+"""Of a table in a terminal, usually."""
 _LONGEST_HEAD = 40  # characters of the name of an invariant above a column
-_INDENT = 2
-_GAP = "   "
+NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 
 
-def render(
-    result: Convergence,
-    name: str,
-    format: str,
-    paint: Paint,
-    with_work: bool = False,
-    says_all: bool = True,
-) -> str:
-    """The convergence test as text, JSON or CSV.
+@dataclass(frozen=True)
+class ConvergenceReport:
+    """What is told of one method.
 
-    Args:
-        result: the test.
-        name: that of the method.
-        format: text, json or csv.
-        paint: of the text.
-        with_work: whether to show what the steps have cost.
-        says_all: whether the text ends with a plot.
+    Attributes:
+        result: its test.
+        name: of the method.
+        has_work: whether costs are told.
+        against: what the plot has below.
     """
-    if format == "json":
-        from garkcli.report.convergence_json import json_of
 
-        return json_of(result, name, with_work)
-    if format == "csv":
-        return csv_of(result, with_work)
-    lines = _text(result, name, paint)
-    if with_work:
-        lines += _work(result)
-    if says_all:
-        lines += _work_plot(result) if with_work else _plot(result)
-    return "\n".join(lines) + "\n"
+    result: Convergence
+    name: str
+    has_work: bool = False
+    against: str = "h"
 
 
-def render_failure(failure: Failure, format: str) -> str:
-    """A test that has no result, for programs: its errors, or a table without rows. People are told
-    elsewhere.
-    """
-    if format == "json":
-        from garkcli.report.convergence_json import json_of_failure
+class StepTold(NamedTuple):
+    """A step size of a test."""
 
-        return json_of_failure(failure)
-    return "h,h_exact,error,slope\n" if format == "csv" else ""
+    row: Step
+    test: ConvergenceReport
 
+    @property
+    def invariant_errors(self) -> dict[str, arb]:
+        """The errors of the invariants besides the energy, by their names."""
+        problem = self.test.result.problem
+        names = [] if isinstance(problem, Oscillator) else [name for name, _ in problem.invariants]
+        return dict(zip(names, self.row.invariant_errors, strict=True))
 
-def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
-    about = f"{describe(result.problem)}; to t = {result.t_end}"
-    lines = [paint("strong", line) for line in wrap(name, WIDTH)]
-    lines += indented(wrapped(about))
-    lines += indented(driving(result.problem, result.method))
-    for block in _tables(result):
-        lines.append("")
-        lines += indented(block)
-    lines.append("")
-    lines += _orders(result, paint)
-    for text in (*remarks(result), result.visible.trees):
-        lines += indented(wrapped(text))
-    return lines
+    @property
+    def below_round_off(self) -> list[str] | None:
+        """The quantities whose error is below round-off; None where there are none."""
+        energy = self.row.energy_error
+        errors = {**({} if energy is None else {"energy": energy}), **self.invariant_errors}
+        return [name for name, x in errors.items() if x.is_finite() and _is_below(x)] or None
 
 
-def _plot(result: Convergence) -> list[str]:
-    """The errors over step sizes, after an empty line; none where there are no two."""
-    positive = [row for row in result.rows if row.error > 0]
-    if len(positive) < 2:
-        return []
-    plot = terminal_curves({POINT: [(row.h, row.error) for row in positive]}, "h")
-    return ["", *indented(plot.splitlines())]
+def _is_below(x: arb) -> bool:
+    return bool(x.contains(0) and not x.is_zero())
 
 
-def _tables(result: Convergence) -> list[list[str]]:
-    """The columns side by side; those of invariants below each other where they are too wide."""
-    rows = result.rows
-    steps = ["h"]
-    steps += [str(row.h) for row in rows]
-    errors = ["error"]
-    errors += [rounded(row.error) for row in rows]
-    slopes = ["slope"]
-    slopes += [_slope(row) for row in rows]
-    columns = [errors, slopes]
-    energies = [row.energy_error for row in rows if row.energy_error is not None]
-    if energies:
-        columns.append(["energy error", *map(rounded, energies)])
-    for k, name in enumerate(invariant_names(result)):
-        column = [f"{_short_name(name)} error"]
-        column += [rounded(row.invariant_errors[k]) for row in rows]
-        columns.append(column)
-    if any(row.digits is not None for row in rows):
-        digits = ["digits"]
-        digits += [_digits(row) for row in rows]
-        columns.append(digits)
-    return _fitting(steps, columns)
+# kinds
 
 
-def _fitting(steps: Sequence[str], columns: list[list[str]]) -> list[list[str]]:
-    """Tables with the step sizes on the left and as many of the columns as fit."""
-    tables = []
-    while columns:
-        shown = [steps, *columns]
-        while len(shown) > 2 and _width(shown) > WIDTH - _INDENT:
-            shown.pop()
-        table = list(zip(*shown, strict=True))
-        tables.append(aligned(table, gap=_GAP))
-        columns = columns[len(shown) - 1 :]
-    return tables
+def _number(ball: arb) -> float | None:
+    """A measured number in the digits of reports; None where it is unknown."""
+    text = for_programs(ball)
+    return float(text) if text else None
 
 
-def _width(columns: Sequence[Sequence[str]]) -> int:
-    widths = [max(map(len, column)) for column in columns]
-    gaps = len(_GAP) * (len(widths) - 1)
-    return sum(widths) + gaps
+def _place(order: float) -> float:
+    """An order or slope in as many decimal places as say something; never −0."""
+    return round(order, 4) + 0.0
+
+
+STEP_SIZE = Kind(S.SIZE, lambda h, _: to_float(h), lambda h, d: d.number(h))
+MEASURED = Kind(S.SIZE, lambda x, _: _number(x), lambda x, d: d.prose(rounded(x)), csv=for_programs)
+SLOPE = Kind(S.NUMBER, lambda x, _: _place(x), lambda x, _: f"{x:.3f}")
+OBSERVED = Kind(S.NUMBER, lambda x, _: _place(x), lambda x, _: order_text(x))
+SECONDS = Kind(S.SIZE, words=lambda x, _: scientific(arb(x)))
 
 
 def _short_name(name: str) -> str:
-    if len(name) <= _LONGEST_HEAD:
-        return name
-    beginning = name[: _LONGEST_HEAD - 1]
-    return f"{beginning}…"
+    return name if len(name) <= _LONGEST_HEAD else f"{name[:24]}…{name[-15:]}"
 
 
-def _slope(row: Row) -> str:
-    if row.slope is None:
-        return ""
-    return f"{row.slope:.3f}"
+INVARIANT_ERRORS = Kind(
+    {"type": "object", "additionalProperties": S.SIZE},
+    lambda errors, _: {name: _number(x) for name, x in errors.items()},
+    rows=lambda errors, d: [
+        (d.prose(f"{_short_name(name)} error"), d.prose(rounded(x))) for name, x in errors.items()
+    ],
+    csv=lambda errors: {
+        f"{name.replace(' ', '_')}_error": for_programs(x) for name, x in errors.items()
+    },
+)
+
+# the table
+
+COST = Section(
+    Row("steps", COUNT),
+    Row("evaluations", COUNT),
+    Row("newton_iterations", COUNT, lambda x: x.iterations, label="iterations"),
+    Row("jacobians", COUNT, label="Jacobians"),
+    Row("seconds", SECONDS, has_null=True),
+)
+STEP = Section(
+    Row("h", STEP_SIZE, lambda x: x.row.h),
+    Row("h_exact", EXACT, lambda x: x.row.h, DATA),
+    Row("error", MEASURED, lambda x: x.row.error),
+    Row("slope", SLOPE, lambda x: x.row.slope, has_null=True),
+    Row("energy_error", MEASURED, lambda x: x.row.energy_error, has_null=True),
+    Row("invariant_errors", INVARIANT_ERRORS),
+    Row("digits", POSITION, lambda x: x.row.digits, has_null=True),
+    Row("below_round_off", TEXTS, level=DATA, is_optional=True),
+)
+WORKED = Section(*STEP.rows, Row("work", part(COST), lambda x: x.row.cost, has_null=True))
+_STEPS = Choice(lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED)
 
 
-def _digits(row: Row) -> str:
-    if row.digits is None:
-        return ""
-    return "float" if row.digits <= FLOAT_DIGITS else str(row.digits)
+def steps(test: ConvergenceReport) -> list[StepTold]:
+    """The rows of the table."""
+    return [StepTold(row, test) for row in test.result.rows]
 
 
-def _orders(result: Convergence, paint: Paint) -> list[str]:
-    """The observed order, the one to be observed, that of the method, and the verdict.
-
-    Where the problem hides the trees that fail, observed and visible order agree on what is no
-    order of the method: then that is said apart.
-    """
-    observed = order_text(result.observed_order)
-    head = f"  order   observed {observed}, on this problem {exactly(result)}"
-    last = verdict(result, paint)
-    if result.hides_failure:
-        return [f"{head}: {last}", f"          {hidden(result)}"]
-    tail = f"of the {word_for(result.method)} {predicted(result)}: "
-    unpainted = verdict(result, Paint())
-    whole = f"{head}, {tail}{unpainted}"
-    if len(whole) > WIDTH:
-        return [f"{head},", f"          {tail}{last}"]
-    return [f"{head}, {tail}{last}"]
+# orders and the verdict
 
 
 def order_text(order: float | None) -> str:
     """An observed order; never −0.00."""
-    if order is None:
-        return "none"
-    without_sign_of_zero = round(order, 2) + 0.0
-    return f"{without_sign_of_zero:.2f}"
+    return "none" if order is None else f"{round(order, 2) + 0.0:.2f}"
 
 
-def exactly(result: Convergence) -> str:
-    """The order to be observed, and whether a larger one would do."""
-    how = "exactly" if result.visible.is_sharp else "or more"
-    return f"{result.visible_order} {how}"
+def visible(x: Convergence) -> Answer:
+    """The order that is to be observed: at least that where the problem may hide some trees."""
+    return Answer(
+        x.visible_order, Status(at_least=not x.visible.is_sharp), Reason("{}", x.visible.trees)
+    )
 
 
-def predicted(result: Convergence) -> str:
-    """The order of the method."""
-    order = result.predicted_order
-    return f"{order} or more" if order >= MAX_ORDER else str(order)
+def predicted(x: Convergence) -> Answer:
+    """The order of the method; what the problem hides of it."""
+    hidden = f"its failing trees of order {x.predicted_order + 1} are not seen here"
+    return Answer(
+        x.predicted_order,
+        Status(at_least=x.predicted_order >= MAX_ORDER),
+        Reason(hidden if x.hides_failure else ""),
+    )
 
 
-def hidden(result: Convergence) -> str:
-    """Whose order the visible one is not."""
-    order = result.predicted_order
-    failing = f"its failing trees of order {order + 1}"
-    return f"the {word_for(result.method)} has order {order}: {failing} are not seen here"
+def verdict_words(verdict: str, d: Plain) -> str:
+    """Whether observed and visible order are the same."""
+    if verdict == "reduced":
+        return d.note("reduced by stiffness")
+    if verdict == "undecided":
+        return d.note("undecided")
+    return d.good("they agree") if verdict == "agree" else d.bad("THEY DISAGREE")
 
 
-def verdict(result: Convergence, paint: Paint) -> str:
-    """The last word: "they agree", or not."""
-    if result.verdict == "undecided":
-        return paint("note", "undecided")
-    if result.verdict == "reduced":
-        return paint("note", "reduced by stiffness")
-    return paint.verdict(result.verdict == "agree", "they agree", "THEY DISAGREE")
+def _answer_phrase(_: str, answer: Answer, d: Plain) -> str:
+    x = answer.value
+    seen = d.known(str(x.visible_order), visible(x).status)
+    observed = order_text(x.observed_order)
+    return f"order {observed} observed, {seen} visible: {verdict_words(x.verdict, d)}"
 
 
 def remarks(result: Convergence) -> list[str]:
@@ -220,14 +203,17 @@ def remarks(result: Convergence) -> list[str]:
             "and are not fitted"
         )
     if result.stiff is not None:
-        said.append(_of_stiffness(result, result.stiff))
+        size = scientific(arb(result.stiff.resolution), 1)
+        said.append(
+            f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {result.predicted_order}, "
+            f"stage order {result.stiff.stage_order}"
+            if result.stiff.is_stable
+            else f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
+        )
     if result.is_at_rest:
         said.append("the solution does not move, so that no method makes an error: start elsewhere")
     elif result.is_exact:
-        word = word_for(result.method)
-        said.append(
-            f"the {word} makes no error on this problem, which shows no order: take another"
-        )
+        said.append("the method makes no error on this problem, which shows no order: take another")
     elif result.short_time is not None:
         said.append(_of_short_time(result))
     elif not result.has_settled:
@@ -237,71 +223,98 @@ def remarks(result: Convergence) -> list[str]:
     return said
 
 
-def _of_stiffness(result: Convergence, stiff: Stiffness) -> str:
-    """What the slopes of a stiff problem are to be held against."""
-    size = scientific(arb(stiff.resolution), 1)
-    if not stiff.is_stable:
-        return f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
-    return (
-        f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {predicted(result)}, "
-        f"stage order {stiff.stage_order}"
-    )
-
-
 def _of_short_time(result: Convergence) -> str:
     observed, short = result.observed_order, result.short_order
     time = scientific(arb(result.short_time), 1)
     tiny = f"with tiny steps, to t = {time}, it is {order_text(short)}"
     if result.verdict == "reduced":
         return tiny
-    if observed is None or short is None:
-        return f"at these step sizes the order has not settled; {tiny}"
-    if abs(observed - short) <= CLOSE:
-        return f"the problem hides the trees that fail, or their errors cancel: {tiny}"
-    is_whole = abs(observed - round(observed)) <= CLOSE
-    if is_whole and short < observed:
-        failing = round(short) + 1
-        missed = f"conditions of order {failing} are missed by little"
-        return f"{missed}, which these step sizes do not show; {tiny}"
+    if observed is not None and short is not None:
+        if abs(observed - short) <= CLOSE:
+            return f"the problem hides the trees that fail, or their errors cancel: {tiny}"
+        if abs(observed - round(observed)) <= CLOSE and short < observed:
+            missed = f"conditions of order {round(short) + 1} are missed by little"
+            return f"{missed}, which these step sizes do not show; {tiny}"
     return f"at these step sizes the order has not settled; {tiny}"
 
 
-def work_cells(cost: Cost | None) -> list[str]:
-    """The cells below ``WORK``."""
-    if cost is None:
-        return [""] * len(WORK)
-    counts = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians)
-    cells = [str(count) for count in counts]
-    seconds = ""
-    if cost.seconds is not None:
-        seconds = scientific(arb(cost.seconds))
-    cells.append(seconds)
-    return cells
+def notes(test: ConvergenceReport) -> list[str]:
+    """The remarks, also on costs."""
+    rows = test.result.rows
+    is_timed = all(row.cost is not None and row.cost.seconds is not None for row in rows)
+    return [*remarks(test.result), *([NO_TIME] if test.has_work and not is_timed else [])]
 
 
-def _work(result: Convergence) -> list[str]:
-    """What the steps have cost."""
-    cells = [["h", "error", *WORK]]
-    is_timed = True
-    for row in result.rows:
-        error = rounded(row.error)
-        cells.append([str(row.h), error, *work_cells(row.cost)])
-        is_timed &= row.cost is not None and row.cost.seconds is not None
-    lines = ["work", *aligned(cells)]
-    if not is_timed:
-        lines.append(NO_TIME)
-    return ["", *indented(lines)]
+def _plot(test: ConvergenceReport, _: Any) -> list[str]:
+    points = {POINT: list(curve(test.result, test.against))}
+    return terminal_curves(points, test.against).splitlines()
 
 
-def _work_plot(result: Convergence) -> list[str]:
-    """The errors over what they have cost, after an empty line."""
-    points = [
-        (float(row.cost.evaluations), row.error) for row in result.rows if row.cost is not None
-    ]
-    plot = terminal_curves({POINT: points}, "evaluations")
-    return ["", *indented(plot.splitlines())]
+def _drawn(test: ConvergenceReport) -> ConvergenceReport | None:
+    return test if len(list(curve(test.result, test.against))) > 1 else None
 
 
-def wrapped(text: str, width: int = 76) -> list[str]:
-    """The lines of a paragraph."""
-    return wrap(text, width)
+# reports
+
+
+def _resolution(x: Convergence) -> float | None:
+    """The smallest h ‖∂f/∂y‖ in a few digits."""
+    return None if x.stiff is None else float(f"{x.stiff.resolution:.3g}")
+
+
+SHORT = Section(
+    Row("t_end", EXACT, lambda x: x.short_time),
+    Row("observed_order", OBSERVED, lambda x: x.short_order, has_null=True),
+)
+STIFF = Section(
+    Row("least_h_times_norm", Kind(S.SIZE), _resolution, has_null=True),
+    Row("classical_order", COUNT, lambda x: x.predicted_order),
+    Row("stage_order", COUNT, lambda x: x.stiff.stage_order, has_null=True),
+    Row("slope", SLOPE, lambda x: x.observed_order, has_null=True),
+)
+_RESULT = [
+    Row("t_end", EXACT, level=DATA),
+    Row("answer", told(lambda _, d: "", _answer_phrase), lambda x: x, HEADLINE),
+    Row("visible_order", COUNT, visible),
+    Row("visible_order_is_exact", TRUTH, lambda x: x.visible.is_sharp, DATA),
+    Row("predicted_order", COUNT, predicted),
+    Row("observed_order", OBSERVED, level=DATA, has_null=True),
+    Row("agrees", TRUTH, level=DATA),
+    Row("verdict", choice(*get_args(Verdict)), level=DATA),
+    Row("plateau", COUNT, level=DATA),
+    Row(
+        "short", part(SHORT), lambda x: None if x.short_time is None else x, DATA, is_optional=True
+    ),
+    Row("stiff", part(STIFF), lambda x: None if x.stiff is None else x, DATA, is_optional=True),
+    Row("note", TEXT, lambda x: x.visible.trees, DATA),
+]
+FORMS = {
+    kind: Section(
+        Row("name", TEXT, level=DATA),
+        Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.result.method), DATA),
+        *via(lambda x: x.result, [*rows, *_RESULT]),
+        Row("notes", rows_of(lambda xs, d: [("note", d.prose(x)) for x in xs]), notes),
+        Row("steps", table(_STEPS, MOST_STEPS), steps),
+        Row("plot", picture(_plot), _drawn, DETAIL),
+        title=lambda x, d: d.prose(x.name),
+    )
+    for kind, rows in STEPPED.items()
+}
+"""By the kind of the problem."""
+
+
+def form(x: ConvergenceReport | Failure) -> Section:
+    """The rows of a test, or of one without a result."""
+    return FAILURE if isinstance(x, Failure) else FORMS[type(x.result.problem)]
+
+
+REPORT: Report[ConvergenceReport | Failure] = Report(
+    "gark/converge/1",
+    "report of gark converge",
+    lambda: (*FORMS.values(), FAILURE),
+    form,
+    key="",
+    lines=lambda x: (STEP, ()) if isinstance(x, Failure) else (
+        WORKED if x.has_work else STEP, steps(x)
+    ),
+)  # fmt: skip

@@ -1,4 +1,4 @@
-"""What the errors of several methods cost: a table, and costs of equal errors."""
+"""What errors cost: points of plots, and costs of equal errors."""
 
 from __future__ import annotations
 
@@ -13,36 +13,10 @@ from flint import arb, fmpq
 from garkcli.convergence.result import Convergence, Cost
 from garkcli.page.asciiplot import log10
 from garkcli.page.figures import scientific
-from garkcli.page.paint import indented, padded
-from garkcli.report.convergence import NO_TIME, WORK, work_cells
 
 Tested: TypeAlias = Sequence[tuple[str, Convergence]]
 """The results by the letters of their methods."""
 _GOALS = 6  # errors at which costs are compared
-
-
-def costs_of(tested: Tested) -> list[str]:
-    """What the rows have cost, and what errors of the same size have."""
-    rows = [["work", "h", "error", *WORK]]
-    is_timed = True
-    for letter, result in tested:
-        first = letter
-        for row in result.rows:
-            error = scientific(row.error)
-            work = work_cells(row.cost)
-            rows.append([first, str(row.h), error, *work])
-            is_timed &= row.cost is not None and row.cost.seconds is not None
-            first = ""
-    lines = indented(padded(rows, "  "))
-    if not is_timed:
-        lines.append(f"  {NO_TIME}")
-    tables = [_at_equal_errors(tested, what) for what in ("evaluations", "seconds")]
-    for table in tables:
-        if table:
-            lines += ["", *indented(table)]
-    if any(tables):
-        lines.append("  read off between the rows, on logarithmic scales")
-    return lines
 
 
 def amount(cost: Cost | None, what: str) -> float | None:
@@ -64,26 +38,18 @@ def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb
             yield x, row.error
 
 
-def _at_equal_errors(tested: Tested, what: str) -> list[str]:
-    """A line a method: what errors of 10^k cost, where it has larger and smaller ones."""
-    curves = {}
-    errors = []
-    for letter, result in tested:
-        points = []
-        for x, error in curve(result, what):
-            points.append((log10(error), log10(x)))
-        curves[letter] = points
-        errors.append([error for error, _ in points])
-    goals = _goals(errors)
-    if not goals:
-        return []
-    heads = [f"1e{k}" for k in goals]
-    rows = [[f"{what} for an error of", *heads]]
-    for letter, points in curves.items():
-        decades = [_between(points, k) for k in goals]
-        cells = [_amount(x, what) for x in decades]
-        rows.append([letter, *cells])
-    return padded(rows, "  ")
+def at_equal_errors(tested: Tested, what: str) -> list[tuple[str, list[tuple[str, str]]]]:
+    """For each method what errors of 10^k cost, where it has larger and smaller ones."""
+    curves = {
+        letter: [(log10(error), log10(x)) for x, error in curve(result, what)]
+        for letter, result in tested
+    }
+    goals = _goals([[error for error, _ in points] for points in curves.values()])
+    return [
+        (letter, [(f"1e{k}", _amount(_between(points, k), what)) for k in goals])
+        for letter, points in curves.items()
+        if goals
+    ]
 
 
 def _amount(decades: float | None, what: str) -> str:
@@ -91,9 +57,7 @@ def _amount(decades: float | None, what: str) -> str:
     if decades is None:
         return ""
     x = 10**decades
-    if what == "evaluations":
-        return str(round(x))
-    return scientific(arb(x), 2)
+    return str(round(x)) if what == "evaluations" else scientific(arb(x), 2)
 
 
 def _goals(errors: Sequence[Sequence[float]]) -> list[int]:

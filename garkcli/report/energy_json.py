@@ -28,7 +28,8 @@ from garkcli.page.schema import (
 )
 from garkcli.report.energy_text import Claim, Report
 from garkcli.report.fault_json import Failure, failure_form
-from garkcli.report.problem_json import NAME, TERMS, Stepped
+from garkcli.report.problem import Stepped
+from garkcli.report.problem_json import NAME, TERMS
 from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/energy/1"

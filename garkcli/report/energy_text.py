@@ -15,7 +15,7 @@ from garkcli.page.asciiplot import terminal_band
 from garkcli.page.figures import measured
 from garkcli.page.paint import Paint, counted, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.problem_text import describe, driving
+from garkcli.report.problem import describe, driving
 from garkcli.tableau.garkmethod import GarkMethod, word_for
 
 FATES = {
@@ -71,7 +71,7 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     lines = [paint("strong", report.name)]
     lines += indented(_wrapped(describe(run.problem)))
     steps = f"step {run.step} to t = {run.t_end}: {_steps(run)}"
-    lines += indented(driving(run.problem, run.method))
+    lines += indented(filter(None, [driving(run)]))
     lines += indented(_wrapped(steps))
     lines.append("")
     for history in run.invariants:

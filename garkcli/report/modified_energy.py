@@ -27,7 +27,7 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report.fault_json import Failure, failure_form
-from garkcli.report.problem_text import describe, driving
+from garkcli.report.problem import describe, driving
 from garkcli.tableau.garkmethod import derivation_of
 
 SCHEMA = "gark/modified-energy/1"
@@ -69,7 +69,7 @@ def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     problem = describe(run.problem)
     lines = [paint("strong", report.name)]
     lines += indented(folded(problem, _WIDTH - 2, "  "))
-    lines += indented(driving(run.problem, run.method))
+    lines += indented(filter(None, [driving(run)]))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
     lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
     rows = run.energies[0].rows

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.page.paint import Paint, folded, indented
 from garkcli.report.modified_data import formula_text, unknowns_of
-from garkcli.report.problem_text import describe
+from garkcli.report.problem import describe
 
 _WIDTH = 80
 _LABEL = 8  # columns of what stands before a formula

@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any
 
 from garkcli.page.record import Field
 from garkcli.page.schema import EXACT, TEXT, Schema, array, nullable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
-from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
-
-Stepped: TypeAlias = Oscillator | Problem
-
-
-def name_of(problem: Stepped) -> str:
-    """What --problem calls it."""
-    if isinstance(problem, Oscillator):
-        return "oscillator"
-    return problem.name
+from garkcli.report.problem import Stepped, name_of
 
 
 def _split(problem: Oscillator) -> list[list[str]]:

@@ -123,9 +123,9 @@ def _stability(found: Stability, format: str, name: str) -> str:
 
 
 def _convergence(result: Convergence, format: str, name: str) -> str:
-    from garkcli.report.convergence import render as written
+    from garkcli.report.convergence import REPORT, ConvergenceReport
 
-    return written(result, _called(name, result.method), format, _PLAIN)
+    return REPORT.render([ConvergenceReport(result, _called(name, result.method))], format)
 
 
 def _long_run(run: LongRun, format: str, name: str) -> str:
@@ -196,7 +196,7 @@ _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     Outcome: (_outcomes, ("text", "json", "sarif", "junit", "github", "markdown", "latex")),
     Analysis: (_analysis, FORMATS),
     Stability: (_stability, FORMATS),
-    Convergence: (_convergence, ("text", "json", "csv")),
+    Convergence: (_convergence, (*FORMATS, "csv")),
     LongRun: (_long_run, ("text", "json", "csv")),
     Comparison: (_comparison, FORMATS),
     BackwardAnalysis: (_backward, ("text", "json", "latex")),

@@ -31,7 +31,7 @@ REPORTS = {
     "design-stability": "garkcli.report.stable_values:REPORT",
     "modified": "garkcli.report.modified_data:modified_report_schema",
     "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",
-    "converge": "garkcli.report.convergence_json:converge_report_schema",
+    "converge": "garkcli.report.comparison:schema",
     "energy": "garkcli.report.energy_json:energy_report_schema",
     "certificate": "garkcli.report.proof_json:certificate_schema",
     "export": "garkcli.bridges.targets.json_data:export_schema",

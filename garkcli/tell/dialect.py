@@ -6,6 +6,7 @@ others change signs. Sentences are shared.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import zip_longest
@@ -46,12 +47,26 @@ FEW = 4
 """So many of a list are named; the others are counted."""
 
 
+_NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9]|$|unknown$")
+
+
+def _broken(text: str, width: int) -> Iterator[str]:
+    """A cell in lines; a word that is too long for it, such as a path, goes on below too."""
+    for line in folded(text, width, ""):
+        is_long = shown_width(line) == len(line) > width
+        yield from (line[i : i + width] for i in range(0, len(line), width)) if is_long else [line]
+
+
 def _beside(columns: Sequence[Sequence[str]], widths: Sequence[int]) -> Iterator[str]:
-    """The lines of a table; long cells are folded."""
+    """The lines of a table, numbers by their ends; long cells are folded."""
+    are_right = [all(_NUMBER.match(x) for x in column[1:]) for column in columns]
     for row in zip(*columns, strict=True):
-        cells = [folded(x, width, "") for x, width in zip(row, widths, strict=True)]
+        cells = [[*_broken(x, width)] for x, width in zip(row, widths, strict=True)]
         for texts in zip_longest(*cells, fillvalue=""):
-            padded = (x + " " * (w - shown_width(x)) for x, w in zip(texts, widths, strict=True))
+            padded = (
+                " " * (w - shown_width(x)) + x if right else x + " " * (w - shown_width(x))
+                for x, w, right in zip(texts, widths, are_right, strict=True)
+            )
             yield "  ".join(padded).rstrip()
 
 
@@ -314,6 +329,7 @@ class Plain:
         before = sum(widths[:-1]) + 2 * (len(columns) - 1)
         if before + widths[-1] > room >= before + WORDS:
             widths[-1] = room - before
+        widths[-1] = min(widths[-1], max(room - widths[0] - 2, WORDS))
         lines: list[str] = []
         start = 1
         while start < len(columns) or not lines:

@@ -7,14 +7,14 @@ what lies too deep is not computed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 
-from garkcli.page.schema import Schema, array, nullable
+from garkcli.page.schema import Schema, array, nullable, one_of
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -145,6 +145,7 @@ class Kind:
         is_never_empty: whether that has an entry at least.
         most: of a list that is always a table, so many rows of it are usual.
         absent: what a table has where there is no value.
+        csv: the value in CSV where that is not the one of JSON: a cell, or cells by their columns.
     """
 
     schema: Schema
@@ -162,6 +163,7 @@ class Kind:
     is_never_empty: bool = False
     most: int | None = None
     absent: str = ""
+    csv: Callable[[Any], str | Mapping[str, str]] | None = None
 
     def __call__(self, value: Any) -> Said:
         """A value of this kind in a reason."""
@@ -331,6 +333,30 @@ class Section:
         }
 
 
+class Choice(Section):
+    """One of several sections, by what it tells.
+
+    Args:
+        of: the one for a value.
+        sections: all of them.
+    """
+
+    def __init__(self, of: Callable[[Any], Section], *sections: Section) -> None:
+        super().__init__()
+        self._of = of
+        self._sections = sections
+
+    def facts(self, whole: Any, level: Level = Level.DATA) -> Iterator[Fact]:
+        return self._of(whole).facts(whole, level)
+
+    def data(self, whole: Any, dialect: Plain) -> dict[str, Any]:
+        return self._of(whole).data(whole, dialect)
+
+    @property
+    def schema(self) -> Schema:
+        return one_of(*(section.schema for section in self._sections))
+
+
 def part(section: Section, words: Words | None = None) -> Kind:
     """A value with facts of its own; its words where its gist does not do."""
     return Kind({}, section=section, words=words)
@@ -358,7 +384,8 @@ def parts(section: Section, words: Words | None = None) -> Kind:
 
 def table(section: Section, most: int, is_data: bool = True) -> Kind:
     """A list of flat parts, a line each, of which so many are usual. Where the first column has no
-    label of its own, that of the list is its head.
+    label of its own, that of the list is its head. A part of a line, and what is told as rows, have
+    columns of their own.
     """
     return Kind({}, section=section, is_list=True, most=most, is_data=is_data)
 

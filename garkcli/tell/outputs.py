@@ -174,9 +174,9 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     section, most = fact.row.kind.section, fact.row.kind.most
     assert section is not None
     values = fact.value if level >= Level.DETAIL else fact.value[:most]
-    shown = [[x for x in section.facts(part, level) if x.level <= level] for part in values]
-    heads = [label(x, d) for x in shown[0]]
-    rows = [[cell(x, d) for x in row] for row in shown]
+    shown = [dict(_cells(section, x, d, level)) for x in values]
+    heads = [*dict.fromkeys(head for row in shown for head in row)]
+    rows = [[row.get(head, "") for head in heads] for row in shown]
     if heads[0]:
         yield from d.title(label(fact, d), depth)
         depth += 1
@@ -184,6 +184,22 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     yield from d.grid(*filled(heads, rows), depth)
     if more := len(fact.value) - len(values):
         yield from d.more(more, depth + 1)
+
+
+def _cells(section: Section, part: Any, d: Plain, level: Level) -> Iterator[tuple[str, str]]:
+    """The heads and the cells of a line; a part of it and what is told as rows have columns of
+    their own.
+    """
+    for fact in section.facts(part, level):
+        kind, value = fact.row.kind, fact.value
+        if fact.level > level:
+            continue
+        if kind.rows is not None:
+            yield from () if value is None else kind.rows(value, d)
+        elif kind.section is not None and not kind.is_list and kind.words is None:
+            yield from () if value is None else _cells(kind.section, value, d, level)
+        else:
+            yield label(fact, d), cell(fact, d)
 
 
 def filled(

@@ -53,6 +53,7 @@ class Report(Generic[Whole]):
         key: of the list of results in JSON; empty where there is one, whose fields are at the top.
         tail: further fields of the document, of all results.
         is_open: whether the schema allows others.
+        lines: of a result what CSV has, with the section that tells it.
     """
 
     schema_name: str
@@ -63,6 +64,7 @@ class Report(Generic[Whole]):
     key: str = "files"
     tail: Section = NOTHING
     is_open: bool = False
+    lines: Callable[[Whole], tuple[Section, Iterable[Any]]] | None = None
 
     @classmethod
     def only(
@@ -71,9 +73,12 @@ class Report(Generic[Whole]):
         title: str,
         section: Section,
         signs: Callable[[Whole], Mapping[str, Any]] = lambda _: {},
+        lines: Callable[[Whole], tuple[Section, Iterable[Any]]] | None = None,
     ) -> Report[Whole]:
         """A report of one result, whose fields are at the top, by one section."""
-        return cls(schema_name, title, lambda: [section], lambda _: section, signs, key="")
+        return cls(
+            schema_name, title, lambda: [section], lambda _: section, signs, key="", lines=lines
+        )
 
     def render(
         self,
@@ -94,6 +99,11 @@ class Report(Generic[Whole]):
         """
         if format == "json":
             return self.json(wholes)
+        if format == "csv":
+            from garkcli.tell.csv import csv_text
+
+            assert self.lines is not None
+            return "".join(csv_text(*self.lines(x)) for x in wholes)
         level = Level.DETAIL if verbosity > 0 or format == "latex" else Level.USUAL
         if verbosity < 0:
             level = Level.HEADLINE
@@ -147,17 +157,28 @@ class Report(Generic[Whole]):
     @property
     def schema(self) -> Schema:
         """The JSON Schema of such documents."""
-        schemas = [section.schema for section in self.forms()]
-        result = schemas[0] if len(schemas) == 1 else one_of(*schemas)
-        head = {"schema": {"const": self.schema_name}}
+        return published(self.title, one_or_more(self.documents))
+
+    @property
+    def documents(self) -> list[Schema]:
+        """What a document may be: of one result, what each form of it makes."""
+        results = [section.schema for section in self.forms()]
+        if not self.key:
+            return [self._document(x) for x in results]
         tail = self.tail.schema
-        if self.key:
-            head[self.key] = array(result)
-        else:
-            tail = result
+        required = [self.key, *tail["required"]]
+        properties = {self.key: array(one_or_more(results)), **tail["properties"]}
+        return [self._document({"required": required, "properties": properties})]
+
+    def _document(self, fields: Schema) -> Schema:
         schema = {
             "type": "object",
-            "required": [*head, *tail["required"]],
-            "properties": {**head, **tail["properties"]},
+            "required": ["schema", *fields["required"]],
+            "properties": {"schema": {"const": self.schema_name}, **fields["properties"]},
         }
-        return published(self.title, schema if self.is_open else {**schema, **CLOSED})
+        return schema if self.is_open else {**schema, **CLOSED}
+
+
+def one_or_more(schemas: Sequence[Schema]) -> Schema:
+    """The schema, or one of several."""
+    return schemas[0] if len(schemas) == 1 else one_of(*schemas)

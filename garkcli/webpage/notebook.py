@@ -7,14 +7,13 @@ from contextlib import suppress
 from html import escape
 from typing import TypeVar
 
-from garkcli.convergence.result import Convergence, Row
+from garkcli.convergence.result import Convergence
 from garkcli.longtime.history import InvariantHistory, LongRun
-from garkcli.page.figures import measured, rounded
+from garkcli.page.figures import measured
 from garkcli.page.plain import printable
 from garkcli.plots.scene import Panel
 from garkcli.plots.svg import svg
-from garkcli.report.convergence import order_text, predicted, remarks
-from garkcli.tableau.garkmethod import word_for
+from garkcli.report.convergence import REPORT, ConvergenceReport
 from garkcli.webpage.pictures import NotDrawn, energy, errors
 
 T = TypeVar("T")
@@ -22,28 +21,8 @@ _WIDE = 'style="max-width:32rem"'
 
 
 def convergence_html(result: Convergence) -> str:
-    """Errors and slopes by step size, the orders, and the errors in a picture."""
-    heads = ["h", "error", "slope"]
-    has_energy = any(row.energy_error is not None for row in result.rows)
-    if has_energy:
-        heads.append("energy error")
-    rows = [_step(row) for row in result.rows]
-    observed = order_text(result.observed_order)
-    whose = word_for(result.method)
-    said = f"observed order {observed}, order of the {whose} {predicted(result)}: {result.verdict}"
-    name = getattr(result.problem, "name", "oscillator")
-    table = _table(f"{name}, to t = {result.t_end}", heads, rows)
-    texts = _texts([said, *remarks(result)])
-    return _shown([table, *texts], errors, result)
-
-
-def _step(row: Row) -> list[str]:
-    """The cells of a step size; the last one where there is an energy."""
-    slope = "" if row.slope is None else f"{row.slope:.3f}"
-    cells = [str(row.h), rounded(row.error), slope]
-    if row.energy_error is not None:
-        cells.append(rounded(row.energy_error))
-    return cells
+    """What ``gark converge`` tells, and the errors in a picture."""
+    return _shown([REPORT.html(ConvergenceReport(result, ""))], errors, result)
 
 
 def long_run_html(run: LongRun) -> str:
@@ -86,10 +65,6 @@ def _table(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> s
 def _row(cells: Sequence[str]) -> str:
     joined = "".join(cells)
     return f"<tr>{joined}</tr>"
-
-
-def _texts(texts: Iterable[str]) -> list[str]:
-    return [f"<p>{_text(text)}</p>" for text in texts]
 
 
 def _text(text: str) -> str:

@@ -19,8 +19,8 @@ from garkcli.plots.scene import Panel
 from garkcli.plots.svg import ON_ANY, svg
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
-from garkcli.report.convergence import order_text, predicted
-from garkcli.report.problem_json import name_of
+from garkcli.report.convergence import order_text
+from garkcli.report.problem import name_of
 from garkcli.stability.damping import imex_pair
 from garkcli.stability.fraction import stability_fraction
 from garkcli.stability.linear import stability_function
@@ -162,7 +162,8 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     name = name_of(result.problem)
     note = (
         f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
-        f"Observed order {observed}, proved order {predicted(result)}: {_VERDICTS[result.verdict]}."
+        f"Observed order {observed}, proved order {result.predicted_order}: "
+        f"{_VERDICTS[result.verdict]}."
     )
     if result.plateau:
         note += " The last errors are those of the rounded coefficients."

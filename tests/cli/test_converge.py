@@ -61,7 +61,8 @@ def test_a_faulty_file_stops_none() -> None:
     assert f"{INVALID}:" in run.err
     assert "nowhere.gark.yaml: error[no-such-file]: no such file" in run.err
     assert run.out.count("they agree") == 2
-    assert run.out.count("FAILED") == 2
+    assert run.out.count("FAILED ") == 2
+    assert run.out.startswith("4 methods: 2 agree, 2 FAILED\n")
 
 
 def test_a_failing_step_stops_none() -> None:
@@ -214,7 +215,7 @@ def test_nothing_seen_confirms_nothing(method: str) -> None:
     rest = ("--problem", "-")
     run = gark("converge", method, *rest, stdin=LOGISTIC % 1)
     assert run.code == 3
-    assert ": undecided" in run.out
+    assert ": undecided" in " ".join(run.out.split())
     assert "the solution does not move, so that no method makes an error" in " ".join(
         run.out.split()
     )
@@ -313,18 +314,19 @@ ark:
     assert (both.code, both.err.count(hint)) == (0, 1)
 
 
-def test_quiet_reports_have_no_plot() -> None:
-    """Of one method and of several, with ``--work`` too; everything else is the same."""
+def test_details_end_with_a_plot() -> None:
+    """Of one method and of several, over evaluations with ``--work``; a quiet report is the answer
+    alone.
+    """
     steps = ("--steps", "1/4,1/8", "--problem", "pendulum")
     for arguments in ((VERLET,), (VERLET, RECTANGULAR)):
-        full = gark("converge", *arguments, *steps).out
-        quiet = gark("converge", *arguments, *steps, "-q").out
-        assert full.startswith(quiet)
-        assert "┤" in full
-        assert "┤" not in quiet
-    worked = gark("converge", VERLET, *steps, "--work", "-q").out
-    assert "evaluations" in worked
-    assert "┤" not in worked
+        usual, all_of_it = (gark("converge", *arguments, *steps, *x).out for x in ((), ("-v",)))
+        assert "┤" not in usual
+        assert all_of_it.startswith(usual.splitlines()[0])
+        assert all_of_it.splitlines()[-1].endswith("  h")
+        assert gark("converge", *arguments, *steps, "-q").out == usual.splitlines()[0] + "\n"
+    worked = gark("converge", VERLET, *steps, "--work", "-v").out
+    assert worked.splitlines()[-1].endswith("evaluations")
 
 
 def test_an_invariant_without_a_value(tmp_path: Path) -> None:

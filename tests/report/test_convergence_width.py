@@ -12,14 +12,13 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Visible
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
-from garkcli.page.paint import Paint
 from garkcli.problems.builtin import hamiltonian
-from garkcli.report.comparison import render as render_several
-from garkcli.report.convergence import render
-from garkcli.report.convergence_data import Entry
+from garkcli.report.comparison import REPORT as SEVERAL
+from garkcli.report.comparison import Compared, Entry
+from garkcli.report.convergence import REPORT, ConvergenceReport
 from garkcli.tableau.forms import gark
 
-NAMES = ("rk4", "a long name " * 20, "wordwithoutspaces" * 12, "方法" * 60)
+NAMES = ("rk4", "a long name " * 20, "word-without-spaces" * 4, "方法" * 15)
 STEPS = [fmpq(2, 12345678), fmpq(1, 12345678)]
 
 
@@ -58,14 +57,16 @@ def width(text: str) -> int:
 @pytest.mark.parametrize("name", NAMES)
 def test_one_method(name: str, invariants: int, with_work: bool) -> None:
     """Every error of every invariant is there, and no line is wider than 80 columns."""
-    text = render(result_with(invariants), name, "text", Paint(), with_work)
-    assert width(text) <= 80
-    assert text.count("0.3333") == 2 * invariants
+    for verbosity in (0, 1):
+        test = ConvergenceReport(result_with(invariants), name, with_work)
+        text = REPORT.render([test], verbosity=verbosity)
+        assert width(text) <= 80
+        assert text.count("0.3333") == 2 * invariants
 
 
 def test_long_names_of_invariants() -> None:
     """They are cut, not the table."""
-    assert width(render(result_with(2, "x" * 200), "rk4", "text", Paint())) <= 80
+    assert width(REPORT.render([ConvergenceReport(result_with(2, "x" * 200), "rk4")])) <= 80
 
 
 @pytest.mark.parametrize("with_work", [False, True])
@@ -80,19 +81,20 @@ def test_several_methods(count: int, with_work: bool) -> None:
             made.append(Entry(file, name, None, (Fault("no such thing " * 20),), 2))
         else:
             made.append(Entry(file, name, result_with(1), (), 0))
-    text = render_several(made, "text", Paint(), with_work, "evaluations" if with_work else "h")
-    assert width(text) <= 80
+    compared = Compared(made, with_work, "evaluations" if with_work else "h")
+    assert width(SEVERAL.render([compared], verbosity=1)) <= 80
 
 
 def test_plots_fit_narrow_terminals() -> None:
     """60 columns, with costs too."""
     result = converge(gark([diagonal_method("rk4")], {}), hamiltonian("pendulum", 1), is_timed=True)
     for with_work in (False, True):
-        lines = render(result, "rk4", "text", Paint(), with_work).splitlines()
+        test = ConvergenceReport(result, "rk4", with_work, "evaluations" if with_work else "h")
+        lines = REPORT.render([test], verbosity=1).splitlines()
         start = next(k for k, line in enumerate(lines) if line.strip() == "error")
         assert max(map(len, lines[start:])) <= 60
     entries = [Entry("a", "a", result, (), 0), Entry("b", "b", result, (), 0)]
     for against in ("h", "evaluations", "seconds"):
-        lines = render_several(entries, "text", Paint(), True, against).splitlines()
+        lines = SEVERAL.render([Compared(entries, True, against)], verbosity=1).splitlines()
         start = next(k for k, line in enumerate(lines) if line.strip() == "error")
         assert max(map(len, lines[start:])) <= 60

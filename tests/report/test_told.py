@@ -22,7 +22,7 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Row, Section, part, table
+from garkcli.tell.facts import Row, Section, part, rows_of, table
 from garkcli.tell.kinds import COUNT, EXPRESSION, TEXT
 from garkcli.tell.report import Report
 from tests.cli.harness import ROOT, gark
@@ -257,6 +257,7 @@ def test_a_table_shows_its_first_rows() -> None:
         Row("which", TEXT, lambda x: f"w{x}", label=""),
         Row("count", COUNT, lambda x: x),
         Row("void", COUNT, lambda _: None, has_null=True),
+        Row("squares", rows_of(lambda x, _: [("square", str(x * x))]), lambda x: x * 7),
     )
     whole = Section(
         Row("answer", COUNT, lambda _: 42), Row("list", table(flat, 2), lambda x: range(x))
@@ -264,16 +265,16 @@ def test_a_table_shows_its_first_rows() -> None:
     report: Report[int] = Report.only("gark/list/1", "lists", whole)
     usual, all_of_it = report.render([5]), report.render([5], verbosity=1)
     assert usual.splitlines()[-4:] == [
-        "  list  count",
-        "  w0    0",
-        "  w1    1",
+        "  list  count  square",
+        "  w0        0       0",
+        "  w1        1      49",
         "    … 3 more with -v",
     ]
     assert "w4" in all_of_it
     assert "more" not in all_of_it
     assert "… 3 more" in report.render([5], "markdown")
     assert "… 3 more</p>" in report.html(5)
-    assert r"w4 & 4 \\" in report.render([5], "latex")
+    assert r"w4 & 4 & 784 \\" in report.render([5], "latex")
     assert len(report.data(5)["list"]) == 5
     assert "void" not in all_of_it
 
@@ -332,3 +333,20 @@ def test_a_design_says_how_its_values_are_known(format: str, tmp_path: Path) -> 
     is_open = told("--order", "6", "--seconds", "0.01")
     assert re.search(r"sdirk.yaml: .*order \d is not decided", is_open)
     assert "not decided in the time of --seconds; fewer unknowns make it decidable" in is_open
+
+
+@pytest.mark.parametrize("format", ["markdown", "latex"])
+@pytest.mark.parametrize("problem", ["kepler", "generic"])
+def test_a_convergence_test_says_in_every_format_what_its_problem_may_hide(
+    problem: str, format: str
+) -> None:
+    """The visible order is one at least where the problem may hide trees, also beside others."""
+    run = ("converge", "gauss-2", "--problem", problem, "--format", format)
+    text = gark(*run).out
+    seen = "at least 4" if problem == "kepler" else "4"
+    assert f" observed, {seen} visible: they agree" in text
+    several = gark(*run[:2], "rk4", *run[2:]).out
+    assert ("at least 4" in several) == (problem == "kepler")
+    if format == "latex":
+        tables = [line for line in text.splitlines() if line.count("&") < 2]
+        assert list(latex_faults("\n".join(tables))) == []

@@ -1,20 +1,31 @@
-"""A problem and its split in one line."""
+"""Which problem was stepped: in one line, and its rows."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any, TypeAlias
 
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tell.facts import Kind, Level, Row, told
+from garkcli.tell.kinds import EXACT, TEXT
+
+Stepped: TypeAlias = Oscillator | Problem
 
 _LONGEST = 80
 """Characters of the terms that are still shown; longer ones are counted."""
 
 
-def describe(problem: Oscillator | Problem) -> str:
+def name_of(problem: Stepped) -> str:
+    """What --problem calls it."""
+    return "oscillator" if isinstance(problem, Oscillator) else problem.name
+
+
+def describe(problem: Stepped) -> str:
     """A problem and its split in one line."""
     if isinstance(problem, Hamiltonian):
         return _described(problem)
@@ -22,17 +33,6 @@ def describe(problem: Oscillator | Problem) -> str:
         return _described_fields(problem)
     energies = [_energy(k, v) for k, v in problem.shares]
     return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
-
-
-def driving(problem: Oscillator | Problem, method: GarkMethod | None) -> list[str]:
-    """What the colours of a method do with the terms of a Hamiltonian, where its file does not say
-    it by a partition: no line, or one.
-    """
-    if method is None or isinstance(problem, RightHandSide):
-        return []
-    if method.tableau.is_partitioned or method.tableau.size == 1:
-        return []
-    return ["colour l steps the whole vector field of H{l}"]
 
 
 def _numbered(energies: Sequence[str]) -> str:
@@ -90,3 +90,45 @@ def _formula(expression: object) -> str:
 
 def _is_short(texts: Sequence[str]) -> bool:
     return sum(map(len, texts)) <= _LONGEST
+
+
+WORDS = told(lambda x, d: d.prose(x))
+"""A sentence of ours."""
+_LISTS = Kind(S.array(S.array(S.TEXT)), lambda xs, _: [[str(x) for x in term] for term in xs])
+_FORMULAS = Kind(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs])
+_TERMS: dict[type[Stepped], tuple[Row, ...]] = {
+    Oscillator: (
+        Row("omega", EXACT, level=Level.DATA),
+        Row("split", _LISTS, lambda x: x.shares, Level.DATA),
+    ),
+    Hamiltonian: (Row("hamiltonian", _FORMULAS, lambda x: x.terms, Level.DATA),),
+    RightHandSide: (
+        Row("right_hand_sides", _LISTS, lambda x: x.terms, Level.DATA),
+        Row("stiffness", EXACT, level=Level.DATA, has_null=True),
+    ),
+}
+STEPPED: dict[type[Stepped], list[Row]] = {
+    kind: [
+        Row("problem", TEXT, lambda x: name_of(x.problem), Level.DATA),
+        Row("problem_in_words", WORDS, lambda x: f"{describe(x.problem)}; to t = {x.t_end}",
+            label="problem"),
+        Row("colours_in_words", WORDS, lambda x: driving(x), label="colours"),
+        *(row.of(lambda x: x.problem) for row in rows),
+    ]
+    for kind, rows in _TERMS.items()
+}  # fmt: skip
+"""What is told of the problem of a run, by its kind: in words, and for programs ω and the shares
+(k_l, v_l) of each term, the terms H^{l}, or the components of each term f^{l}.
+"""
+
+
+def driving(run: Any) -> str:
+    """What the colours of a method do with the terms of a Hamiltonian, where its file does not say
+    it by a partition; empty where there is nothing to say.
+    """
+    method: GarkMethod | None = run.method
+    if method is None or isinstance(run.problem, RightHandSide):
+        return ""
+    if method.tableau.is_partitioned or method.tableau.size == 1:
+        return ""
+    return "colour l steps the whole vector field of H{l}"

@@ -1,0 +1,38 @@
+"""Why a file cannot be used, or a run has failed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from garkcli.errors import Fault
+from garkcli.tell.facts import Row, Section, parts
+from garkcli.tell.kinds import POSITION, TEXT
+
+
+def code(fault: Any) -> str:
+    """The code of an error."""
+    from garkcli.glossary.faults import code_of
+
+    return code_of(fault.message)
+
+
+FAULT = Section(
+    Row("line", POSITION, lambda f: f.line or None, has_null=True),
+    Row("column", POSITION, lambda f: f.column or None, has_null=True),
+    Row("code", TEXT, code),
+    Row("message", TEXT),
+    Row("help", TEXT),
+)
+"""A fault and its cure; the place is null where the whole file is meant."""
+
+
+class Failure(NamedTuple):
+    """A run that has no result: of which method, and why."""
+
+    name: str
+    faults: Sequence[Fault]
+
+
+FAILURE = Section(Row("name", TEXT), Row("errors", parts(FAULT), lambda x: x.faults))
+"""The report of such a run, for programs; people are told elsewhere."""
