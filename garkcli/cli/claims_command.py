@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output, declared, files_meant
 from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     from garkcli.check.true_claims import TrueClaims
 
 
-@declared("claims", ["text", "json"])
+@declared("claims", FORMATS)
 def command(
     files: tuple[str, ...], is_written: bool, wants_all: bool, keys: tuple[str, ...], output: Output
 ) -> int:
@@ -27,7 +28,7 @@ def command(
     is no longer what it was.
     """
     from garkcli.check.check_file import check_file
-    from garkcli.report import claims as report
+    from garkcli.report.claims import REPORT, Claims, yaml_text
 
     _refuse_unknown(keys)
     if is_written and "-" in files:
@@ -39,9 +40,11 @@ def command(
     if is_written:
         for claims in told:
             _write(claims)
-    as_json = output.format == "json"
-    render = report.render_json if as_json else report.render_text
-    output.write(render(told, is_written))
+    found = [Claims(x, is_written) for x in told]
+    if output.format == "text":
+        output.write(yaml_text(found, output.width))
+    else:
+        output.tell(REPORT, found)
     return 0
 
 

@@ -1,63 +1,63 @@
-"""``gark claims``: what may be claimed of methods, for people and for programs."""
+"""``gark claims``: what may be claimed of methods. As text it is what a method file has."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.check.true_claims import TrueClaims
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import FLAG, TEXT, Schema, array, published
+from garkcli.tell.facts import Level, Row, Section, parts, rows_of
+from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
+from garkcli.tell.report import Report
 
-SCHEMA = "gark/claims/1"
-_WIDTH = 80
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+DATA = Level.DATA
 
 
-class _Told(NamedTuple):
-    """A report."""
+class Claims(NamedTuple):
+    """What is told of a file."""
 
-    files: Sequence[TrueClaims]
+    found: TrueClaims
     is_written: bool
 
 
-_CLAIM: Record[tuple[str, str]] = Record(
-    Field("claim", TEXT, lambda x: x[0]), Field("value", TEXT, lambda x: x[1])
+def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
+    return [(d.prose(key), d.prose(value)) for key, value in found.claims.items()]
+
+
+CLAIM = Section(Row("claim", TEXT, lambda x: x[0]), Row("value", TEXT, lambda x: x[1]))
+FILE = Section(
+    *(
+        row.of(lambda x: x.found)
+        for row in (
+            Row("file", TEXT, level=DATA),
+            Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
+            Row("claims_in_words", rows_of(_claim_rows), lambda x: x),
+            Row("not_claimed", TEXTS, lambda x: list(x.left)),
+        )
+    ),
+    title=lambda x, d: d.prose(x.found.file),
 )
-_FILE: Record[TrueClaims] = Record(
-    Field("file", TEXT, lambda x: x.file),
-    _CLAIM.every("claims", lambda x: list(x.claims.items())),
-    Field("not_claimed", array(TEXT), lambda x: list(x.left)),
-)
-_REPORT: Record[_Told] = Record(
-    schema_named(SCHEMA),
-    Field("written", FLAG, lambda x: x.is_written),
-    _FILE.every("files", lambda x: x.files),
+REPORT: Report[Claims] = Report(
+    "gark/claims/1",
+    "report of gark claims",
+    lambda: [FILE],
+    lambda _: FILE,
+    tail=Section(Row("written", TRUTH, lambda xs: xs[0].is_written)),
 )
 
 
-def claims_report_schema() -> Schema:
-    """The JSON Schema of ``gark claims --format json``."""
-    return published("report of gark claims", _REPORT.schema)
-
-
-def render_json(files: Sequence[TrueClaims], is_written: bool) -> str:
-    """The claims as JSON: values as they are written in YAML."""
-    return _REPORT.text(_Told(files, is_written))
-
-
-def render_text(files: Sequence[TrueClaims], is_written: bool) -> str:
+def yaml_text(claims: Sequence[Claims], width: int) -> str:
     """The claims as they stand in a method file; each file's below its name in a comment."""
     lines: list[str] = []
-    for found in files:
-        head = f"# {printable(found.file)}"
-        if is_written:
-            head += ": written"
-        lines += [head, "expect:"]
+    for found, is_written in claims:
+        lines += [f"# {printable(found.file)}{': written' * is_written}", "expect:"]
         lines += [f"  {key}: {x}" for key, x in found.claims.items()]
         if found.left:
-            left = "not claimed, without a meaning or not decided: "
-            left += ", ".join(found.left)
-            lines += [f"# {x}" for x in folded(left, _WIDTH - 2, "")]
+            left = f"not claimed, without a meaning or not decided: {', '.join(found.left)}"
+            lines += [f"# {x}" for x in folded(left, width - 2, "")]
     return "\n".join(lines) + "\n"

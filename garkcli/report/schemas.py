@@ -15,7 +15,7 @@ from garkcli.tell.report import Report
 _TABLEAU = "garkcli.report.tableau_json:tableau_report_schema"
 REPORTS = {
     "check": "garkcli.report.checked:REPORT",
-    "claims": "garkcli.report.claims:claims_report_schema",
+    "claims": "garkcli.report.claims:REPORT",
     "explain": "garkcli.report.meaning:explain_report_schema",
     "trees": "garkcli.report.symplectic:trees_report_schema",
     "conditions": "garkcli.report.conditions_json:conditions_report_schema",

@@ -58,7 +58,7 @@ RUNS = [
     (("cite", COLLOCATION), ("bibtex", "text", "json")),
     (("report", VERLET, "--no-pictures"), ("html",)),
     (("list", "methods", "rk4"), ("text", "json", "csv", "markdown")),
-    (("claims", VERLET), ("text", "json")),
+    (("claims", VERLET), ("text", "json", "markdown", "latex")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown", "latex")),
     (("convert", COLLOCATION), ("yaml", "text", "json", "latex")),
     (("new", "--family", "gauss:2", "--family", "gauss:1"), ("yaml",)),
