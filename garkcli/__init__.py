@@ -59,8 +59,8 @@ NAMES = {
         "report.calls": "cite names",
         "webpage.calls": "report_page",
         "api.calls": "with_claims",
-        "methodfile.schema": "method_file_schema",
-        "methodfile.problem_schema": "problem_file_schema",
+        "methodfile.file_keys": "method_file_schema",
+        "methodfile.problem_keys": "problem_file_schema",
         "sweep.load": "sweep_schema",
         "report.schemas": "report_schema",
         "check.meanings": "explain",
@@ -85,8 +85,12 @@ ANSWERS = {
     "api.methods": "GarkMethod.order=find_order GarkMethod.symplectic=is_symplectic "
     "GarkMethod.conjugate=conjugate GarkMethod.pair=pair",
     "backward.formulas": "Algebraic.sympy=in_sympy",
+    "cli.project": "Files.project=told",
     "exact.display": "Algebraic.float=nearest_float",
     "exact.polynomial_text": "RealRoot.text=root_in_short",
+    "methodfile.file_keys": "Files.method=told",
+    "methodfile.problem_keys": "Files.problem=told",
+    "sweep.load": "Files.sweep=told",
     "trees.notation": "Tree.text=format_tree",
     "trees.svg": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "

@@ -64,8 +64,8 @@ from garkcli.errors import TreeError as TreeError
 from garkcli.errors import UsageProblem as UsageProblem
 from garkcli.errors import ZeroWeight as ZeroWeight
 from garkcli.methodfile.build import MethodFile as MethodFile
-from garkcli.methodfile.problem_schema import problem_file_schema as problem_file_schema
-from garkcli.methodfile.schema import method_file_schema as method_file_schema
+from garkcli.methodfile.file_keys import method_file_schema as method_file_schema
+from garkcli.methodfile.problem_keys import problem_file_schema as problem_file_schema
 from garkcli.plots.calls import plot as plot
 from garkcli.problems.oscillator import Oscillator as Oscillator
 from garkcli.report.calls import certificate as certificate

@@ -115,11 +115,7 @@ def claim_meaning(key: str) -> Meaning:
 
 def _keys(kind: str) -> Sense:
     """The keys of a kind of files: each is found by its path and by its own name."""
-    keys = dict(keys_of(kind))
-    if kind == "method":
-        from garkcli.methodfile.described import wanted_keys
-
-        keys |= wanted_keys()
+    keys = keys_of(kind)
     names: dict[str, tuple[str, ...]] = {}
     for path, key in keys.items():
         own = path.rpartition(".")[2]

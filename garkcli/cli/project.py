@@ -9,6 +9,7 @@ from typing import Any
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.files import is_inside
+from garkcli.glossary.key import Files, Key
 from garkcli.page.plain import printable
 
 OWN = ".gark.toml"
@@ -105,13 +106,12 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
     """
     shown = printable(file)
     for key, value in table.items():
-        if key not in _READERS:
-            cure = did_you_mean(key, list(_READERS))
+        if key not in KEYS:
+            cure = did_you_mean(key, list(KEYS))
             raise UsageProblem(f"{shown}: no key {key!r}", cure)
-        wanted, example, is_right = _READERS[key]
-        if not is_right(value):
-            cure = f"write {key} = {example}"
-            raise UsageProblem(f"{shown}: {key} is not {wanted}", cure)
+        if not KEYS[key].is_right(value):
+            cure = f"write {key} = {KEYS[key].example}"
+            raise UsageProblem(f"{shown}: {key} is not {KEYS[key].wanted}", cure)
     from garkcli.methodfile.finding import fixed_part
 
     required = table.get("require-claims", False)
@@ -165,11 +165,64 @@ def _count(least: int, most: int) -> Callable[[object], bool]:
     return is_right
 
 
-_READERS: dict[str, tuple[str, str, Callable[[object], bool]]] = {
-    "paths": ("a list of files, folders or patterns", '["methods"]', _is_texts),
-    "require-claims": ("true, false, or a list of claims", 'true or ["order"]', _is_claims),
-    "format": ("a format of gark check", '"github"', _is_format),
-    "max-order": ("a number from 1 to 400", "12", _count(1, 400)),
-    "jobs": ("a number from 0 to 256", "2", _count(0, 256)),
+@dataclass(frozen=True)
+class _Key:
+    """A key of the file of a project.
+
+    Attributes:
+        example: of its value.
+        text: what it is, in whole sentences.
+        wanted: what its value is, as messages say it.
+        is_right: whether a value is one.
+        default: what holds where it is left out; None where nothing does.
+    """
+
+    example: str
+    text: str
+    wanted: str
+    is_right: Callable[[object], bool]
+    default: object = None
+
+
+KEYS = {
+    "paths": _Key(
+        '["methods"]',
+        "The files, folders or patterns that gark check reads where none are named.",
+        "a list of files, folders or patterns",
+        _is_texts,
+    ),
+    "require-claims": _Key(
+        '["order"]',
+        "Whether a file without a claim fails; or a list of claims that every file has to make.",
+        "true, false, or a list of claims",
+        _is_claims,
+        False,
+    ),
+    "format": _Key(
+        '"github"',
+        "The format of gark check where none is asked for.",
+        "a format of gark check",
+        _is_format,
+    ),
+    "max-order": _Key(
+        "12",
+        "The order at which gark check stops looking where --max-order does not say.",
+        "a number from 1 to 400",
+        _count(1, 400),
+        60,
+    ),
+    "jobs": _Key(
+        "2",
+        "How many processes gark check takes where --jobs does not say; 0 for one a processor.",
+        "a number from 0 to 256",
+        _count(0, 256),
+        1,
+    ),
 }
-"""The keys with what their values are, an example, and whether a value is one."""
+"""The keys of the file of a project by name."""
+
+
+def told(files: Files) -> Iterator[Key]:
+    """What is told of the keys."""
+    for name, key in KEYS.items():
+        yield Key(name, key.text, f"{name} = {key.example}", key.default, files.page)

@@ -33,10 +33,10 @@ def _schema(of_problems: bool, report: str | None) -> dict[str, Any]:
 
         return report_schema(report)
     if of_problems:
-        from garkcli.methodfile.problem_schema import problem_file_schema
+        from garkcli.methodfile.problem_keys import problem_file_schema
 
         return problem_file_schema()
-    from garkcli.methodfile.schema import method_file_schema
+    from garkcli.methodfile.file_keys import method_file_schema
 
     return method_file_schema()
 

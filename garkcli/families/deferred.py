@@ -19,7 +19,7 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector, dot
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.families import gauss, lobatto, radau
-from garkcli.families.family import Option, Options, Recipe
+from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
@@ -32,11 +32,29 @@ _COLLOCATION: Mapping[str, Callable[[int], Method]] = {
     "gauss": gauss.gauss,
     "radau-ia": radau.radau_ia,
 }
-NODES = Option("nodes", (*_COLLOCATION, "equidistant"), default="radau-iia")
-SWEEPS = Option("sweeps", smallest=1)
+POINTS = Option(
+    "points", "How many nodes spectral deferred corrections have.", smallest=1, shown="3"
+)
+NODES = Option(
+    "nodes",
+    "Which nodes spectral deferred corrections are made on.",
+    (*_COLLOCATION, "equidistant"),
+    default="radau-iia",
+)
+SWEEPS = Option(
+    "sweeps",
+    "How many sweeps spectral deferred corrections make; each gains an order.",
+    smallest=1,
+    shown="4",
+)
 MAX_SLOPES = 400
 """So many slopes are made to count the stages; with more of them there are too many."""
-SWEEP = Option("sweep", ("explicit", "implicit"), default="explicit")
+SWEEP = Option(
+    "sweep",
+    "Whether sweeps of deferred corrections are explicit or implicit Euler's.",
+    ("explicit", "implicit"),
+    default="explicit",
+)
 _Slopes: TypeAlias = list[int]
 """For each node the stage that is its slope."""
 
@@ -157,3 +175,17 @@ def _integrals(nodes: Sequence[Number]) -> tuple[Vector, ...]:
             powers.append(powers[-1] * end)
         rows.append(tuple(dot(f, powers) for f in polynomials))
     return tuple(rows)
+
+
+FAMILIES = (
+    Family(
+        "sdc",
+        corrections,
+        1,
+        40,
+        "sweeps",
+        "spectral deferred corrections",
+        POINTS,
+        (NODES, SWEEPS, SWEEP),
+    ),
+)

@@ -12,6 +12,7 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.families.family import Family, by_stages, of_stages
 from garkcli.tableau.method import Method, butcher
 
 _ROWS: dict[str, tuple[str, str]] = {
@@ -58,3 +59,18 @@ def _lower(rows: Sequence[Vector]) -> Matrix:
         padding = (ZERO,) * (s - len(row))
         matrix.append(row + padding)
     return tuple(matrix)
+
+
+def _single(name: str, order: str, summary: str) -> Family:
+    stages = STAGES[name]
+    return Family(name, by_stages(lambda _: named(name)), stages, stages, order, summary)
+
+
+FAMILIES = (
+    _single("explicit-euler", "1", "one explicit stage"),
+    _single("explicit-midpoint", "2", "Runge's method"),
+    _single("heun", "2", "the explicit trapezoidal rule"),
+    _single("kutta", "3", "Kutta's method of order 3"),
+    _single("rk4", "4", "the classical Runge-Kutta method"),
+    of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving"),
+)

@@ -15,13 +15,20 @@ from flint import fmpq
 
 from garkcli.errors import UnknownFamily
 from garkcli.exact.matrix import solve
-from garkcli.families.family import Option, Options, Recipe
+from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.method import Method
 
 SEQUENCES = ("harmonic", "romberg", "bulirsch")
 """How many parts the basic steps have: 1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""
-SEQUENCE = Option("sequence", SEQUENCES, default="harmonic")
+SEQUENCE = Option(
+    "sequence",
+    "The numbers of parts of the step that an extrapolated family combines.",
+    SEQUENCES,
+    default="harmonic",
+    shown="romberg",
+)
+ORDER = Option("order", "The order that the family is extrapolated to.", smallest=1, shown="4")
 Steps: TypeAlias = Callable[[StageList, int], Weights]
 """The result of the basic method after so many parts of the step."""
 
@@ -134,3 +141,16 @@ def midpoint(order: int, options: Options) -> Recipe:
     parts = [2 * n for n in half]
     name = f"extrapolated midpoint {order}"
     return _explicit(name, _midpoint, parts, range(2, order, 2))
+
+
+def _family(
+    name: str, recipe: Callable[[int, Options], Recipe], smallest: int, summary: str
+) -> Family:
+    return Family(name, recipe, smallest, 60, "order", summary, ORDER, (SEQUENCE,))
+
+
+FAMILIES = (
+    _family("extrapolated-euler", euler, 1, "explicit Euler, extrapolated"),
+    _family("extrapolated-implicit-euler", implicit_euler, 1, "implicit Euler, extrapolated; dirk"),
+    _family("extrapolated-midpoint", midpoint, 2, "Gragg's rule, of even orders"),
+)

@@ -17,26 +17,35 @@ Options: TypeAlias = Mapping[str, Given]
 
 @dataclass(frozen=True)
 class Option:
-    """What a member is chosen by besides its size.
+    """What a member is chosen by: its size, or more.
 
     Attributes:
         name: its key in method files.
+        text: what it is, in a sentence.
         words: the words it may be; none for a number.
         smallest: of a whole number the least it may be; None for a coefficient.
         default: the word that is meant where it is left out; empty where it has to be given.
+        shown: what stands behind its key in an example; empty for the first that may.
     """
 
     name: str
+    text: str
     words: tuple[str, ...] = ()
     smallest: int | None = None
     default: str = ""
+    shown: str = ""
 
     @property
     def example(self) -> str:
         """What may stand behind its key."""
+        if self.shown:
+            return self.shown
         if self.words:
             return self.words[0]
         return "1/3" if self.smallest is None else str(self.smallest + 1)
+
+
+STAGES = Option("stages", "How many stages the member of the family has.", smallest=1)
 
 
 @dataclass(frozen=True)
@@ -66,7 +75,7 @@ class Family:
         largest: the greatest one; equal to ``smallest`` for a single method.
         order: its order in terms of the size, or s for stages, for people.
         summary: one line.
-        size: the key in method files of what it is counted by.
+        counted: what its size is.
         options: what else a member is chosen by.
     """
 
@@ -76,8 +85,13 @@ class Family:
     largest: int
     order: str
     summary: str
-    size: str = "stages"
+    counted: Option = STAGES
     options: tuple[Option, ...] = ()
+
+    @property
+    def size(self) -> str:
+        """The key in method files of what it is counted by."""
+        return self.counted.name
 
     @property
     def is_single(self) -> bool:
@@ -87,7 +101,16 @@ class Family:
     @property
     def keys(self) -> tuple[str, ...]:
         """The keys that choose a member, besides ``family``."""
-        return (self.size, *(option.name for option in self.options))
+        return tuple(option.name for option in self.chosen)
+
+    @property
+    def chosen(self) -> tuple[Option, ...]:
+        """What a member is chosen by."""
+        return (self.counted, *self.options)
+
+
+MAX_STAGES = 200
+"""Most stages of a member."""
 
 
 def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:
@@ -97,3 +120,10 @@ def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:
         return Recipe(stages, lambda _: make(stages))
 
     return recipe
+
+
+def of_stages(
+    name: str, make: Callable[[int], Method], smallest: int, order: str, summary: str
+) -> Family:
+    """A family whose members have any number of stages and no options."""
+    return Family(name, by_stages(make), smallest, MAX_STAGES, order, summary)

@@ -1,5 +1,6 @@
 """Gauss methods: order 2s."""
 
+from garkcli.families.family import of_stages
 from garkcli.families.polynomials import collocation_method, legendre
 from garkcli.tableau.method import Method
 
@@ -9,3 +10,6 @@ def gauss(s: int) -> Method:
     II.1.3.
     """
     return collocation_method(f"Gauss {s}", legendre(s))
+
+
+FAMILIES = (of_stages("gauss", gauss, 1, "2s", "collocation at the Gauss nodes; symplectic"),)

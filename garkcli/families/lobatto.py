@@ -11,7 +11,7 @@ from typing import cast
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import Vector, add, scale
 from garkcli.exact.nodes import Expression
-from garkcli.families.family import Option, Options, Recipe
+from garkcli.families.family import MAX_STAGES, Family, Option, Options, Recipe, of_stages
 from garkcli.families.polynomials import (
     X,
     average,
@@ -54,7 +54,9 @@ def lobatto_iiie(s: int) -> Method:
     return average(f"Lobatto IIIE {s}", lobatto_iiia(s), lobatto_iiib(s))
 
 
-SIGMA = Option("sigma")
+SIGMA = Option(
+    "sigma", "The number σ that chooses a Lobatto IIIS method: 1/2 is IIIE, 1 is IIID.", shown="1/2"
+)
 
 
 def lobatto_iiis(s: int, options: Options) -> Recipe:
@@ -72,3 +74,23 @@ def lobatto_iiis(s: int, options: Options) -> Recipe:
         return Method(f"Lobatto IIIS {s}", one.space, A, one.b)
 
     return Recipe(s, make, (cast("Expression", options["sigma"]),))
+
+
+_ORDER = "2s - 2"
+FAMILIES = (
+    of_stages("lobatto-iiia", lobatto_iiia, 2, _ORDER, "collocation, nodes 0 and 1"),
+    of_stages("lobatto-iiib", lobatto_iiib, 2, _ORDER, "symplectic conjugate of IIIA"),
+    of_stages("lobatto-iiic", lobatto_iiic, 2, _ORDER, "a_i1 = b_1, stiffly accurate"),
+    of_stages("lobatto-iiic*", lobatto_iiic_star, 2, _ORDER, "conjugate of IIIC"),
+    of_stages("lobatto-iiid", lobatto_iiid, 2, _ORDER, "mean of IIIC and IIIC*; symplectic"),
+    of_stages("lobatto-iiie", lobatto_iiie, 2, _ORDER, "mean of IIIA and IIIB; symplectic"),
+    Family(
+        "lobatto-iiis",
+        lobatto_iiis,
+        2,
+        MAX_STAGES,
+        _ORDER,
+        "IIIE for sigma: 1/2, IIID for 1",
+        options=(SIGMA,),
+    ),
+)

@@ -1,121 +1,33 @@
-"""The one list of families: name, members, maker, a line for people."""
+"""The families of every file here, and their members."""
 
 from __future__ import annotations
 
+import pkgutil
 from collections.abc import Iterator, Mapping
-from functools import partial
+from importlib import import_module
 
+from garkcli import families
 from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
-from garkcli.families import deferred, explicit, extrapolated, gauss, lobatto, radau, sdirk2, ssp3
-from garkcli.families.family import Family, Given, Option, Options, Recipe, by_stages
+from garkcli.families.family import MAX_STAGES, Family, Given, Option, Options, Recipe
 from garkcli.tableau.method import Method
 
-MAX_STAGES = 200
-"""Most stages of a family."""
 NO_OPTIONS: Options = {}
-
-
-def _named(name: str, order: str, summary: str) -> Family:
-    stages = explicit.STAGES[name]
-    recipe = by_stages(lambda _: explicit.named(name))
-    return Family(name, recipe, stages, stages, order, summary)
-
-
-_any = partial(Family, largest=MAX_STAGES)
-_high = partial(Family, size="order", largest=60, options=(extrapolated.SEQUENCE,))
+_FIRST = ("gauss", "radau", "lobatto", "explicit", "ssp3", "sdirk2", "extrapolated", "deferred")
+"""The files whose families are told first, in the order of the documentation."""
 
 
 def _families() -> Iterator[Family]:
-    """Every family, in the order of the documentation."""
-    order = "2s"
-    yield _any(
-        "gauss",
-        by_stages(gauss.gauss),
-        1,
-        order=order,
-        summary="collocation at the Gauss nodes; symplectic",
-    )
-    order = "2s - 1"
-    for name, make, least, summary in (
-        ("radau-ia", radau.radau_ia, 1, "first node 0, D(s)"),
-        ("radau-iia", radau.radau_iia, 1, "collocation, last node 1"),
-        ("radau-ib", radau.radau_ib, 2, "of IA; symplectic"),
-        ("radau-iib", radau.radau_iib, 2, "of IIA; symplectic"),
-    ):
-        yield _any(name, by_stages(make), least, order=order, summary=summary)
-    order = "2s - 2"
-    for name, make, summary in (
-        ("lobatto-iiia", lobatto.lobatto_iiia, "collocation, nodes 0 and 1"),
-        ("lobatto-iiib", lobatto.lobatto_iiib, "symplectic conjugate of IIIA"),
-        ("lobatto-iiic", lobatto.lobatto_iiic, "a_i1 = b_1, stiffly accurate"),
-        ("lobatto-iiic*", lobatto.lobatto_iiic_star, "conjugate of IIIC"),
-        ("lobatto-iiid", lobatto.lobatto_iiid, "mean of IIIC and IIIC*; symplectic"),
-        ("lobatto-iiie", lobatto.lobatto_iiie, "mean of IIIA and IIIB; symplectic"),
-    ):
-        yield _any(name, by_stages(make), 2, order=order, summary=summary)
-    yield _any(
-        "lobatto-iiis",
-        lobatto.lobatto_iiis,
-        2,
-        order=order,
-        summary="IIIE for sigma: 1/2, IIID for 1",
-        options=(lobatto.SIGMA,),
-    )
-    yield _named("explicit-euler", "1", "one explicit stage")
-    yield _named("explicit-midpoint", "2", "Runge's method")
-    yield _named("heun", "2", "the explicit trapezoidal rule")
-    yield _named("kutta", "3", "Kutta's method of order 3")
-    yield _named("rk4", "4", "the classical Runge-Kutta method")
-    yield from _with_options()
+    """Those of every file here that has some."""
+    files = [file.name for file in pkgutil.iter_modules(families.__path__)]
+    for name in sorted(files, key=_place):
+        if name != "registry":
+            yield from getattr(import_module(f"garkcli.families.{name}"), "FAMILIES", ())
 
 
-def _with_options() -> Iterator[Family]:
-    """Those that are chosen by more than their stages, and those beside them."""
-    summary = "explicit, strong-stability-preserving"
-    yield _any("ssp2", by_stages(explicit.ssp2), 2, order="2", summary=summary)
-    yield _any("ssp3", ssp3.ssp3, 4, order="3", summary="s = n^2; strong-stability-preserving")
-    yield Family(
-        "sdirk2",
-        sdirk2.sdirk2,
-        2,
-        2,
-        "2",
-        "order 3 for gamma: (3 + sqrt(3))/6",
-        options=(sdirk2.GAMMA,),
-    )
-    yield _high(
-        "extrapolated-euler",
-        extrapolated.euler,
-        1,
-        order="order",
-        summary="explicit Euler, extrapolated",
-    )
-    yield _high(
-        "extrapolated-implicit-euler",
-        extrapolated.implicit_euler,
-        1,
-        order="order",
-        summary="implicit Euler, extrapolated; dirk",
-    )
-    yield _high(
-        "extrapolated-midpoint",
-        extrapolated.midpoint,
-        2,
-        order="order",
-        summary="Gragg's rule, of even orders",
-    )
-    yield Family(
-        "sdc",
-        deferred.corrections,
-        1,
-        40,
-        "sweeps",
-        "spectral deferred corrections",
-        size="points",
-        options=(deferred.NODES, deferred.SWEEPS, deferred.SWEEP),
-    )
+def _place(name: str) -> tuple[int, str]:
+    return (_FIRST.index(name) if name in _FIRST else len(_FIRST)), name
 
 
 FAMILIES: Mapping[str, Family] = {family.name: family for family in _families()}

@@ -13,10 +13,12 @@ from flint import fmpq
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
-from garkcli.families.family import Option, Options, Recipe
+from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.tableau.method import Method, butcher
 
-GAMMA = Option("gamma")
+GAMMA = Option(
+    "gamma", "The diagonal entry γ that chooses a method of the family.", shown="(3 + sqrt(3))/6"
+)
 
 
 def sdirk2(_: int, options: Options) -> Recipe:
@@ -29,3 +31,8 @@ def _method(values: Vector) -> Method:
     A = (gamma, ZERO), (ONE - 2 * gamma, gamma)
     half = fmpq(1, 2)
     return butcher(A, (half, half), name="SDIRK(gamma)")
+
+
+FAMILIES = (
+    Family("sdirk2", sdirk2, 2, 2, "2", "order 3 for gamma: (3 + sqrt(3))/6", options=(GAMMA,)),
+)

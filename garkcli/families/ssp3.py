@@ -11,7 +11,7 @@ from math import isqrt
 from flint import fmpq
 
 from garkcli.errors import UnknownFamily
-from garkcli.families.family import Options, Recipe
+from garkcli.families.family import MAX_STAGES, Family, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.method import Method
 
@@ -48,3 +48,6 @@ def _method(n: int) -> Method:
             value = combined([(old, values[earlier]), (new, value)])
         values.append(value)
     return stages.method(f"SSPRK({s},3)", values[-1])
+
+
+FAMILIES = (Family("ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving"),)

@@ -1,20 +1,28 @@
-"""The keys of the files that people write, as data/keys-*.toml has them."""
+"""The keys of the files that people write, as they are told; rooms above declare them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
-from garkcli.glossary.data import read
+from garkcli.upward import answered
+
+
+class Files(NamedTuple):
+    """A kind of files: what they are called, and the page about them."""
+
+    name: str
+    page: str
+
 
 KINDS = {
-    "method": ("method files", "docs/method-file.md"),
-    "problem": ("problem files", "docs/problem-file.md"),
-    "sweep": ("spec files of gark sweep", "docs/sweep.md"),
-    "project": (".gark.toml and [tool.gark]", "docs/ci.md"),
+    "method": Files("method files", "docs/method-file.md"),
+    "problem": Files("problem files", "docs/problem-file.md"),
+    "sweep": Files("spec files of gark sweep", "docs/sweep.md"),
+    "project": Files(".gark.toml and [tool.gark]", "docs/ci.md"),
 }
-"""The kinds of files, each with what they are called and the page about them."""
 
 
 @dataclass(frozen=True)
@@ -45,18 +53,4 @@ def keys_of(kind: str) -> Mapping[str, Key]:
     >>> keys_of("method")["compose.from"].default
     2
     """
-    _, page = KINDS[kind]
-    found: dict[str, Key] = {}
-    for path, entry in read(f"keys-{kind}").items():
-        said = entry
-        if "same" in entry:
-            said = read(f"keys-{kind}")[entry["same"]]
-        found[path] = Key(
-            path,
-            " ".join(said["text"].split()),
-            said["example"],
-            said.get("default"),
-            said.get("page", page),
-            said.get("word", True),
-        )
-    return found
+    return {key.path: key for key in answered(KINDS[kind], kind)}

@@ -6,35 +6,70 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
-from yaml.nodes import MappingNode, Node, SequenceNode
+from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import counted
-from garkcli.methodfile.description import (
-    BESIDE,
-    ArkText,
-    ButcherText,
-    PrkText,
-    Structure,
-    of_colour,
-)
+from garkcli.methodfile.description import ArkText, ButcherText, PrkText, Structure, of_colour
 from garkcli.methodfile.further import FurtherReader, names_beside
+from garkcli.methodfile.grammar import Found, Key, Kind, defined, mapping
 from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spelled_out import (
-    CURES,
+    BUTCHER,
     EXAMPLE,
     Weights,
     are_too_many,
     depth_of_lists,
     entries_in,
-    lacks_coefficients,
-    method_name,
+    rows_of,
+    with_coefficients,
 )
 
 Matrices: TypeAlias = tuple[Rows, ...]
 """A matrix a colour."""
 _FORM_OF_PRK = "give q: {A, b} and p: {A, b}"
+_ROW = defined("row").schema()
+_ROWS = Kind(lambda: {"anyOf": [_ROW, {"type": "array", "items": _ROW}]})
+ARK = with_coefficients(
+    Key(
+        "A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]]",
+        Kind(lambda: rows_of(defined("matrix").schema())),
+        "One matrix a colour, all of the same size.",
+    ),
+    Key("b: [0, 1]", _ROWS, "The weights: one row a colour, or a single shared row."),
+    Key(
+        "c: [0, 1]",
+        defined("row"),
+        "The nodes, which all colours share; the row sums of the first matrix where left out.",
+    ),
+    Key("embedded: [1, 0]", _ROWS, "Embedded weights: one row a colour, or a single shared row."),
+    Key(
+        "dense: {degree: 1, weights: [[[0], [1]], [[0], [1]]]}",
+        defined("dense"),
+        "Dense output: a block of polynomials a colour.",
+    ),
+    form=EXAMPLE,
+)
+"""An additive method: its colours share their stages."""
+PRK = mapping(
+    Key(
+        "q: {A: [[0], [1]], b: [1]}",
+        defined("butcher"),
+        "The tableau of the positions: A has a row for each node at which the force is taken and "
+        "a column for each velocity, b weighs the velocities.",
+        is_needed=True,
+    ),
+    Key(
+        "p: {A: [[1/2, 0]], b: [1/2, 1/2]}",
+        defined("butcher"),
+        "The tableau of the momenta: A has a row for each velocity and a column for each force, "
+        "b weighs the forces.",
+        is_needed=True,
+    ),
+    form=_FORM_OF_PRK,
+)
+"""A partitioned method: a tableau for the positions, one for the momenta."""
 
 
 class ArkReader:
@@ -48,10 +83,8 @@ class ArkReader:
     def read(self, node: Node) -> ArkText | None:
         """The form ``ark``; None where it does not make a method."""
         source = self.source
-        keys = ("c", "A", "b", *BESIDE)
-        entries = source.mapping(node, "ark", keys, CURES, EXAMPLE)
-        cure = "give A, a matrix a colour, and b"
-        if lacks_coefficients(source, node, "ark", entries, cure):
+        entries: Found | None = ARK.read(self, node, "ark")
+        if entries is None or not {"A", "b"} <= entries.keys():
             return None
         matrices = self._matrices(entries["A"])
         if matrices is None:
@@ -154,11 +187,8 @@ class PrkReader:
     def read(self, node: Node, structure: Structure) -> PrkText | None:
         """The form ``prk``; its blocks are rectangular unless the structure is general."""
         source = self.source
-        entries = source.mapping(node, "prk", ("q", "p"), form=_FORM_OF_PRK)
-        if set(entries) != {"q", "p"}:
-            if isinstance(node, MappingNode):
-                message = "prk: both parts q and p are needed"
-                source.fault(node, message, _FORM_OF_PRK)
+        entries: Found | None = PRK.read(self, node, "prk")
+        if entries is None or len(entries) < 2:
             return None
         q = self._part(entries["q"], "q")
         p = self._part(entries["p"], "p")
@@ -181,24 +211,19 @@ class PrkReader:
 
     def _part(self, node: Node, part: str) -> ButcherText | None:
         """Q or p of a prk, its sizes not yet looked at."""
-        source = self.source
-        where = f"prk, {part}"
-        keys = ("name", "A", "b", "c", *BESIDE)
-        entries = source.mapping(node, where, keys, CURES, EXAMPLE)
-        cure = "give A, b and perhaps c"
-        if lacks_coefficients(source, node, where, entries, cure):
+        entries: Found | None = BUTCHER.read(self, node, f"prk, {part}")
+        if entries is None or not {"A", "b"} <= entries.keys():
             return None
         A = self.numbers.matrix(entries["A"], f"{part}.A")
         b = self.numbers.row(entries["b"], f"{part}.b")
         c = None
         if "c" in entries:
             c = self.numbers.row(entries["c"], f"{part}.c")
-        name = method_name(source, entries.get("name"), where)
         if not A or not b:
             return None
         names = names_beside(f"{part}.b")
         beside = self.further.of_method(entries, len(b), names)
-        return ButcherText(node, name, A, b, c, beside)
+        return ButcherText(node, entries.get("name", ""), A, b, c, beside)
 
     def _fitted(
         self, text: ButcherText, part: str, shape: tuple[int, int], why: str

@@ -4,83 +4,134 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import dataclass
+from typing import Any
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import MAX_WORD
+from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, mapping, word
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import one_line, shortened
 from garkcli.reference import WORKS, Reference
 
-_PEOPLE = ("authors", "editors")
 _BETWEEN_PEOPLE = re.compile(r",\s+and\s+|,\s*|\s+and\s+|\s*&\s*")
 _YEAR = re.compile(r"[0-9]{4}[a-z]?", re.ASCII)
 _FORM = "write reference: {authors: ..., title: ..., year: ...}, or one text"
 
 
-KEYS = tuple(field.name for field in fields(Reference))
-"""The keys of a reference that is a mapping."""
+def _text(at: Any, node: Node, where: str) -> str:
+    return one_line(at.source.scalar(node, where) or "")
 
 
-def read_reference(source: Source, node: Node | None) -> tuple[str, Reference | None]:
-    """A reference as text in one line, and its fields where it has them.
-
-    Args:
-        source: where faults are noted.
-        node: what stands under ``reference``; None for nothing.
-    """
-    if node is None:
-        return "", None
-    if not isinstance(node, MappingNode):
-        return source.scalar(node, "reference") or "", None
-    entries = source.mapping(node, "reference", KEYS, form=_FORM)
-    if "title" not in entries:
-        source.fault(node, "reference: title missing", _FORM)
-    found: dict[str, str] = {}
-    people: dict[str, tuple[str, ...]] = {}
-    for key, value in entries.items():
-        if key in _PEOPLE:
-            people[key] = _people(source, value, key)
-        else:
-            found[key] = _field(source, value, key)
-    authors, editors = (people.get(key, ()) for key in _PEOPLE)
-    reference = Reference(authors=authors, editors=editors, **found)
-    return str(reference), reference
-
-
-def _people(source: Source, node: Node, key: str) -> tuple[str, ...]:
-    """Names in a list, or in one text with commas or ``and`` between them."""
-    where = f"reference, {key}"
-    if isinstance(node, SequenceNode):
-        texts = [source.scalar(item, where) for item in node.value]
-        return tuple(one_line(text) for text in texts if text)
-    text = source.scalar(node, where) or ""
-    names = _BETWEEN_PEOPLE.split(one_line(text))
-    return tuple(name for name in names if name)
-
-
-def _field(source: Source, node: Node, key: str) -> str:
-    """The text of one field."""
-    where = f"reference, {key}"
-    if key == "type":
-        return source.choice(node, where, WORKS) or ""
-    text = one_line(source.scalar(node, where) or "")
-    if key == "year" and not _YEAR.fullmatch(text):
+def _year(at: Any, node: Node, where: str) -> str:
+    text = _text(at, node, where)
+    if not _YEAR.fullmatch(text):
         message = f"{where}: a year is expected, not {shortened(text)}"
-        source.fault(node, message, "for instance 1980")
+        at.source.fault(node, message, "for instance 1980")
     return text
 
 
-def read_aliases(source: Source, node: Node | None) -> tuple[str, ...]:
+def _people(at: Any, node: Node, where: str) -> tuple[str, ...]:
+    """Names in a list, or in one text with commas or ``and`` between them."""
+    if isinstance(node, SequenceNode):
+        names = [_text(at, item, where) for item in node.value]
+    else:
+        names = _BETWEEN_PEOPLE.split(_text(at, node, where))
+    return tuple(name for name in names if name)
+
+
+_ONE = Kind(TEXT.schema, _text)
+_NAMES = Kind(
+    lambda: {"anyOf": [TEXT.schema(), {"type": "array", "items": TEXT.schema()}]}, _people
+)
+_REFERENCE = mapping(
+    Key(
+        "authors: [J. R. Dormand, P. J. Prince]",
+        _NAMES,
+        "Who wrote it: one text, or a list with a name each.",
+    ),
+    Key(
+        "title: A family of embedded Runge-Kutta formulae",
+        _ONE,
+        "The title of the publication; the one field that every reference needs.",
+        is_needed=True,
+    ),
+    Key(
+        "year: 1980",
+        Kind(lambda: {"type": ["integer", "string"], "pattern": "^[0-9]{4}[a-z]?$"}, _year),
+        "The year of publication, perhaps with a letter after it.",
+    ),
+    Key(
+        "type: thesis",
+        word(lambda: WORKS),
+        "What kind of work it is, where the other fields do not tell.",
+    ),
+    Key("journal: J. Comput. Appl. Math.", _ONE, "The journal that an article stands in."),
+    Key("volume: 6", _ONE, "The volume of the journal or of the book."),
+    Key("number: 1", _ONE, "The issue of the journal."),
+    Key("pages: 19-26", _ONE, "The first and the last page."),
+    Key(
+        "book: Numerical Analysis 1995",
+        _ONE,
+        "The title of the book or of the proceedings that a chapter stands in.",
+    ),
+    Key(
+        "editors: [D. F. Griffiths, G. A. Watson]",
+        _NAMES,
+        "Who edited the book: one text, or a list with a name each.",
+    ),
+    Key("edition: second", _ONE, "The edition of the book."),
+    Key("publisher: Springer", _ONE, "The publisher of the book."),
+    Key(
+        "institution: University of Auckland",
+        _ONE,
+        "The university of a thesis, or the institution of a report.",
+    ),
+    Key("where: table 2", _ONE, "Where in the work the method stands."),
+    Key(
+        "doi: 10.1016/0771-050X(80)90013-3",
+        _ONE,
+        "The digital object identifier of the publication.",
+    ),
+    Key(
+        "url: https://example.org/method",
+        _ONE,
+        "An address where the publication or the code is found.",
+    ),
+    Key("note: in Russian", _ONE, "Anything else that a reader of the reference has to know."),
+    Key(
+        "coefficients: as printed",
+        _ONE,
+        "Where the digits of the file come from, such as printed or computed anew.",
+    ),
+    form=_FORM,
+)
+
+
+def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
+    """A reference as text in one line, and its fields where it has them."""
+    if not isinstance(node, MappingNode):
+        return at.source.scalar(node, where) or "", None
+    found: Found = _REFERENCE.read(at, node, where)
+    reference = Reference(**found)
+    return str(reference), reference
+
+
+REFERENCE = Kind(
+    lambda: {"anyOf": [TEXT.schema(), _REFERENCE.schema()]}, _reference, _REFERENCE.inside
+)
+"""Where a method was published: a text, or the fields of a publication."""
+
+
+def _aliases(at: Any, node: Node, where: str) -> tuple[str, ...]:
     """Other names of a method: a list of texts, or one text."""
-    if node is None:
-        return ()
+    source: Source = at.source
     is_list = isinstance(node, SequenceNode)
     items: Sequence[Node] = node.value if is_list else [node]
     aliases: list[str] = []
     for item in items:
-        text = source.scalar(item, "aliases")
+        text = source.scalar(item, where)
         if text is None:
             continue
         alias = one_line(text)
@@ -90,6 +141,18 @@ def read_aliases(source: Source, node: Node | None) -> tuple[str, ...]:
         else:
             aliases.append(alias)
     return tuple(aliases)
+
+
+_ALIAS: Schema = {
+    "type": ["string", "number"],
+    "pattern": r"^[^/\\]*$",
+    "minLength": 1,
+    "maxLength": MAX_WORD,
+}
+ALIASES = Kind(
+    lambda: {"anyOf": [{"type": "array", "items": _ALIAS, "uniqueItems": True}, _ALIAS]}, _aliases
+)
+"""What else a method is called."""
 
 
 def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str] | None:
@@ -121,8 +184,8 @@ def aliases_of(text: str, name: str) -> tuple[str, ...]:
     >>> aliases_of("aliases: [DOPRI5, RK45]", "a file")
     ('DOPRI5', 'RK45')
     """
-    source = Source(name, text)
-    return read_aliases(source, _value_of(source, "aliases"))
+    found: tuple[str, ...] | None = _value_of(Source(name, text), "aliases", ALIASES)
+    return found or ()
 
 
 def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
@@ -140,18 +203,24 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
     ('Runge 1895', None)
     """
     source = Source(name, text)
-    found = read_reference(source, _value_of(source, "reference"))
+    found: tuple[str, Reference | None] | None = _value_of(source, "reference", REFERENCE)
     source.close()
-    return found
+    return found or ("", None)
 
 
-def _value_of(source: Source, key: str) -> Node | None:
-    """What stands under a key of the file; None where there is none."""
+@dataclass(frozen=True)
+class _Reading:
+    """A file of which one key is read."""
+
+    source: Source
+
+
+def _value_of(source: Source, name: str, kind: Kind) -> Any:
+    """The value of a key of the file; None where there is none."""
     root = source.compose()
     if root is None:
         raise source.error()
-    for key_node, value in root.value:
-        if key_node.value == key:
-            found: Node = value
-            return found
+    for key, value in root.value:
+        if key.value == name:
+            return kind.read(_Reading(source), value, name)
     return None

@@ -21,6 +21,7 @@ from garkcli.methodfile.description import (
     Form,
     MatrixText,
     MethodsText,
+    PartText,
     PrkText,
     Structure,
     TableauText,
@@ -107,6 +108,7 @@ class Builder:
         self.values = values
         self.families = families
         self.nodes = nodes
+        self._parts: dict[int, Tableau] = {}
 
     def tableau(self, description: Description) -> Tableau:
         """The tableau that the file describes.
@@ -131,17 +133,17 @@ class Builder:
         return tableau
 
     def _constructed(self, text: ConstructionText) -> Tableau:
-        """A method made from others."""
-        tableaus, numbers = self.parts_of(text)
-        return self._at(text.node, lambda: text.make(tableaus, numbers))
-
-    def parts_of(self, text: ConstructionText) -> tuple[list[Tableau], Vector]:
-        """What a method is made from, each built as if it stood alone, and its own numbers."""
-        tableaus = []
+        """A method made from others, all of which are built."""
         for part in text.parts:
+            self.part(part)
+        return self._at(text.node, lambda: text.make(self.part, self.values))
+
+    def part(self, part: PartText) -> Tableau:
+        """A method that another is made from, built as if it stood alone."""
+        if id(part) not in self._parts:
             builder = Builder(part.source, self.values, part.families, part.nodes)
-            tableaus.append(builder.tableau(part.description))
-        return tableaus, self.values.vector(text.numbers)
+            self._parts[id(part)] = builder.tableau(part.description)
+        return self._parts[id(part)]
 
     def further(self, description: Description, tableau: Tableau) -> Further:
         """The embedded weights and the dense output of a file, for the colours of its tableau.

@@ -5,7 +5,7 @@ The same for a whole file and for a method inside of a construction.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
@@ -16,7 +16,6 @@ from garkcli.methodfile.description import (
     CONSTRUCTIONS,
     FORMS,
     PLAIN,
-    STRUCTURES,
     ConstructionText,
     Content,
     Description,
@@ -26,6 +25,7 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.diagonal import DiagonalReader
 from garkcli.methodfile.expectations import NUMBERS, TRUTHS
+from garkcli.methodfile.file_keys import KEYS, KEYS_OF_METHOD
 from garkcli.methodfile.nodes import key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Entries, Source
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open
     from garkcli.methodfile.shaped import Shaped
 
-KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
-"""The keys of a method, wherever it stands."""
 _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
 _START = "give A and b, or one of the keys methods, tableau, ark, prk"
 _HOMES = {
@@ -78,7 +76,7 @@ class ContentReader:
 
     def read(self, root: MappingNode, entries: Entries) -> Description | None:
         """What the keys of a method say; None, with faults noted, where they make none."""
-        is_conjugate = self._is_conjugate(entries.get("conjugate"))
+        is_conjugate = bool(self._value("conjugate", entries))
         form = self._form(root, entries)
         if form is None:
             return None
@@ -154,7 +152,7 @@ class ContentReader:
             is_split = self.shaped is not None and form == "prk"
             is_split = is_split or self._is_of_flows(form, entries)
             return "separable" if is_split else "general"
-        word = self.source.choice(node, "structure", STRUCTURES)
+        word = self._value("structure", entries)
         if form in {"tableau", "ark"} and word != "general":
             cure = "use methods, tableau or prk"
             if form == "tableau":
@@ -173,6 +171,10 @@ class ContentReader:
             self.source.fault(node, message, "use methods")
         return cast("Structure", word or "general")
 
+    def _value(self, key: str, entries: Entries) -> Any:
+        """What stands under a key; None where nothing does, or a fault was noted."""
+        return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
+
     def _is_of_flows(self, form: Form, entries: Entries) -> bool:
         """Whether it is a splitting whose flows are exact: of a separable problem."""
         return form == "splitting" and "of" not in keys_of(entries[form])
@@ -180,10 +182,11 @@ class ContentReader:
     def _constructed(self, form: Form, node: Node, structure: Structure) -> ConstructionText | None:
         """A method made from others."""
         from garkcli.methodfile.constructed.parts import PartReader
-        from garkcli.methodfile.constructed.registry import construction
 
-        parts = PartReader(self.source, self.numbers, self._inside, self._open, self.tolerance)
-        return construction(form).read(parts, node, structure)
+        beside = self.tolerance, structure
+        parts = PartReader(self.source, self.numbers, self._inside, self._open, *beside)
+        found: ConstructionText | None = KEYS[form].kind.read(parts, node, form)
+        return found
 
     def _inside(self, node: Node, where: str) -> Description | None:
         """A method inside of a construction, which may be one itself."""
@@ -199,12 +202,6 @@ class ContentReader:
         if not isinstance(node, MappingNode):
             return None
         return reader.read(node, entries)
-
-    def _is_conjugate(self, node: Node | None) -> bool:
-        if node is None:
-            return False
-        word = self.source.choice(node, "conjugate", ("true", "false"))
-        return word == "true"
 
     def _refuse_misplaced(self, form: Form, entries: Entries) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 from flint import fmpq
 from yaml.nodes import Node
 
-from garkcli.exact.matrix import Vector
 from garkcli.families.family import Recipe
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.reference import Reference
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.values import Values
 
 Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
 STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "nystrom")
@@ -202,6 +204,10 @@ class PartText:
         return self.description.tolerance
 
 
+Make: TypeAlias = "Callable[[Callable[[PartText], Tableau], Values], Tableau]"
+"""A method, from what gives the tableaus of its parts and the values of its coefficients."""
+
+
 @dataclass(frozen=True)
 class ConstructionText:
     """A method made from others.
@@ -209,15 +215,13 @@ class ConstructionText:
     Attributes:
         node: where it stands.
         parts: the methods that it is made from.
-        numbers: its own coefficients.
-        make: the method, from the tableaus of the parts and the values of the numbers.
+        make: the method, from the tableaus of the parts and the values of its own coefficients.
         tolerance: the rounding of what it is made from.
     """
 
     node: Node
     parts: tuple[PartText, ...]
-    numbers: Row
-    make: Callable[[Sequence[Tableau], Vector], Tableau]
+    make: Make
     tolerance: fmpq | None = None
 
 

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import ClaimText
+from garkcli.methodfile.grammar import FLAG, Key, Kind, mapping
 from garkcli.methodfile.nodes import is_null
-from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 from garkcli.properties.keys import KEYS
 
 if TYPE_CHECKING:
     from garkcli.methodfile.measures import Measure
-    from garkcli.properties.property import Kind
 
 NUMBERS = (
     "order",
@@ -53,45 +52,8 @@ class AtLeast:
 Wanted: TypeAlias = "int | AtLeast | bool | Measure | list[Wanted] | None"
 
 
-def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
-    """The claims of ``expect``; faulty ones are noted."""
-    if node is None:
-        return ()
-    claims = []
-    for key, value_node in source.mapping(node, "expect", CLAIMS, form=_FORM).items():
-        where = f"expect, {key}"
-        wanted: Wanted
-        if key in TABLES:
-            wanted = _table(source, value_node, where, depth=1 if key == "B" else 2)
-        else:
-            wanted = _READERS[_kind(key)](source, value_node, where)
-        claims.append(ClaimText(value_node, key, wanted))
-    return tuple(claims)
-
-
-def _kind(key: str) -> Kind:
-    """What a claim is made with."""
-    if key in NUMBERS:
-        return "count"
-    if key not in KEYS:
-        return "truth"
-    from garkcli.properties.registry import find  # few files claim properties
-
-    return find(key).kind
-
-
-def _truth(source: Source, node: Node, where: str) -> Wanted:
-    return source.choice(node, where, ("true", "false")) == "true"
-
-
-def _measure(source: Source, node: Node, where: str) -> Wanted:
-    from garkcli.methodfile.measures import read_measure
-
-    return read_measure(source, node, where)
-
-
-def _number(source: Source, node: Node, where: str) -> Wanted:
-    text = source.scalar(node, where) or ""
+def _number(at: Any, node: Node, where: str) -> Wanted:
+    text = at.source.scalar(node, where) or ""
     at_least = _AT_LEAST.fullmatch(text)
     if at_least:
         return AtLeast(int(at_least[1]))
@@ -99,26 +61,90 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
         return int(text)
     if isinstance(node, ScalarNode):
         message = f'{where}: a number or ">= n" is expected, not {shortened(text)}'
-        source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
+        at.source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
     return None
 
 
-_READERS: dict[Kind, Callable[[Source, Node, str], Wanted]] = {
-    "truth": _truth,
-    "count": _number,
-    "number": _measure,
-}
+def _measure(at: Any, node: Node, where: str) -> Wanted:
+    from garkcli.methodfile.measures import read_measure
+
+    return read_measure(at.source, node, where)
 
 
-def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
-    if not isinstance(node, SequenceNode):
-        source.fault(
-            node, f"{where}: a list is expected", "one number a colour, for C and D a row a colour"
-        )
+def _table(item: Kind) -> Kind:
+    """A list, for each colour one thing."""
+
+    def read(at: Any, node: Node, where: str) -> Wanted:
+        if isinstance(node, SequenceNode):
+            return [item.read(at, x, where) for x in node.value]
+        cure = "one number a colour, for C and D a row a colour"
+        at.source.fault(node, f"{where}: a list is expected", cure)
         return None
-    if depth > 1:
-        return [_table(source, item, where, depth - 1) for item in node.value]
-    return [None if is_null(item) else _number(source, item, where) for item in node.value]
+
+    return Kind(lambda: {"type": "array", "items": item.schema()}, read)
+
+
+_COUNTS = (
+    {"type": "integer", "minimum": 0},
+    {"type": "string", "pattern": "^(>=\\s*)?[0-9]{1,4}$"},
+)
+_COUNT = Kind(lambda: {"anyOf": [*_COUNTS]}, _number)
+_ROW = _table(
+    Kind(
+        lambda: {"anyOf": [*_COUNTS, {"type": "null"}]},
+        lambda at, node, where: None if is_null(node) else _number(at, node, where),
+    )
+)
+_REAL = Kind(
+    lambda: {"type": ["number", "string"], "pattern": r"^(>=\s*)?[-+*/^(),.\sA-Za-z0-9_]+$"},
+    _measure,
+)
+_KINDS: dict[str, Kind] = {"truth": FLAG, "count": _COUNT, "number": _REAL}
+_EXAMPLES = {
+    "B": "[4, 4]",
+    "C": "[[2, 3], [3, 3]]",
+    "D": "[[2, 1], [1, 1]]",
+    "gamma": "1 - sqrt(2)/2",
+    "ssp-coefficient": '">= 1"',
+    "real-stability": "infinity",
+    "imaginary-stability": "2*sqrt(2)",
+}
+"""How tables and real numbers are claimed."""
+
+
+def kind_of(key: str) -> Kind:
+    """What a claim is made with."""
+    if key in TABLES:
+        return _ROW if key == "B" else _table(_ROW)
+    if key in KEYS:
+        from garkcli.properties.registry import find  # few files claim properties
+
+        return _KINDS[find(key).kind]
+    return _COUNT if key in NUMBERS else FLAG
+
+
+def claims() -> Iterator[Key]:
+    """Every claim with what it means."""
+    from garkcli.properties.definitions import every_definition
+
+    for claim in every_definition():
+        kind = kind_of(claim.key)
+        example = _EXAMPLES.get(claim.key, "4" if kind is _COUNT else "true")
+        text = f"{claim.text} It is claimed as {claim.values.replace('`', '')}."
+        yield Key(f"{claim.key}: {example}", kind, text, is_listed=False)
+
+
+def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
+    """The claims of ``expect``; faulty ones are noted."""
+    entries = at.source.mapping(node, where, CLAIMS, form=_FORM)
+    return tuple(
+        ClaimText(value, key, kind_of(key).read(at, value, f"{where}, {key}"))
+        for key, value in entries.items()
+    )
+
+
+EXPECT = Kind(mapping(more=claims).schema, _read)
+"""What a file claims."""
 
 
 _OF_ORDERS = {*NUMBERS, *TABLES, "stage-order"}

@@ -169,7 +169,7 @@ def _with_unknowns(
 
 
 def _wishes(reader: Reader) -> Wishes:
-    return read_wishes(reader.source, reader.numbers, reader.design)
+    return read_wishes(reader, reader.design)
 
 
 def _places(reader: Reader) -> Mapping[str, Extent]:

@@ -9,6 +9,7 @@ from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.methodfile.description import BESIDE, NOTHING_FURTHER, FurtherText, of_colour
+from garkcli.methodfile.grammar import Found, Key, Kind, count, mapping
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Entries, Source
 
@@ -16,6 +17,19 @@ MAX_DEGREE = 60
 """Largest degree of dense output; its order is no larger."""
 FORM_OF_DENSE = "write dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}, "
 FORM_OF_DENSE += "a row a stage: the coefficients of θ, θ², …"
+DENSE = mapping(
+    Key("degree: 2", count(1, MAX_DEGREE), "The degree of the polynomials in θ.", is_needed=True),
+    Key(
+        "weights: [[1, -1/2], [0, 1/2]]",
+        Kind(lambda: {"type": "array", "minItems": 1}),
+        "A row a stage with the coefficients of θ, θ², …; of several colours a block for each.",
+        is_needed=True,
+    ),
+    form=FORM_OF_DENSE,
+)
+"""What stands under ``dense``."""
+
+
 _A_ROW_A_COLOUR = "give a row a colour, each with a weight a stage"
 _A_BLOCK_A_COLOUR = "give a block a colour, each with a row a stage"
 _SPELLINGS = (
@@ -178,22 +192,10 @@ class FurtherReader:
 
     def _parts(self, node: Node, where: str) -> tuple[int, Node] | None:
         """The degree and the weights of dense output; None where one of them is missing."""
-        source = self.source
-        keys = ("degree", "weights")
-        entries = source.mapping(node, where, keys, form=FORM_OF_DENSE)
-        missing = [key for key in keys if key not in entries]
-        if missing and entries:
-            message = f"{where}: {missing[0]} missing"
-            source.fault(node, message, FORM_OF_DENSE)
-        if missing:
+        found: Found | None = DENSE.read(self, node, where)
+        if found is None or not {"degree", "weights"} <= found.keys():
             return None
-        place = entries["degree"]
-        name = f"{where}, degree"
-        degree = source.whole(place, name, smallest=1, largest=MAX_DEGREE)
-        if degree is None:
-            return None
-        weights = entries["weights"]
-        return degree, weights
+        return found["degree"], found["weights"]
 
     def _block(self, node: Node, where: str, stages: int, degree: int) -> Rows | None:
         """A row a stage, a coefficient a power of θ."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from garkcli.methodfile.build import Builder, families_of, nodes_to_spell_out
-from garkcli.methodfile.constructed.multirate_makers import Infinitesimal
+from garkcli.methodfile.constructed.multirate import Infinitesimal
 from garkcli.methodfile.description import ConstructionText
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.values import Values
@@ -34,6 +34,5 @@ def coupling_of(method: MethodFile) -> Coupling | None:
     nodes = nodes_to_spell_out(description, families, reader.numbers)
     values = Values(reader.numbers)
     builder = Builder(reader.source, values, families, nodes)
-    tableaus, numbers = builder.parts_of(content)
-    is_the_same = make(tableaus, numbers) == method.tableau
-    return make.coupling(tableaus, numbers) if is_the_same else None
+    is_the_same = make(builder.part, values) == method.tableau
+    return make.coupling(builder.part, values) if is_the_same else None

@@ -5,15 +5,57 @@ from __future__ import annotations
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import UnknownFamily
-from garkcli.families.family import Family, Given, Option, Recipe
+from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, recipe_of
-from garkcli.methodfile.description import BESIDE, FamilyText
+from garkcli.methodfile.coefficients import NUMBER
+from garkcli.methodfile.description import FamilyText
 from garkcli.methodfile.further import CURES
+from garkcli.methodfile.grammar import Key, Kind, Schema, count, mapping, word
 from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.spelled_out import BUTCHER_KEYS
 
-_ALL_KEYS = tuple({key for family in FAMILIES.values() for key in family.keys})
 _FORM = "write for instance {family: gauss, stages: 2}"
+_BESIDE = [key for key in BUTCHER_KEYS if key.name not in {"A", "b", "c"}]
+
+
+def _kind_of(option: Option) -> Kind:
+    """What an option may be set to."""
+    if option.words:
+        return word(lambda: option.words)
+    if option.smallest is None:
+        return NUMBER
+    return count(option.smallest, MAX_STAGES if option.name == "stages" else None)
+
+
+OPTIONS = {option.name: option for family in FAMILIES.values() for option in family.chosen}
+_CHOSEN = [
+    Key(f"{x.name}: {x.example}", _kind_of(x), x.text, x.default or None) for x in OPTIONS.values()
+]
+
+
+def _member(family: Family) -> Schema:
+    """What a member of one family needs, and what it does not have."""
+    needed = [] if family.is_single else [family.size]
+    needed += [option.name for option in family.options if not option.default]
+    barred = dict.fromkeys(sorted(OPTIONS.keys() - set(family.keys)), False)
+    then: Schema = {"required": needed, "properties": barred}
+    return {"if": {"properties": {"family": {"const": family.name}}}, "then": then}
+
+
+FAMILY = mapping(
+    Key(
+        "family: radau-iia",
+        word(FAMILIES.keys),
+        "The name of a family of methods, as gark list shows them.",
+        is_needed=True,
+    ),
+    *_BESIDE,
+    *_CHOSEN,
+    form=_FORM,
+    rules={"allOf": [_member(family) for family in FAMILIES.values()]},
+)
+"""A member of a family."""
 
 
 class FamilyReader:
@@ -27,8 +69,8 @@ class FamilyReader:
         """A member of a family, which exists, with its keys; None where a fault was noted."""
         before = len(self.source.faults)
         family = _family_named(node)
-        keys = _ALL_KEYS if family is None else family.keys
-        allowed = ("family", *keys, "name", *BESIDE)
+        keys = OPTIONS if family is None else family.keys
+        allowed = ("family", *keys, *(key.name for key in _BESIDE))
         entries = self.source.mapping(node, where, allowed, CURES, _FORM)
         if "family" not in entries or len(self.source.faults) > before:
             return None
@@ -55,19 +97,11 @@ class FamilyReader:
         for option in family.options:
             if option.name in entries:
                 place = f"{where}, {option.name}"
-                value = self._option(entries[option.name], place, option)
+                value = _kind_of(option).read(self, entries[option.name], place)
                 if value is not None:
-                    options[option.name] = value
+                    is_entry = isinstance(value, Entry)
+                    options[option.name] = value.expression if is_entry else value
         return size, options
-
-    def _option(self, node: Node, where: str, option: Option) -> Given | None:
-        if option.words:
-            return self.source.choice(node, where, option.words)
-        if option.smallest is not None:
-            return self.source.whole(node, where, option.smallest)
-        # an entry of the file like any other, noted where it is faulty
-        entry = self.numbers.entry(node, where)
-        return entry.expression
 
     def _member(
         self, node: Node, name: str, entries: Entries, size: int | None, options: dict[str, Given]

@@ -2,25 +2,66 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
+from garkcli.methodfile.coefficients import NUMBER
+from garkcli.methodfile.grammar import Found, Key, Kind, mapping
 from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.words import shortened, unquoted
 
 
-def read_parameters(numbers: Numbers, node: Node | None) -> None:
-    """Read ``parameters`` into ``numbers``; each may use those before it.
+def _range(at: Any, node: Node, where: str) -> tuple[tuple[Entry, Entry], ...]:
+    """The two ends of a range, as the only one; none where it is faulty."""
+    numbers: Numbers = at.numbers
+    ends = numbers.source.items(node, where)
+    if len(ends) != 2:
+        message = f"{where}: a range has two ends"
+        numbers.source.fault(node, message, "write [1/4, 1]")
+        return ()
+    smallest, largest = (numbers.entry(end, where) for end in ends)
+    del numbers.entries[-2:]  # they are no coefficients
+    return ((smallest, largest),)
+
+
+RANGE = Kind(
+    lambda: {"type": "array", "items": NUMBER.schema(), "minItems": 2, "maxItems": 2}, _range
+)
+"""Between which numbers a parameter is."""
+
+
+_FREE_FORM = "write {free: true, range: [1/4, 1]}, or give it a value"
+
+
+def _true(at: Any, node: Node, where: str) -> bool | None:
+    return True if at.source.scalar(node, where) == "true" else None
+
+
+_FREE = mapping(
+    Key(
+        "free: true",
+        Kind(lambda: {"const": True}, _true),
+        "That the parameter has no value of its own.",
+        is_needed=True,
+    ),
+    Key("range: [1/4, 1]", RANGE, "Between which numbers a free parameter is."),
+    form=_FREE_FORM,
+)
+
+
+def _read(at: Any, node: Node, _: str) -> None:
+    """Read ``parameters`` into the numbers of a file; each may use those before it.
 
     The values are kept apart from the coefficients: one that no coefficient uses has no part in
     their domain, but a faulty one is reported where it stands.
     """
-    if node is None:
-        return
+    numbers: Numbers = at.numbers
     source = numbers.source
     keys = key_nodes(node)
     for name, value_node in source.mapping(node, "parameters", ()).items():
@@ -37,7 +78,7 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
             value = numbers.given(name, value_node, where)
         elif _is_free(value_node):
             value = Name(name)
-            numbers.free[name] = _free(numbers, value_node, where)
+            numbers.free[name] = _free(at, value_node, where)
         else:
             value = numbers.entry(value_node, where).expression
             numbers.of_parameters.append(numbers.entries.pop())
@@ -52,34 +93,25 @@ def _is_free(node: Node) -> bool:
     return isinstance(node, MappingNode)
 
 
-def _free(numbers: Numbers, node: Node, where: str) -> Free:
+def _free(at: Any, node: Node, where: str) -> Free:
     """A free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
     if isinstance(node, ScalarNode):
         return Free(node)
-    source = numbers.source
-    entries = source.mapping(node, where, ("free", "range"))
-    word = None
-    if "free" in entries:
-        word = source.scalar(entries["free"], where)
-    if word != "true":
-        message = f"{where} is a mapping that does not say free: true"
-        cure = "write {free: true, range: [1/4, 1]}, or give it a value"
-        source.fault(node, message, cure)
-    if "range" not in entries:
-        return Free(node)
-    return Free(node, read_range(numbers, entries["range"], f"{where}, range"))
+    found: Found = _FREE.read(at, node, where)
+    if "free" in found.nodes and "free" not in found:
+        at.source.fault(node, f"{where} is a mapping that does not say free: true", _FREE_FORM)
+    return Free(node, found.get("range", ()))
 
 
-def read_range(numbers: Numbers, node: Node, where: str) -> tuple[tuple[Entry, Entry], ...]:
-    """The two ends of a range, as the only one; none where it is faulty."""
-    ends = numbers.source.items(node, where)
-    if len(ends) != 2:
-        message = f"{where}: a range has two ends"
-        numbers.source.fault(node, message, "write [1/4, 1]")
-        return ()
-    smallest, largest = (numbers.entry(end, where) for end in ends)
-    del numbers.entries[-2:]  # they are no coefficients
-    return ((smallest, largest),)
+PARAMETERS = Kind(
+    lambda: {
+        "type": "object",
+        "additionalProperties": {"anyOf": [NUMBER.schema(), _FREE.schema()]},
+    },
+    _read,
+    _FREE.inside,
+)
+"""Names with values, or without."""
 
 
 def refuse_free(numbers: Numbers) -> None:

@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from flint import fmpq
-from yaml.nodes import Node, ScalarNode, SequenceNode
+from yaml.nodes import Node, ScalarNode
 
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas
+from garkcli.methodfile.grammar import FILE
 from garkcli.methodfile.nodes import keys_of
-from garkcli.methodfile.problem_text import (
-    DEFAULT_T_END,
-    FORMS,
-    KEYS,
-    MAX_INVARIANTS,
-    MAX_TERMS,
-    STIFFNESS,
-    ProblemText,
-    Sides,
-)
+from garkcli.methodfile.problem_keys import FORMS, KEYS, MAX_INVARIANTS
+from garkcli.methodfile.problem_text import DEFAULT_T_END, STIFFNESS, ProblemText, Sides
 from garkcli.methodfile.sides_reader import read_sides
 from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.variables import Variables, read_variables
@@ -50,11 +44,9 @@ class ProblemReader:
         root = source.compose()
         if root is None or self._is_method_file(root):
             return None
-        entries = source.mapping(root, "the file", KEYS)
-        source.check_version(entries.get("gark"))
-        for key in ("description", "reference"):
-            if key in entries:
-                source.scalar(entries[key], key)
+        entries = source.mapping(root, FILE, KEYS)
+        for key in ("gark", "description", "reference"):
+            self._value(key, entries)
         before = len(source.faults)
         variables = read_variables(source, root, entries.get("variables"))
         form = self._form(root, entries)
@@ -72,9 +64,13 @@ class ProblemReader:
         sides: Sides = ()
         if form == "rhs":
             known = names if are_named else ()
-            sides = read_sides(source, entries[form], known, MAX_TERMS)
+            sides = read_sides(source, entries[form], self._value(form, entries), known)
         else:
-            terms = self._terms(entries[form], form)
+            items: list[Node] = self._value(form, entries) or []
+            is_one = isinstance(entries[form], ScalarNode)
+            letter = form[0].upper()
+            for l, item in enumerate(items, start=1):
+                terms.append((item, form if is_one else f"{letter}{{{l}}}"))
         return ProblemText(
             name=self._name(entries.get("name")),
             variables=names,
@@ -139,23 +135,9 @@ class ProblemReader:
         text = None if node is None else self.source.scalar(node, "name")
         return shown_name(text or Path(self.source.name).stem)
 
-    def _terms(self, node: Node, form: str) -> list[tuple[Node, str]]:
-        """The formulas of a Hamiltonian or Lagrangian, each with what it is called."""
-        if isinstance(node, ScalarNode):
-            return [(node, form)]
-        items = self.source.items(node, form)
-        if not items and isinstance(node, SequenceNode):
-            cure = "give a formula for each term"
-            self.source.fault(node, f"{form} is empty", cure)
-        if len(items) > MAX_TERMS:
-            message = f"{form}: {len(items)} terms (limit {MAX_TERMS})"
-            self.source.fault(node, message, "use fewer")
-            return []
-        letter = form[0].upper()
-        terms: list[tuple[Node, str]] = []
-        for l, item in enumerate(items, start=1):
-            terms.append((item, f"{letter}{{{l}}}"))
-        return terms
+    def _value(self, key: str, entries: Entries) -> Any:
+        """What stands under a key; None where nothing does, or a fault was noted."""
+        return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _t_end(self, node: Node | None) -> fmpq:
         if node is None:

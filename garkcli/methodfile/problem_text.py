@@ -8,32 +8,8 @@ from typing import TypeAlias
 from flint import fmpq
 from yaml.nodes import Node
 
-KEYS = (
-    "gark",
-    "name",
-    "description",
-    "reference",
-    "variables",
-    "parameters",
-    "hamiltonian",
-    "lagrangian",
-    "rhs",
-    "initial",
-    "exact",
-    "t_end",
-    "invariants",
-)
-"""The keys of a problem file."""
-FORMS = ("hamiltonian", "lagrangian", "rhs")
-"""Those of which a file has one."""
 DEFAULT_T_END = fmpq(2)
 """The final time of a convergence test where the file gives none."""
-MAX_VARIABLES = 64
-"""Most degrees of freedom."""
-MAX_TERMS = 64
-"""Most terms."""
-MAX_INVARIANTS = 10
-"""Most invariants."""
 STIFFNESS = "stiffness"
 """The parameter that ``--stiffness`` sets."""
 Side: TypeAlias = tuple[tuple[str, Node, str], ...]

@@ -4,7 +4,6 @@ met.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -12,43 +11,24 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 from yaml.nodes import MappingNode, Node
 
-from garkcli.errors import LimitExceeded
-from garkcli.exact.expression import read_decimal
-from garkcli.methodfile import expectations
-from garkcli.methodfile.bibliography import read_aliases, read_reference
 from garkcli.methodfile.content import CURES, ContentReader
-from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, ConstructionText, Description
+from garkcli.methodfile.description import FORMS, ConstructionText, Description
+from garkcli.methodfile.file_keys import KEYS
+from garkcli.methodfile.grammar import FILE
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.parameters import read_parameters, refuse_unknown_settings
+from garkcli.methodfile.parameters import refuse_unknown_settings
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.words import shortened
 
 if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Opened
     from garkcli.methodfile.shaped import Shaped
 
-KEYS = (
-    "gark",
-    "name",
-    "aliases",
-    "description",
-    "reference",
-    *FORMS,
-    *PLAIN,
-    *BESIDE,
-    "unknown",
-    "design",
-    "transfer",
-    "structure",
-    "conjugate",
-    "linear",
+_ABOUT = (
+    *("gark", "name", "description", "aliases", "reference", "tolerance", "expect"),
     "parameters",
-    "tolerance",
-    "expect",
 )
-"""The keys of a method file."""
-_DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
+"""The keys beside the coefficients, which are read before these."""
 
 
 class Reader:
@@ -83,20 +63,14 @@ class Reader:
         root = source.compose()
         if root is None or self._is_problem_file(root):
             return None
-        entries = source.mapping(root, "the file", KEYS, CURES)
+        entries = source.mapping(root, FILE, KEYS, CURES)
         self.keys = frozenset(entries)
         self.design = entries.get("design")
         self._root = root
-        source.check_version(entries.get("gark"))
-        text = {}
-        for key in ("name", "description"):
-            if key in entries:
-                text[key] = source.scalar(entries[key], key) or ""
-        aliases = read_aliases(source, entries.get("aliases"))
-        reference, bibliography = read_reference(source, entries.get("reference"))
-        tolerance = self._tolerance(entries.get("tolerance"))
-        claims = expectations.read(source, entries.get("expect"))
-        read_parameters(self.numbers, entries.get("parameters"))
+        said = {
+            key: KEYS[key].kind.read(self, entries[key], key) for key in _ABOUT if key in entries
+        }
+        tolerance: fmpq | None = said.get("tolerance")
         self.content.tolerance = tolerance
         found = self.content.read(root, entries)
         if found is None:
@@ -104,13 +78,14 @@ class Reader:
         refuse_unknown_settings(self.numbers)
         if tolerance is None and isinstance(found.content, ConstructionText):
             tolerance = found.content.tolerance
+        reference, bibliography = said.get("reference", ("", None))
         return replace(
             found,
-            name=text.get("name", ""),
-            description=text.get("description", ""),
+            name=said.get("name") or "",
+            description=said.get("description") or "",
             tolerance=tolerance,
-            claims=claims,
-            aliases=aliases,
+            claims=said.get("expect", ()),
+            aliases=said.get("aliases", ()),
             reference=reference,
             bibliography=bibliography,
         )
@@ -157,21 +132,3 @@ class Reader:
             return None
         key = key_of(self._root, self.design)
         return extent(self.source.text, key, self.design)
-
-    def _tolerance(self, node: Node | None) -> fmpq | None:
-        """A rational number between 0 and 1; no parameters, as it is no coefficient."""
-        if node is None:
-            return None
-        text = self.source.scalar(node, "tolerance")
-        if text is None:
-            return None
-        try:
-            value = read_decimal(text) if _DECIMAL.fullmatch(text) else None
-        except LimitExceeded:
-            value = None
-        if value is None or not 0 < value < 1:
-            wanted = "a decimal number between 0 and 1 is expected"
-            message = f"tolerance: {wanted}, not {shortened(text)}"
-            self.source.fault(node, message, "for instance 1e-13")
-            return None
-        return value

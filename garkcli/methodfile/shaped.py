@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from yaml.nodes import Node, SequenceNode
+from yaml.nodes import Node
 
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.exact.nodes import Expression, Name
@@ -18,16 +19,45 @@ from garkcli.methodfile.description import (
     TableauText,
     of_colour,
 )
+from garkcli.methodfile.grammar import Found, Key, Kind, count, mapping, one_or_more, word
 from garkcli.methodfile.nodes import Extent, extent
 from garkcli.methodfile.numbers import Free, Numbers, Row, Rows
 from garkcli.methodfile.shapes.layout import Layout, Texts
-from garkcli.methodfile.shapes.registry import SHAPES, layout_of
+from garkcli.methodfile.shapes.registry import SHAPES, find_shape, layout_of
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20
 """Most stages of a tableau of unknowns; twelve unknowns without structure are too many."""
+
+
+def _shape(at: Any, node: Node, where: str) -> str | None:
+    name: str | None = at.source.scalar(node, where)
+    if name is None or name in SHAPES:
+        return name
+    at.source.fault(node, f"{where}: {shortened(name)} is no shape", did_you_mean(name, SHAPES))
+    return None
+
+
+_SHAPE = Kind(word(lambda: {x: find_shape(x).summary for x in SHAPES}).schema, _shape)
+UNKNOWN = mapping(
+    Key(
+        "stages: 3",
+        Kind(count(1, MAX_STAGES).schema, count(1).read),
+        "How many stages the tableau of unknowns has.",
+        is_needed=True,
+    ),
+    Key(
+        "shape: [dirk, stiffly-accurate]",
+        one_or_more(_SHAPE),
+        "Which entries are unknown and how they hang together: a shape, or several that go "
+        "together.",
+        is_needed=True,
+    ),
+    form=FORM,
+)
+"""How many stages, and which shape."""
 
 
 @dataclass(frozen=True)
@@ -61,50 +91,22 @@ class ShapeReader:
             key: the word ``unknown`` in the file.
             node: its value.
         """
-        keys = ("stages", "shape")
-        entries = self.source.mapping(node, "unknown", keys, form=FORM)
-        missing = [key for key in keys if key not in entries]
-        if missing:
-            both = " and ".join(missing)
-            if not self.source.faults:
-                self.source.fault(node, f"unknown: {both} missing", FORM)
+        found: Found | None = UNKNOWN.read(self, node, "unknown")
+        if found is None or not found.is_right:
             return None
-        where = "unknown, stages"
-        stages = self.source.whole(entries["stages"], where, smallest=1)
-        names = self._names(entries["shape"])
-        if stages is None or not names:
-            return None
-        if stages > MAX_STAGES:
-            message = f"{stages} stages of unknowns (limit {MAX_STAGES})"
-            self.source.fault(entries["stages"], message, "use fewer stages")
+        if found["stages"] > MAX_STAGES:
+            message = f"{found['stages']} stages of unknowns (limit {MAX_STAGES})"
+            self.source.fault(found.nodes["stages"], message, "use fewer stages")
             return None
         try:
-            layout = layout_of(stages, names)
+            layout = layout_of(found["stages"], found["shape"])
         except MethodError as error:
-            self.source.fault(entries["shape"], error.message, error.help)
+            self.source.fault(found.nodes["shape"], error.message, error.help)
             return None
         for name in layout.unknowns:
             self._define(name, node)
         place = extent(self.source.text, key, node)
         return Shaped(layout.kind, self._content(layout, node), layout, place)
-
-    def _names(self, node: Node) -> list[str]:
-        """The shapes, one word or several in a list."""
-        items = node.value if isinstance(node, SequenceNode) else [node]
-        names: list[str] = []
-        for item in items:
-            word = self.source.scalar(item, "unknown, shape")
-            if word is None:
-                return []
-            if word not in SHAPES:
-                message = f"unknown, shape: {shortened(word)} is no shape"
-                cure = did_you_mean(word, SHAPES)
-                self.source.fault(item, message, cure)
-                return []
-            names.append(word)
-        if not names:
-            self.source.fault(node, "unknown, shape is empty", FORM)
-        return names
 
     def _define(self, name: str, node: Node) -> None:
         """An unknown of the shape, or the value given for it."""

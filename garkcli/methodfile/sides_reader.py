@@ -2,36 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.problem_text import Side, Sides
 from garkcli.methodfile.source import Source
 
 
-def read_sides(source: Source, node: Node, names: tuple[str, ...], most: int) -> Sides:
+def read_sides(
+    source: Source, node: Node, items: Sequence[Node] | None, names: tuple[str, ...]
+) -> Sides:
     """The right-hand sides of each term: variables, formulas, and what these are called.
 
     Args:
         source: where faults are noted.
         node: what ``rhs`` has.
+        items: the terms in it; None where there are none, which is noted.
         names: of the variables; none where they have faults, and are not judged.
-        most: terms.
     """
-    if not isinstance(node, SequenceNode):
-        return (_side(source, node, "rhs", names),)
-    items = source.items(node, "rhs")
-    if not items:
-        cure = "give right-hand sides for each term"
-        source.fault(node, "rhs is empty", cure)
-    if len(items) > most:
-        message = f"rhs: {len(items)} terms (limit {most})"
-        source.fault(node, message, "use fewer")
-        return ()
-    sides: list[Side] = []
-    for l, item in enumerate(items, start=1):
-        where = f"f{{{l}}}"
-        sides.append(_side(source, item, where, names))
-    return tuple(sides)
+    is_one = not isinstance(node, SequenceNode)
+    wheres = ["rhs" if is_one else f"f{{{l}}}" for l in range(1, len(items or ()) + 1)]
+    pairs = zip(items or (), wheres, strict=True)
+    return tuple(_side(source, item, where, names) for item, where in pairs)
 
 
 def _side(source: Source, node: Node, where: str, names: tuple[str, ...]) -> Side:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.methodfile import further
+from garkcli.methodfile.coefficients import MATRIX, ROW
 from garkcli.methodfile.description import (
-    BESIDE,
     MAX_COLOURS,
     ButcherText,
     TableauText,
     block_name,
     of_colour,
 )
-from garkcli.methodfile.further import FurtherReader
+from garkcli.methodfile.further import DENSE, FurtherReader
+from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, defined, mapping
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Entries, Source
@@ -43,6 +45,98 @@ _LEVELS = (
 )
 
 
+_PAGE = "docs/method-file.md#embedded-and-dense-further-weights"
+
+
+def _all_of(*kinds: Schema) -> Kind:
+    """One of several schemas; what stands there is read where the number of colours is known."""
+    return Kind(lambda: {"anyOf": list(kinds)})
+
+
+def rows_of(item: Schema) -> Schema:
+    """A list that is not empty."""
+    return {"type": "array", "minItems": 1, "items": item}
+
+
+_MATRIX, _ROW = MATRIX.schema(), ROW.schema()
+_BLOCKS = rows_of({"anyOf": [_MATRIX, {"type": "null"}]})
+_DENSE = defined("dense")
+TABLEAU_KEYS = (
+    Key(
+        "A: [[0, 0], [1/2, 0]]",
+        _all_of(_MATRIX, rows_of(_BLOCKS)),
+        "The matrix of a Butcher tableau, row by row; rows may end at the diagonal or before it. "
+        "Of several colours rows of blocks A^{l,m}, null where colour l does not see colour m.",
+        page="docs/method-file.md#a-b-c-a-butcher-tableau",
+    ),
+    Key(
+        "b: [0, 1]",
+        _all_of(_ROW, rows_of(_ROW)),
+        "The weights, one a stage; of several colours a row each.",
+    ),
+    Key(
+        "c: [0, 1/2]",
+        _all_of(_ROW, rows_of({"anyOf": [_ROW, {"type": "null"}]})),
+        "The nodes, one a stage; of several colours a row each. Where they are left out they are "
+        "the row sums of A. Order conditions do not depend on them, B, C, D and the "
+        "non-autonomous order do.",
+    ),
+    Key(
+        "embedded: [1, 0]",
+        _all_of(_ROW, rows_of(_ROW)),
+        "Embedded weights, one a stage; of several colours a row each. They stand beside b.",
+        page=_PAGE,
+    ),
+    Key(
+        "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}",
+        Kind(_DENSE.schema, inside=DENSE.inside),
+        "Dense output: weights that are polynomials in θ without constant terms. It stands beside "
+        "b.",
+        page=_PAGE,
+    ),
+)
+"""What a Butcher tableau has, wherever it stands."""
+
+
+def with_coefficients(*keys: Key, form: str) -> Kind:
+    """A mapping with these keys, of which it needs A and b."""
+    needed = [replace(key, is_needed=key.name in {"A", "b"}) for key in keys]
+    return mapping(*needed, form=form, cures=CURES)
+
+
+TABLEAU = with_coefficients(
+    *(replace(key, page="") for key in TABLEAU_KEYS[:-1]),
+    replace(TABLEAU_KEYS[-1], kind=_DENSE, page=""),
+    form=EXAMPLE,
+)
+"""The form ``tableau``."""
+BUTCHER_KEYS = (
+    Key("name: my method", TEXT, "What people call this diagonal method."),
+    Key(
+        "A: [[0, 0], [1/2, 1/2]]",
+        defined("matrix"),
+        "The matrix of this diagonal method, row by row.",
+    ),
+    Key("b: [1/2, 1/2]", defined("row"), "The weights of this diagonal method, one a stage."),
+    Key(
+        "c: [0, 1]",
+        defined("row"),
+        "The nodes of this diagonal method; the row sums of A where they are left out.",
+    ),
+    Key(
+        "embedded: [1, 0]", defined("row"), "Embedded weights of this diagonal method, one a stage."
+    ),
+    Key(
+        "dense: {degree: 1, weights: [[1/2], [1/2]]}",
+        _DENSE,
+        "Dense output of this diagonal method.",
+    ),
+)
+_METHOD = with_coefficients(*BUTCHER_KEYS, form="give family and stages, or A and b")
+BUTCHER = with_coefficients(*BUTCHER_KEYS, form=EXAMPLE)
+"""One diagonal method, or a part of a pair."""
+
+
 def entries_in(count: int) -> str:
     """``1 entry``, ``2 entries``."""
     return counted(count, "entry", "entries")
@@ -63,15 +157,6 @@ def _holds_a_number(node: Node) -> bool:
     return not is_null(node)
 
 
-def lacks_coefficients(source: Source, node: Node, where: str, entries: Entries, cure: str) -> bool:
-    """Note that A or b is missing."""
-    missing = [key for key in ("A", "b") if key not in entries]
-    if missing and isinstance(node, MappingNode):
-        both = " and ".join(missing)
-        source.fault(node, f"{where}: {both} missing", cure)
-    return bool(missing)
-
-
 def are_too_many(source: Source, colours: Sequence[Node], node: Node) -> bool:
     """Note more colours than any method has."""
     count = len(colours)
@@ -80,13 +165,6 @@ def are_too_many(source: Source, colours: Sequence[Node], node: Node) -> bool:
     message = f"{count} colours (limit {MAX_COLOURS})"
     source.fault(node, message, "no method needs that many")
     return True
-
-
-def method_name(source: Source, node: Node | None, where: str) -> str:
-    """The name of a diagonal method; empty where it has none."""
-    if node is None:
-        return ""
-    return source.scalar(node, f"{where}, name") or ""
 
 
 class SpelledOutReader:
@@ -99,18 +177,15 @@ class SpelledOutReader:
 
     def butcher(self, node: Node, where: str, names: Names) -> ButcherText | None:
         """A method spelled out; ``names`` are what its A, b and c are called in messages."""
-        keys = ("name", "A", "b", "c", *BESIDE)
-        entries = self.source.mapping(node, where, keys, CURES, EXAMPLE)
-        cure = "give family and stages, or A and b"
-        if lacks_coefficients(self.source, node, where, entries, cure):
+        entries: Found | None = _METHOD.read(self, node, where)
+        if entries is None or not {"A", "b"} <= entries.keys():
             return None
         found = self._method(entries, names)
         if found is None:
             return None
-        name = method_name(self.source, entries.get("name"), where)
         letters = further.names_beside(names[1])
         beside = self.further.of_method(entries, len(found[1]), letters)
-        return ButcherText(node, name, *found, beside)
+        return ButcherText(node, entries.get("name", ""), *found, beside)
 
     def _method(self, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
         """A, b and c of a method of one colour; None where they do not make one."""
@@ -144,9 +219,8 @@ class SpelledOutReader:
 
     def tableau(self, node: Node, linear: Node | None) -> TableauText | None:
         """The form ``tableau``; ``linear`` lists its linear colours."""
-        keys = ("c", "A", "b", *BESIDE)
-        entries = self.source.mapping(node, "tableau", keys, CURES, EXAMPLE)
-        if lacks_coefficients(self.source, node, "tableau", entries, EXAMPLE):
+        entries: Found | None = TABLEAU.read(self, node, "tableau")
+        if entries is None or not {"A", "b"} <= entries.keys():
             return None
         return self.tableau_of(entries, linear)
 

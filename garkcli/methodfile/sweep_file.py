@@ -6,23 +6,38 @@ Every fault of the text at once, with its position, as for method files.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import prod
 from pathlib import Path
+from typing import Any
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node
+from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
+from garkcli.methodfile.coefficients import SIGNS
+from garkcli.methodfile.expectations import claims
 from garkcli.methodfile.file_kind import FileKind
+from garkcli.methodfile.grammar import (
+    FILE,
+    FLAG,
+    TEXT,
+    Found,
+    Key,
+    Kind,
+    Schema,
+    count,
+    mapping,
+    one_or_more,
+    word,
+)
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.sweep_methods import MethodsReader
-from garkcli.methodfile.sweep_search import FREE, is_free, read_search
-from garkcli.methodfile.sweep_text import SweepText, one_or_more
+from garkcli.methodfile.sweep_methods import METHODS, NAME, TRANSFER, MethodsReader, span
+from garkcli.methodfile.sweep_text import STARTS, SearchText, SweepText
 from garkcli.methodfile.words import one_line, shortened, unquoted
 
 SWEEP_FILE = FileKind(
@@ -32,25 +47,266 @@ SWEEP_FILE = FileKind(
     "start with methods:",
     "docs/sweep.md",
 )
-KEYS = (
-    "name",
-    "methods",
-    "transfer",
-    "files",
-    "parameters",
-    "search",
-    "columns",
-    "where",
-    "best",
-    "pareto",
-)
-"""The keys of a spec file."""
 MOST_METHODS = 10_000_000
 """Largest sweep."""
 MOST_VALUES = 1_000_000
 """Most values of a parameter."""
+FREE = "free"
+"""The value of a parameter that is left to the search."""
 _CONDITION = re.compile(r"(>=|<=|>|<|=)?\s*([-+0-9./eE]+)")
-_NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+
+
+def _value(at: Any, node: Node, text: str, where: str) -> fmpq | None:
+    """A rational number; everything else is a fault."""
+    try:
+        expression = parse(text)
+        if any(roots_in(expression)):
+            message = f"{where}: a rational number is expected"
+            at.source.fault(node, message, "write 1/3 or 0.25")
+            return None
+        value = Domain([expression]).evaluate(expression)
+    except ExpressionError as error:
+        at.source.expression_fault(node, where, error)
+        return None
+    assert isinstance(value, fmpq)
+    return value
+
+
+def _rational(at: Any, node: Node, where: str) -> fmpq | None:
+    text = at.source.scalar(node, where)
+    return None if text is None else _value(at, node, text, where)
+
+
+_RATIONAL = Kind(
+    lambda: {
+        "description": "A rational number: 2, 0.1, 1/3.",
+        "type": ["number", "string"],
+        "pattern": SIGNS,
+    },
+    _rational,
+)
+_STEPS = mapping(
+    Key("from: 0", _RATIONAL, "The first of equidistant values.", is_needed=True),
+    Key("to: 1", _RATIONAL, "The last of equidistant values.", is_needed=True),
+    Key(
+        "steps: 4",
+        count(1, MOST_VALUES),
+        "How many steps lead from the first of equidistant values to the last.",
+        is_needed=True,
+    ),
+    form="write {from: 0, to: 1, steps: 10}",
+)
+_VALUES = one_or_more(_RATIONAL)
+
+
+def _grid(at: Any, node: Node, where: str) -> list[fmpq]:
+    """The values of a parameter; equidistant ones have both ends."""
+    if not isinstance(node, MappingNode):
+        return _VALUES.read(at, node, where) or []
+    found: Found = _STEPS.read(at, node, where)
+    if len(found) < 3:
+        return []
+    first, last, steps = (found[key] for key in ("from", "to", "steps"))
+    return [first + (last - first) * fmpq(k, steps) for k in range(steps + 1)]
+
+
+def _parameters(at: Any, node: Node, where: str) -> dict[str, tuple[str, ...] | None]:
+    """The values of each parameter as text; None where they are left to the search."""
+    grids: dict[str, tuple[str, ...] | None] = {}
+    for name, values in at.source.mapping(node, where, ()).items():
+        place = f"{where}: {unquoted(name)}"
+        items = values.value if isinstance(values.value, list) else [values]
+        if not NAME.fullmatch(name):
+            message = f"{place} cannot be the name of a parameter"
+            at.source.fault(values, message, "use letters, digits and _")
+        elif [x.value for x in items if isinstance(x, ScalarNode)] == [FREE]:
+            grids[name] = None
+        else:
+            grids[name] = tuple(str(x) for x in dict.fromkeys(_grid(at, values, place)))
+    return grids
+
+
+_GRID = Kind(
+    lambda: {"anyOf": [{"const": FREE}, _STEPS.schema(), *_VALUES.schema()["anyOf"]]}, _grid
+)
+_SEEDS = Kind(
+    lambda: {
+        "anyOf": [
+            {"type": "integer", "minimum": 0},
+            {"type": "string", "pattern": r"^[0-9]{1,9}\.\.[0-9]{1,9}$"},
+        ]
+    },
+    lambda at, node, where: span(at, node, where, 0, "write 1..100"),
+)
+_SEARCH = mapping(
+    Key(
+        "seeds: 1..100",
+        _SEEDS,
+        "The seeds of the searches: one number, or a range, each a method of its own.",
+        is_needed=True,
+    ),
+    Key("starts: 20", count(1), "How many starts the search of each seed has.", STARTS),
+    Key(
+        "order: 4",
+        count(1),
+        "The order that is searched for; by default that of the file's design.",
+    ),
+    form="write {seeds: 1..100, starts: 20}",
+)
+
+
+def _search(at: Any, node: Node, where: str) -> SearchText | None:
+    found: Found | None = _SEARCH.read(at, node, where)
+    return SearchText(**found) if found is not None and "seeds" in found else None
+
+
+_BOUND: Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$"}
+
+
+def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
+    """A comparison with a number."""
+    text = at.source.scalar(node, where)
+    parts = None if text is None else _CONDITION.fullmatch(text)
+    if text is None or parts is None:
+        if text is not None:
+            message = f"{where}: {shortened(text)} is no condition"
+            at.source.fault(node, message, 'write 4 or ">= 4"')
+        return None
+    value = _value(at, node, parts[2], where)
+    bound = None if value is None else _as_float(value)
+    if value is not None and bound is None:
+        message = f"{where}: {shortened(parts[2])} is beyond the numbers of a column"
+        at.source.fault(node, message, "write 0, or a number up to 1e308")
+    return None if bound is None else (parts[1] or "=", bound)
+
+
+def _as_float(value: fmpq) -> float | None:
+    """The nearest float; None where it is infinite, or 0 and the number is not."""
+    try:
+        found = int(value.p) / int(value.q)
+    except OverflowError:
+        return None
+    return found if found or not value else None
+
+
+def _truth(at: Any, node: Node, where: str) -> tuple[str, bool] | None:
+    found = FLAG.read(at, node, where)
+    return None if found is None else ("=", found)
+
+
+_OWN = {
+    "error": "The 2-norm of the error coefficients of the first order whose conditions fail.",
+    "error-largest": "The largest error coefficient of the first order whose conditions fail.",
+    "pair-error": "The 2-norm of the error coefficients of the symplectic pair.",
+    "phase-order": "The order of the phase lag on the harmonic oscillator.",
+    "phase-constant": "The constant of the phase lag on the harmonic oscillator.",
+    "stages": "The stages of all colours together.",
+    "colours": "How many colours the method has.",
+}
+"""The columns that no file claims."""
+_EXAMPLES = {"stages": '"<= 6"', "colours": "2", "phase-order": '">= 4"'}
+
+
+def _conditions(kinds: Mapping[str, str]) -> Iterator[Key]:
+    """The keys of ``where``: for each column what it is compared with."""
+    claimed = {key.name: key.text.partition(" It is claimed as ")[0] for key in claims()}
+    by_kind = {
+        "truth": (Kind(FLAG.schema, _truth), "true"),
+        "count": (Kind(lambda: _BOUND, _bound), '">= 1"'),
+        "number": (Kind(lambda: _BOUND, _bound), '"< 0.01"'),
+    }
+    for name in (*(x for x in kinds if x not in _OWN), *_OWN):
+        kind, example = by_kind[kinds[name]]
+        if name in _OWN:
+            yield Key(f"{name}: {_EXAMPLES.get(name, example)}", kind, _OWN[name])
+        else:
+            shown = "true" if kinds[name] == "truth" else '">= 1"'
+            yield Key(f"{name}: {shown}", kind, claimed[name], is_listed=False)
+
+
+def file_of(kinds: Mapping[str, str]) -> Kind:
+    """What a spec file has.
+
+    Args:
+        kinds: the columns there are, and whether each is a ``truth``, ``count`` or ``number``.
+    """
+    columns = one_or_more(word(lambda: kinds.keys()))
+    where = mapping(more=lambda: _conditions(kinds))
+    return mapping(
+        Key(
+            "name: Gauss and Lobatto",
+            Kind(lambda: {"type": "string"}, TEXT.read),
+            "What people call the sweep.",
+        ),
+        Key(
+            "methods: [{family: [gauss, radau-iia], stages: 1..3}]",
+            METHODS,
+            "The diagonal methods, one entry a colour: every family with every number of stages. "
+            "Members that do not exist are left out.",
+        ),
+        Key(
+            "transfer: [collocation, {interpolation: tau, collocation: 1 - tau}]",
+            Kind(lambda: TRANSFER.schema()),
+            "Rules for the blocks between the methods, one or a list, each tried. Weights of a "
+            "combination may use the parameters.",
+        ),
+        Key(
+            "files: [sdirk.gark.yaml]",
+            Kind(one_or_more(Kind(lambda: {"type": "string"})).schema),
+            "Method files, looked for beside the spec file, or names of the catalogue. Their "
+            "parameters and unknowns take the values of parameters.",
+        ),
+        Key(
+            "parameters: {tau: {from: 0, to: 1, steps: 4}}",
+            Kind(
+                lambda: {"type": "object", "additionalProperties": _GRID.schema()},
+                _parameters,
+                _STEPS.inside,
+            ),
+            "For each name a list of rational numbers, equidistant ones by from, to and steps "
+            "with both ends, or free: looked for by search.",
+        ),
+        Key(
+            "search: {seeds: 1..100}",
+            Kind(_SEARCH.schema, _search, _SEARCH.inside),
+            "How parameters and unknowns without values are searched for.",
+        ),
+        Key(
+            "columns: [order, p-stable]",
+            columns,
+            "What is told of each method: one criterion or a list.",
+            is_needed=True,
+        ),
+        Key(
+            'where: {order: ">= 3"}',
+            where,
+            "What a method has to have to be kept: for columns true, false, a number, or a "
+            "comparison. Conditions are decided in their order, and a method that fails one is "
+            "looked at no further.",
+        ),
+        Key(
+            "best: [order, error]",
+            columns,
+            "Columns to sort by, the first counting most; each column knows what is better.",
+        ),
+        Key(
+            "pareto: [order, implicit-stages]",
+            columns,
+            "Columns of the Pareto front: the methods that none surpasses in all of them.",
+        ),
+        form="write columns: [order, error]",
+        rules={"anyOf": [{"required": ["methods"]}, {"required": ["files"]}]},
+    )
+
+
+def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
+    """The JSON Schema (draft-07) of spec files as plain data; see ``file_of``."""
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark sweep file",
+        "description": "Which methods are swept, and what is told of each.",
+        **file_of(kinds).schema(),
+    }
 
 
 def read_sweep(path: str, kinds: Mapping[str, str]) -> SweepText:
@@ -58,7 +314,7 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> SweepText:
 
     Args:
         path: of the file; method files of it are looked for beside it.
-        kinds: the columns there are, and whether each is a ``truth``, ``count`` or ``number``.
+        kinds: as for ``file_of``.
 
     Raises:
         MethodFileError: every fault of the file, with positions; or of a method file of it.
@@ -73,7 +329,7 @@ def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) 
     root = reading.compose()
     if root is None:
         raise reading.error()
-    found = _Reader(reading, kinds, folder).read(root)
+    found = _Reader(reading, folder).read(file_of(kinds), root)
     reading.close()
     return found
 
@@ -81,177 +337,67 @@ def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) 
 class _Reader:
     """Reads one spec file."""
 
-    def __init__(self, source: Source, kinds: Mapping[str, str], folder: Path) -> None:
+    def __init__(self, source: Source, folder: Path) -> None:
         self.source = source
-        self.kinds = kinds
         self.folder = folder
-        self.found = SweepText()
 
-    def read(self, root: MappingNode) -> SweepText:
-        source, found = self.source, self.found
-        entries = source.mapping(root, "the file", KEYS)
-        if "name" in entries:
-            found.name = one_line(source.scalar(entries["name"], "name") or "")
-        found.name = found.name or Path(source.name).stem
-        if "parameters" in entries:
-            self._grids(entries["parameters"])
-        if "search" in entries:
-            found.search = read_search(source, entries["search"])
+    def read(self, kind: Kind, root: MappingNode) -> SweepText:
+        source = self.source
+        said: Found = kind.read(self, root, FILE)
+        grids = said.get("parameters", {})
+        found = SweepText(
+            one_line(said.get("name", "")) or Path(source.name).stem,
+            grids={name: values for name, values in grids.items() if values is not None},
+            free=tuple(name for name, values in grids.items() if values is None),
+            search=said.get("search"),
+            conditions=[(name, *made) for name, made in said.get("where", {}).items()],
+            best=said.get("best", []),
+            pareto=said.get("pareto", []),
+        )
+        conditions = [name for name, _, _ in found.conditions]
+        asked = [*conditions, *said.get("columns", []), *found.best, *found.pareto]
+        found.columns = list(dict.fromkeys(asked))
         methods = MethodsReader(source, found)
-        if "methods" in entries:
-            methods.read(entries["methods"], entries.get("transfer"))
-        elif "transfer" in entries:
-            source.fault(entries["transfer"], "transfer without methods", "add methods")
-        if "files" in entries:
-            methods.read_files(entries["files"], self.folder)
-        if not {"methods", "files"} & entries.keys():
+        before = len(source.faults)
+        entries = said.get("methods", [])
+        is_whole = "methods" not in said.nodes
+        is_right = all(entry.is_right for entry in entries)
+        if is_right and "methods" in said and len(entries) == len(said.nodes["methods"].value):
+            methods.read(said.nodes["methods"], entries, said.get("transfer"))
+            is_whole = True
+        elif "transfer" in said and "methods" not in said.nodes:
+            source.fault(said["transfer"], "transfer without methods", "add methods")
+        if "files" in said:
+            methods.read_files(said["files"], self.folder)
+        if not {"methods", "files"} & said.nodes.keys():
             cure = "write methods: [{family: gauss, stages: 1..4}], or files"
             source.fault(root, "no methods and no files", cure)
-        self._criteria(root, entries)
-        self._refuse_unused(entries)
-        self._refuse_large(root)
+        if is_whole and len(source.faults) == before:
+            self._refuse_unused(said, found)
+        self._refuse_large(root, found)
         return found
 
-    def _criteria(self, root: Node, entries: Mapping[str, Node]) -> None:
-        found = self.found
-        if "columns" in entries:
-            found.columns = self._columns(entries["columns"], "columns")
-        else:
-            cure = "write columns: [order, error]"
-            self.source.fault(root, "columns missing", cure)
-        if "where" in entries:
-            self._conditions(entries["where"])
-        for key in ("best", "pareto"):
-            if key in entries:
-                setattr(found, key, self._columns(entries[key], key))
-        conditions = [name for name, _, _ in found.conditions]
-        asked = [*conditions, *found.columns, *found.best, *found.pareto]
-        found.columns = list(dict.fromkeys(asked))
-
-    def _grids(self, node: Node) -> None:
-        for name, values in self.source.mapping(node, "parameters", ()).items():
-            where = f"parameters: {unquoted(name)}"
-            if not _NAME.fullmatch(name):
-                message = f"{where} cannot be the name of a parameter"
-                self.source.fault(values, message, "use letters, digits and _")
-                continue
-            if is_free(values):
-                self.found.free += (name,)
-                continue
-            if not one_or_more(values):
-                self.source.fault(values, f"{where} has no value", "name one")
-            if isinstance(values, MappingNode):
-                found = self._steps(values, where)
-            else:
-                given = [self._rational(x, where) for x in one_or_more(values)]
-                found = [x for x in given if x is not None]
-            self.found.grids[name] = tuple(str(x) for x in dict.fromkeys(found))
-
-    def _steps(self, node: Node, where: str) -> list[fmpq]:
-        """Equidistant values, both ends included."""
-        keys = ("from", "to", "steps")
-        form = "write {from: 0, to: 1, steps: 10}"
-        entries = self.source.mapping(node, where, keys, form=form)
-        if entries.keys() != set(keys):
-            self.source.fault(node, f"{where}: from, to and steps are needed", form)
-            return []
-        first = self._rational(entries["from"], where)
-        last = self._rational(entries["to"], where)
-        steps = self.source.whole(entries["steps"], where, 1)
-        if first is None or last is None or steps is None or steps > MOST_VALUES:
-            return []
-        return [first + (last - first) * fmpq(k, steps) for k in range(steps + 1)]
-
-    def _rational(self, node: Node, where: str) -> fmpq | None:
-        text = self.source.scalar(node, where)
-        return None if text is None else self._value(node, text, where)
-
-    def _value(self, node: Node, text: str, where: str) -> fmpq | None:
-        """A rational number; everything else is a fault."""
-        try:
-            expression = parse(text)
-            if any(roots_in(expression)):
-                message = f"{where}: a rational number is expected"
-                self.source.fault(node, message, "write 1/3 or 0.25")
-                return None
-            value = Domain([expression]).evaluate(expression)
-        except ExpressionError as error:
-            self.source.expression_fault(node, where, error)
-            return None
-        assert isinstance(value, fmpq)
-        return value
-
-    def _refuse_unused(self, entries: Mapping[str, Node]) -> None:
-        if not self.found.templates:
+    def _refuse_unused(self, said: Found, found: SweepText) -> None:
+        if not found.templates:
             return
-        used = {name for x in self.found.templates for name in x.parameters}
-        for name in self.found.grids.keys() - used:
+        used = {name for x in found.templates for name in x.parameters}
+        for name in found.grids.keys() - used:
             message = f"parameters: no method has {name}"
-            self.source.fault(entries["parameters"], message, "leave it out, or use it")
-        is_searched = any(x.order for x in self.found.templates)
+            self.source.fault(said.nodes["parameters"], message, "leave it out, or use it")
+        is_searched = any(x.order for x in found.templates)
         # a parameter without a value is told already
-        is_told = not all(self.found.grids.values())
-        if "search" in entries and not is_searched and not is_told:
+        is_told = not all(found.grids.values())
+        if "search" in said.nodes and not is_searched and not is_told:
             message = "search: no method has an unknown that is left to it"
             cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
-            self.source.fault(entries["search"], message, cure)
+            self.source.fault(said.nodes["search"], message, cure)
 
-    def _refuse_large(self, root: Node) -> None:
+    def _refuse_large(self, root: Node, found: SweepText) -> None:
+        seeds = 1 if found.search is None else len(found.search.seeds)
         total = 0
-        search = self.found.search
-        seeds = 1 if search is None else len(search.seeds)
-        for template in self.found.templates:
-            count = prod(len(self.found.grids[x]) for x in template.parameters)
-            total += count * (seeds if template.order else 1)
+        for template in found.templates:
+            values = prod(len(found.grids[x]) for x in template.parameters)
+            total += values * (seeds if template.order else 1)
         if total > MOST_METHODS:
             message = f"{total} methods (limit {MOST_METHODS})"
             self.source.fault(root, message, "make several sweeps")
-
-    def _columns(self, node: Node, where: str) -> list[str]:
-        found = []
-        for item in one_or_more(node):
-            name = self.source.choice(item, where, self.kinds)
-            found += [name] if name else []
-        return found
-
-    def _conditions(self, node: Node) -> None:
-        for name, value in self.source.mapping(node, "where", self.kinds).items():
-            if name not in self.kinds:
-                continue
-            text = self.source.scalar(value, f"where, {name}")
-            if text is None:
-                continue
-            if self.kinds[name] == "truth":
-                if text in {"true", "false"}:
-                    self.found.conditions.append((name, "=", text == "true"))
-                else:
-                    message = f"where, {name}: true or false is expected"
-                    self.source.fault(value, message)
-                continue
-            parts = _CONDITION.fullmatch(text)
-            bound = self._bound(value, parts[2], name) if parts else None
-            if parts and bound is not None:
-                self.found.conditions.append((name, parts[1] or "=", bound))
-            elif not parts:
-                message = f"where, {name}: {shortened(text)} is no condition"
-                self.source.fault(value, message, 'write 4 or ">= 4"')
-
-    def _bound(self, node: Node, text: str, name: str) -> float | None:
-        where = f"where, {name}"
-        value = self._value(node, text, where)
-        if value is None:
-            return None
-        bound = _as_float(value)
-        if bound is None:
-            message = f"{where}: {shortened(text)} is beyond the numbers of a column"
-            self.source.fault(node, message, "write 0, or a number up to 1e308")
-        return bound
-
-
-def _as_float(value: fmpq) -> float | None:
-    """The nearest float; None where it is infinite, or 0 and the number is not."""
-    try:
-        found = int(value.p) / int(value.q)
-    except OverflowError:
-        return None
-    return found if found or not value else None

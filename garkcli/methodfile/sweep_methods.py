@@ -3,29 +3,125 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
+from typing import Any
 
-from yaml.nodes import MappingNode, Node, ScalarNode
+from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, UnknownFamily
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
-from garkcli.families.registry import BY_STAGES, MAX_STAGES, recipe_of
+from garkcli.families.family import MAX_STAGES
+from garkcli.families.registry import BY_STAGES, recipe_of
+from garkcli.methodfile.coefficients import SIGNS
 from garkcli.methodfile.family import loads_family
+from garkcli.methodfile.grammar import (
+    Found,
+    Key,
+    Kind,
+    by_name,
+    either,
+    list_of,
+    mapping,
+    one_or_more,
+    word,
+)
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.sweep_text import SweepText, TemplateText, one_or_more
+from garkcli.methodfile.sweep_text import SweepText, TemplateText
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
 
 _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
-_NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+_CURE_OF_STAGES = f"write 2, [1, 3] or 1..4, up to {MAX_STAGES}"
+
+
+def span(at: Any, node: Node, where: str, least: int, cure: str) -> range | None:
+    """A number, or a range of numbers such as 1..4."""
+    text = node.value if isinstance(node, ScalarNode) else ""
+    found = _SPAN.fullmatch(text)
+    if found is None:
+        whole = at.source.whole(node, where, least)
+        return None if whole is None else range(whole, whole + 1)
+    first, last = int(found[1]), int(found[2])
+    if least <= first <= last:
+        return range(first, last + 1)
+    at.source.fault(node, f"{where}: {shortened(text)} is no range", cure)
+    return None
+
+
+def _stages(at: Any, node: Node, where: str) -> range | None:
+    found = span(at, node, where, 1, _CURE_OF_STAGES)
+    if found is None or found.stop <= MAX_STAGES + 1 or len(found) == 1:
+        return found
+    at.source.fault(node, f"{where}: {shortened(node.value)} is no range", _CURE_OF_STAGES)
+    return None
+
+
+_STAGES = Kind(
+    lambda: {
+        "anyOf": [
+            {"type": "integer", "minimum": 1},
+            {"type": "string", "pattern": r"^[0-9]{1,3}\.\.[0-9]{1,3}$"},
+        ]
+    },
+    _stages,
+)
+_METHOD = mapping(
+    Key(
+        "family: [gauss, radau-iia]",
+        one_or_more(word(BY_STAGES.keys)),
+        "A family of methods, or a list of families, each tried.",
+        is_needed=True,
+    ),
+    Key("stages: 1..4", one_or_more(_STAGES), "A number of stages, a range, or a list of these."),
+    form="write {family: gauss, stages: 1..4}",
+)
+METHODS = list_of(_METHOD, "methods", each="methods", form="name at least one family")
+"""Families × stages, an entry a colour."""
+
+
+def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
+    """A weight as text, in which parameters may stand."""
+    text = at.source.scalar(node, where)
+    if text is None:
+        return None
+    known: dict[str, Expression] = {x: Name(x) for x in at.names}
+    try:
+        substitute(parse(text), known)
+    except ExpressionError as error:
+        at.source.expression_fault(node, where, error)
+        return None
+    return text
+
+
+_WEIGHT = Kind(
+    lambda: {
+        "description": "A rational number: 2, 0.1, 1/3.",
+        "type": ["number", "string"],
+        "pattern": SIGNS,
+    },
+    _weight,
+)
+
+
+def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str]:
+    """Rules with their weights."""
+    entries = at.source.mapping(node, where, RULES)
+    found = {rule: _weight(at, x, f"{where}, weight of {rule}") for rule, x in entries.items()}
+    return {rule: text for rule, text in found.items() if text is not None}
+
+
+_RULES = by_name(_WEIGHT, minProperties=1, propertyNames={"enum": list(RULES)})
+TRANSFER = one_or_more(either(word(lambda: ALL_RULES), at_mapping=Kind(_RULES.schema, _weights)))
+"""Rules between methods, each tried."""
 
 
 class MethodsReader:
@@ -39,30 +135,35 @@ class MethodsReader:
     def __init__(self, source: Source, found: SweepText) -> None:
         self.source = source
         self.found = found
-
-    @property
-    def _names(self) -> set[str]:
+        self.names = {*found.grids, *found.free}
         """Parameters that weights may use."""
-        return {*self.found.grids, *self.found.free}
 
-    def read(self, node: Node, transfer: Node | None) -> None:
+    def read(self, node: Node, entries: Sequence[Found], transfer: Node | None) -> None:
         """The entries of ``methods`` with each rule of ``transfer``."""
         self._at = node
-        choices = [self._choices(item) for item in self.source.items(node, "methods")]
-        if not choices:
-            self.source.fault(node, "methods is empty", "name at least one family")
+        choices = [self._choices(entry) for entry in entries]
         rules: list[tuple[str, str, set[str]]] = [("", "", set())]
         if len(choices) > 1:
             if transfer is None:
                 cure = "write transfer: [collocation, interpolation]"
                 self.source.fault(node, "several methods need transfer", cure)
             else:
-                rules = list(self._rules(transfer))
-        elif transfer is not None:
+                rules = [
+                    self._rule(x) for x in TRANSFER.read(self, transfer, "transfer") or () if x
+                ]
+        elif transfer is not None and choices:
             self.source.fault(transfer, "one method has no transfer", "leave it out")
         for methods in product(*choices):
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
+
+    def _rule(self, given: str | dict[str, str]) -> tuple[str, str, set[str]]:
+        """A rule as method files have it, as people read it, and the parameters in it."""
+        if isinstance(given, str):
+            return given, given, set()
+        rule = "{" + ", ".join(f'{rule}: "{text}"' for rule, text in given.items()) + "}"
+        shown = " + ".join(f"({text}) {rule}" for rule, text in given.items())
+        return rule, shown, {name for x in given.values() for name in NAME.findall(x)} & self.names
 
     def _add(
         self, methods: Sequence[tuple[str, int]], rule: str, shown: str, names: set[str]
@@ -84,84 +185,25 @@ class MethodsReader:
         if template not in self.found.templates:
             self.found.templates.append(template)
 
-    def _choices(self, node: Node) -> list[tuple[str, int]]:
+    def _choices(self, entry: Found) -> list[tuple[str, int]]:
         """The members of one entry of ``methods``: those there are of families × stages."""
-        where = "methods"
-        entries = self.source.mapping(
-            node, where, ("family", "stages"), form="write {family: gauss, stages: 1..4}"
-        )
-        if "family" not in entries:
-            self.source.fault(node, "methods: family missing", "name one, or a list")
-            return []
-        families = []
-        for item in one_or_more(entries["family"]):
-            name = self.source.choice(item, "methods, family", BY_STAGES)
-            families += [name] if name else []
-        stages = self._stages(entries.get("stages"))
+        families: list[str] = entry.get("family", [])
         found: dict[tuple[str, int], None] = {}
         for family in families:
             if BY_STAGES[family].is_single:
                 found[family, BY_STAGES[family].smallest] = None
                 continue
-            for s in stages:
+            for s in chain.from_iterable(entry.get("stages", ())):
                 with suppress(UnknownFamily):
                     found[family, recipe_of(family, s).stages] = None
         if families and not found:
             message = f"methods: no member of {', '.join(families)} has these stages"
-            self.source.fault(node, message, "write stages: 2, [1, 3] or 1..4")
+            self.source.fault(entry.node, message, "write stages: 2, [1, 3] or 1..4")
         return list(found)
-
-    def _stages(self, node: Node | None) -> list[int]:
-        if node is None:
-            return []
-        found: list[int] = []
-        for item in one_or_more(node):
-            span = _SPAN.fullmatch(item.value) if isinstance(item, ScalarNode) else None
-            if span:
-                first, last = int(span[1]), int(span[2])
-                if not 1 <= first <= last <= MAX_STAGES:
-                    message = f"methods, stages: {span[0]} is no range of stages"
-                    cure = f"write 1..4, up to {MAX_STAGES}"
-                    self.source.fault(item, message, cure)
-                found += range(first, min(last, MAX_STAGES) + 1)
-                continue
-            whole = self.source.whole(item, "methods, stages", 1)
-            found += [whole] if whole else []
-        return found
-
-    def _rules(self, node: Node) -> Iterator[tuple[str, str, set[str]]]:
-        """Each rule: as method files have it, as people read it, and the parameters in it."""
-        for item in one_or_more(node):
-            if not isinstance(item, MappingNode):
-                rule = self.source.choice(item, "transfer", ALL_RULES)
-                if rule:
-                    yield rule, rule, set()
-                continue
-            terms, names = [], set()
-            for rule, weight in self.source.mapping(item, "transfer", RULES).items():
-                text = self._weight(weight, f"transfer, weight of {rule}")
-                if text is not None:
-                    terms.append((rule, text))
-                    names |= set(_NAME.findall(text)) & self._names
-            rule = "{" + ", ".join(f'{rule}: "{text}"' for rule, text in terms) + "}"
-            if terms:
-                yield (rule, " + ".join(f"({x}) {rule}" for rule, x in terms), names)
-
-    def _weight(self, node: Node, where: str) -> str | None:
-        text = self.source.scalar(node, where)
-        if text is None:
-            return None
-        known: dict[str, Expression] = {x: Name(x) for x in self._names}
-        try:
-            substitute(parse(text), known)
-        except ExpressionError as error:
-            self.source.expression_fault(node, where, error)
-            return None
-        return text
 
     def read_files(self, node: Node, folder: Path) -> None:
         """Method files, beside the spec file."""
-        for item in one_or_more(node):
+        for item in node.value if isinstance(node, SequenceNode) else [node]:
             name = self.source.scalar(item, "files")
             if name is None:
                 continue

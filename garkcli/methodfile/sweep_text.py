@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from yaml.nodes import Node, SequenceNode
-
-if TYPE_CHECKING:
-    from garkcli.methodfile.sweep_search import SearchText
+STARTS = 20
+"""Starts of a seed, where nothing is said."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +22,21 @@ class TemplateText:
     name: str
     text: str
     parameters: tuple[str, ...]
+    order: int = 0
+
+
+@dataclass(frozen=True)
+class SearchText:
+    """How methods are searched for.
+
+    Attributes:
+        seeds: one row each.
+        starts: from which each of them looks.
+        order: that is wanted; 0 for the order that the file wants.
+    """
+
+    seeds: range
+    starts: int = STARTS
     order: int = 0
 
 
@@ -53,8 +65,3 @@ class SweepText:
     conditions: list[tuple[str, str, bool | float]] = field(default_factory=list)
     best: list[str] = field(default_factory=list)
     pareto: list[str] = field(default_factory=list)
-
-
-def one_or_more(node: Node) -> list[Node]:
-    """The items of a list, or the one value."""
-    return list(node.value) if isinstance(node, SequenceNode) else [node]

@@ -6,6 +6,7 @@ import re
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.methodfile.coefficients import NUMBER
 from garkcli.methodfile.description import (
     BlockText,
     BlockTexts,
@@ -14,14 +15,48 @@ from garkcli.methodfile.description import (
     TransferText,
     block_name,
 )
+from garkcli.methodfile.grammar import Key, Kind, by_name, defined, mapping, word
 from garkcli.methodfile.nodes import key_nodes, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
-from garkcli.transfer import PAIR_RULES, RULES
+from garkcli.transfer import PAIR_RULES, RULES, SUMMARIES
+
+
+def _weight(rule: str) -> Key:
+    text = f"The weight of the rule {rule} in a combination of rules."
+    return Key(f"{rule}: 1/2", NUMBER, text, is_word=False)
+
 
 ALL_RULES = (*RULES, *PAIR_RULES)
 """The words for rules."""
+_WORDS = word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
+_WEIGHTS = mapping(*map(_weight, RULES), rules={"minProperties": 1})
+RULE = Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema()]})
+"""How a block is made: one of the rules, or several with weights."""
+_OF_RULE = defined("rule").schema()
+_PARTS = mapping(
+    Key(
+        "default: collocation",
+        defined("rule"),
+        "The rule for the blocks that blocks does not name.",
+    ),
+    Key(
+        'blocks: {"1,2": interpolation}',
+        by_name(
+            Kind(lambda: {"anyOf": [_OF_RULE, defined("matrix").schema()]}),
+            propertyNames={"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
+        ),
+        "Blocks that differ from the default, by the numbers of their colours: a rule, weights of "
+        "rules, or the matrix itself.",
+    ),
+    rules={"minProperties": 1},
+)
+TRANSFER = Kind(
+    lambda: {"anyOf": [_OF_RULE, _PARTS.schema()]},
+    inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside()],
+)
+"""The rules between methods; they are read where the number of colours is known."""
 _BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 

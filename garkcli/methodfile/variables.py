@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.formulas import bad_name
-from garkcli.methodfile.problem_text import MAX_VARIABLES
+from garkcli.methodfile.problem_keys import KEYS
 from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.words import shortened
 from garkcli.problems.vectorfield import TIME
@@ -91,16 +92,7 @@ def read_variables(source: Source, root: Node, node: Node | None) -> Variables:
         cure = "name the positions, for instance variables: [x, y]"
         source.fault(root, "variables missing", cure)
         return found
-    items = [node]
-    if not isinstance(node, ScalarNode):
-        items = source.items(node, "variables")
-    if not items and isinstance(node, SequenceNode):
-        cure = "name at least one position"
-        source.fault(node, "variables is empty", cure)
-    if len(items) > MAX_VARIABLES:
-        message = f"{len(items)} variables (limit {MAX_VARIABLES})"
-        source.fault(node, message, "use fewer")
-        return found
+    items: Sequence[Node] = KEYS["variables"].kind.read(found, node, "variables") or ()
     for item in items:
         name = source.scalar(item, "variables")
         if name is None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
+from functools import partial
 from itertools import chain
 from typing import Any
 
@@ -14,17 +16,98 @@ from garkcli.design.wants.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
+from garkcli.methodfile.coefficients import NUMBER
+from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
 from garkcli.methodfile.numbers import Entry, Free, Numbers
-from garkcli.methodfile.parameters import read_range
+from garkcli.methodfile.parameters import RANGE
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
 
-KEYS = ("order", "fix", "range", *WANTS)
-"""The keys of ``design``."""
 MOST = 60
 """The largest order that is looked at, as for ``--order``."""
 FORM = "write design: {order: 3, stiffly-accurate: true}"
+
+
+def _flag(at: Any, node: Node, where: str) -> bool | None:
+    """True; None also where it says that nothing is wanted."""
+    return FLAG.read(at, node, where) or None
+
+
+_COUNT = count(1, MOST)
+_VALUES = {
+    "flag": (Kind(FLAG.schema, _flag), "true"),
+    "count": (_COUNT, "3"),
+    "number": (NUMBER, "0"),
+}
+"""What a want is written with, by its kind, and an example."""
+
+
+def _wanted() -> Iterator[Key]:
+    """The wants, each for all colours or for those that are named."""
+    for name in WANTS:
+        want = find_want(name)
+        value, example = _VALUES[want.kind]
+        colours = by_name(value, propertyNames={"pattern": "^[1-9][0-9]*$"})
+        schema = either(value, at_mapping=colours).schema
+        kind = Kind(schema, partial(_wishes, want))
+        text = f"Wanted of the methods that are looked for: {want.summary}."
+        yield Key(f"{name}: {example}", kind, text)
+
+
+def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:
+    """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
+    fixed = []
+    for name, value, place in _unknowns(at, node, where):
+        entry = at.numbers.entry(value, place)
+        unknown = Entry(Name(name), value, place)
+        at.numbers.entries.append(unknown)
+        fixed.append((unknown, entry))
+    return fixed
+
+
+def _ranges(at: Any, node: Node, where: str) -> None:
+    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
+    free = at.numbers.free
+    for name, value, place in _unknowns(at, node, where):
+        known = free[name]
+        ranges = (*known.ranges, *RANGE.read(at, value, place))
+        free[name] = Free(known.node, ranges, known.where)
+
+
+def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:
+    """What is said of unknowns that have no value."""
+    numbers: Numbers = at.numbers
+    for name, value in numbers.source.mapping(node, where, (), form=FORM).items():
+        place = f"{where}: {name}"
+        if name in numbers.free:
+            yield name, value, place
+        elif name not in numbers.settings:
+            cure = did_you_mean(name, list(numbers.free))
+            numbers.source.fault(value, f"{place} is no unknown of the file", cure)
+
+
+DESIGN = mapping(
+    Key(
+        "order: 3",
+        _COUNT,
+        "The order of the method, the conjugate or the pair that is looked for; --order goes "
+        "before it.",
+    ),
+    Key(
+        "fix: {c2: 2*gamma}",
+        Kind(by_name(NUMBER).schema, _fixed),
+        "Unknowns with their values, which may have other unknowns in them.",
+    ),
+    Key(
+        "range: {gamma: [1/4, 1]}",
+        Kind(by_name(RANGE).schema, _ranges),
+        "Between which numbers unknowns are; solutions outside are told and not taken.",
+    ),
+    more=_wanted,
+    form=FORM,
+)
+"""What is wanted of the methods of a family; it is read when its unknowns are known."""
 
 
 @dataclass(frozen=True)
@@ -59,98 +142,36 @@ class Wishes:
     wishes: tuple[Wish, ...] = ()
 
 
-def read_wishes(source: Source, numbers: Numbers, node: Node | None) -> Wishes:
+def read_wishes(at: Any, node: Node | None) -> Wishes:
     """What a file wants; its unknowns are known already.
 
     Args:
-        source: the file.
-        numbers: its coefficients.
+        at: what reads the file, with its source and its numbers.
         node: the value of ``design``; None where there is none.
     """
-    if node is None:
+    found: Found | None = None if node is None else DESIGN.read(at, node, "design")
+    if found is None:
         return Wishes()
-    entries = source.mapping(node, "design", KEYS, form=FORM)
-    order = None
-    if "order" in entries:
-        order = _count(source, entries["order"], "design: order")
-    fixed: list[tuple[Entry, Entry]] = []
-    if "fix" in entries:
-        fixed = _fixed(source, numbers, entries["fix"])
-    if "range" in entries:
-        _ranges(source, numbers, entries["range"])
-    wishes = []
-    for key, value in entries.items():
-        if key not in {"order", "fix", "range"}:
-            wishes += _wishes(source, numbers, find_want(key), value)
-    return Wishes(order, tuple(fixed), tuple(wishes))
+    wishes = [wish for key in found if key in WANTS for wish in found[key]]
+    return Wishes(found.get("order"), tuple(found.get("fix", ())), tuple(wishes))
 
 
-def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, Entry]]:
-    """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
-    fixed = []
-    entries = source.mapping(node, "design: fix", (), form=FORM)
-    for name, value in entries.items():
-        where = f"design: fix: {name}"
-        if name in numbers.settings:
-            continue
-        if name not in numbers.free:
-            cure = did_you_mean(name, list(numbers.free))
-            source.fault(value, f"{where} is no unknown of the file", cure)
-            continue
-        entry = numbers.entry(value, where)
-        unknown = Entry(Name(name), value, where)
-        numbers.entries.append(unknown)
-        fixed.append((unknown, entry))
-    return fixed
-
-
-def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
-    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
-    entries = source.mapping(node, "design: range", (), form=FORM)
-    for name, value in entries.items():
-        where = f"design: range: {name}"
-        if name in numbers.free:
-            known = numbers.free[name]
-            ranges = (*known.ranges, *read_range(numbers, value, where))
-            numbers.free[name] = Free(known.node, ranges, known.where)
-        elif name not in numbers.settings:
-            cure = did_you_mean(name, list(numbers.free))
-            source.fault(value, f"{where} is no unknown of the file", cure)
-
-
-def _wishes(source: Source, numbers: Numbers, want: Want, node: Node) -> list[Wish]:
+def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
     """One wish, or one for each colour that is named."""
+    kind, _ = _VALUES[want.kind]
     if not isinstance(node, MappingNode):
-        found = _value(source, numbers, want, node)
-        return [] if found is None else [Wish(node, want, found, None)]
-    where = f"design: {want.key}"
+        value = kind.read(at, node, where)
+        return [] if value is None else [Wish(node, want, value, None)]
     wishes = []
-    for name, value in source.mapping(node, where, ()).items():
+    for name, item in at.source.mapping(node, where, ()).items():
         if not name.isdigit() or int(name) < 1:
             message = f"{where}: {name} is no colour"
-            source.fault(value, message, "colours count from 1: {2: true}")
+            at.source.fault(item, message, "colours count from 1: {2: true}")
             continue
-        found = _value(source, numbers, want, value)
-        if found is not None:
-            colour = int(name) - 1
-            wishes.append(Wish(value, want, found, colour))
+        value = kind.read(at, item, where)
+        if value is not None:
+            wishes.append(Wish(item, want, value, int(name) - 1))
     return wishes
-
-
-def _value(source: Source, numbers: Numbers, want: Want, node: Node) -> int | Entry | bool | None:
-    """The value of a wish; None where it is faulty, or says that nothing is wanted."""
-    where = f"design: {want.key}"
-    if want.kind == "count":
-        return _count(source, node, where)
-    if want.kind == "number":
-        return numbers.entry(node, where)
-    word = source.choice(node, where, ("true", "false"))
-    return True if word == "true" else None
-
-
-def _count(source: Source, node: Node, where: str) -> int | None:
-    """An order; None where it is faulty."""
-    return source.whole(node, where, smallest=1, largest=MOST)
 
 
 def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
@@ -159,7 +180,7 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
         return tuple(range(size))
     if wish.colour < size:
         return (wish.colour,)
-    message = f"design: {wish.want.key}: no colour {wish.colour + 1}"
+    message = f"design, {wish.want.key}: no colour {wish.colour + 1}"
     cure = f"the method has {counted(size, 'colour')}"
     source.fault(wish.node, message, cure)
     return ()

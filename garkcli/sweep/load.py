@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, cast
 
-from garkcli.methodfile.sweep_file import read_sweep
-from garkcli.methodfile.sweep_search import SearchText
-from garkcli.methodfile.sweep_text import TemplateText
+from garkcli.glossary.key import Files, Key
+from garkcli.methodfile.grammar import told as entries_of
+from garkcli.methodfile.sweep_file import file_of, read_sweep, sweep_file_schema
+from garkcli.methodfile.sweep_text import SearchText, TemplateText
 from garkcli.sweep.columns import columns, property_kind
 from garkcli.sweep.plan import Condition, Criteria, Plan, Relation, Template
 
@@ -17,8 +19,7 @@ def load_plan(path: str) -> Plan:
     Raises:
         MethodFileError: every fault of it, with positions.
     """
-    kinds = {name: property_kind(name) for name in columns()}
-    text = read_sweep(path, kinds)
+    text = read_sweep(path, _kinds())
     conditions = tuple(
         Condition(name, cast(Relation, relation), bound)
         for name, relation, bound in text.conditions
@@ -44,6 +45,14 @@ def sweep_schema() -> dict[str, Any]:
     >>> sweep_schema()["type"]
     'object'
     """
-    from garkcli.methodfile.sweep_schema import sweep_file_schema
+    return sweep_file_schema(_kinds())
 
-    return sweep_file_schema({name: property_kind(name) for name in columns()})
+
+def told(files: Files) -> Iterable[Key]:
+    """What is told of the keys of spec files."""
+    return entries_of(file_of(_kinds()).inside(), files.page)
+
+
+def _kinds() -> dict[str, str]:
+    """The columns, and what each is."""
+    return {name: property_kind(name) for name in columns()}

@@ -11,8 +11,8 @@ from jsonschema import Draft7Validator
 from garkcli.api.methods import find_order
 from garkcli.check.check_file import check_file
 from garkcli.errors import MethodFileError
+from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.schema import method_file_schema
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
@@ -75,10 +75,10 @@ FAULTS = {
     "multirate: {mis: {splitting: {scheme: lie}}, fast: heun, steps: 2}": "multirate, mis: a method of 2 colours",
     "multirate: {slow: heun, fast: stoermer-verlet, steps: 2}": "multirate, fast: a method of 2 colours",
     "multirate: {slow: heun, fast: rk4, steps: 300}": "stages (limit 400)",
-    "multirate: {mri: {c: [0, 1]}, fast: heun, steps: 2}": "c and gamma are needed",
-    "multirate: {mri: {c: [0, 1], gamma: []}, fast: heun, steps: 2}": "gamma: no matrices",
+    "multirate: {mri: {c: [0, 1]}, fast: heun, steps: 2}": "gamma missing",
+    "multirate: {mri: {c: [0, 1], gamma: []}, fast: heun, steps: 2}": "gamma is empty",
     "multirate: {mri: {c: [0, 2/3], gamma: [[[2/3]]]}, fast: heun, steps: 2}": "the slow stages end at 2/3",
-    "multirate: {mri: {c: [0, 1], gamma: [[[1], [1]]]}, fast: heun, steps: 2}": "gamma^0 is 2 by 1 for 2 nodes",
+    "multirate: {mri: {c: [0, 1], gamma: [[[1], [1]]]}, fast: heun, steps: 2}": "gamma, matrix 1 is 2 by 1 for 2 nodes",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]]}}": "slow-fast missing",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, lambda]]}}": "slow-fast is 1 by 2",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, 0], [0, n]]}}": "'n' is not a parameter",

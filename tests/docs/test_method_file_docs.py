@@ -7,9 +7,9 @@ import pytest
 import yaml
 
 from garkcli.methodfile.description import FORMS
+from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.reader import KEYS
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs/method-file.md"

@@ -12,7 +12,7 @@ import pytest
 from garkcli.exact.formula import FUNCTIONS, parse_formula
 from garkcli.methodfile.formulas import PLACES
 from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.problem_text import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
+from garkcli.methodfile.problem_keys import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "problem-file.md"

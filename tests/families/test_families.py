@@ -8,7 +8,8 @@ import pytest
 from flint import fmpq, fmpq_poly
 
 from garkcli.errors import UnknownFamily
-from garkcli.families.registry import BY_STAGES, MAX_STAGES, diagonal_method
+from garkcli.families.family import MAX_STAGES
+from garkcli.families.registry import BY_STAGES, diagonal_method
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, is_symplectic

@@ -25,9 +25,9 @@ from garkcli.exact.rewriting import substitute
 from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.reader import KEYS
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import jsonschema
 import pytest
 import yaml
 
 from garkcli.errors import Fault, MethodFileError
-from garkcli.methodfile.bibliography import KEYS
+from garkcli.methodfile.bibliography import REFERENCE
 from garkcli.methodfile.conjugated import write_conjugate_of
+from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.schema import method_file_schema
 from garkcli.reference import Reference
 
 METHOD = "A: [[0]]\nb: [1]\n"
@@ -146,4 +148,6 @@ def test_every_field_is_documented() -> None:
     page = Path(__file__).parents[2] / "docs/method-file.md"
     text = page.read_text(encoding="utf-8")
     part = text.partition("### `reference`")[2].partition("\n### ")[0]
-    assert [x for x in KEYS if x not in part] == []
+    keys = [key.name for key in REFERENCE.inside()]
+    assert sorted(keys) == sorted(field.name for field in fields(Reference))
+    assert [x for x in keys if x not in part] == []

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from jsonschema import Draft7Validator
 
 from garkcli.check.meanings import explain
-from garkcli.cli.project import _READERS
+from garkcli.cli.project import KEYS
 from garkcli.glossary.key import KINDS, keys_of
-from garkcli.methodfile.described import claimed_keys, column_keys, wanted_keys
-from garkcli.methodfile.problem_schema import problem_file_schema
-from garkcli.methodfile.schema import method_file_schema
+from garkcli.methodfile.file_keys import method_file_schema
+from garkcli.methodfile.problem_keys import problem_file_schema
 from garkcli.sweep.load import sweep_schema
 
 SCHEMAS = {"method": method_file_schema, "problem": problem_file_schema, "sweep": sweep_schema}
@@ -55,34 +54,14 @@ def test_every_key_is_described(kind: str) -> None:
             assert validator.is_valid(example), (name, example)
 
 
-@pytest.mark.parametrize("kind", SCHEMAS)
-def test_no_key_is_described_that_is_none(kind: str) -> None:
-    """Each entry is of a key that a schema has."""
-    more: dict[str, Callable[[], Any]] = {
-        "method": lambda: claimed_keys() | wanted_keys(),
-        "sweep": column_keys,
-        "problem": dict,
-    }
-    texts = {key["description"] for _, key in every_key(SCHEMAS[kind]())}
-    entries = {**keys_of(kind), **more[kind]()}
-    shown = {
-        path: key
-        for path, key in entries.items()
-        if not path.startswith("where.") or path in keys_of(kind)
-    }
-    for path, key in shown.items():
-        assert key.text in texts, path
-
-
 def test_keys_of_projects_are_described() -> None:
     """Each key of .gark.toml has an entry, whose example is one that is read."""
     keys = keys_of("project")
-    assert list(keys) == list(_READERS)
+    assert list(keys) == list(KEYS)
     for name, key in keys.items():
         value = tomllib.loads(key.example)[name]
-        _, _, is_right = _READERS[name]
-        assert is_right(value), name
-        assert key.default is None or is_right(key.default)
+        assert KEYS[name].is_right(value), name
+        assert key.default is None or KEYS[name].is_right(key.default)
 
 
 def test_every_key_is_a_word() -> None:

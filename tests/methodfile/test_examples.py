@@ -13,8 +13,8 @@ from garkcli.errors import MethodFileError
 from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import load
-from garkcli.methodfile.reader import KEYS
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import faults_lines

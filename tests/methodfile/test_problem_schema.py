@@ -12,8 +12,7 @@ from jsonschema import Draft7Validator
 
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.problem_schema import problem_file_schema
-from garkcli.methodfile.problem_text import KEYS
+from garkcli.methodfile.problem_keys import KEYS, problem_file_schema
 from tests.cli.harness import gark
 from tests.docs.test_problem_file_docs import FILES
 

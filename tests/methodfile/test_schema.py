@@ -11,13 +11,13 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
-from garkcli.families.registry import FAMILIES, MAX_STAGES
+from garkcli.families.family import MAX_STAGES
+from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.family import load_family
+from garkcli.methodfile.file_keys import KEYS, method_file_schema
 from garkcli.methodfile.load import load
-from garkcli.methodfile.reader import KEYS
-from garkcli.methodfile.schema import method_file_schema
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.transfer import RULES
 

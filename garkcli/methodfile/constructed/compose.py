@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
 from math import prod
+from typing import Any, TypeAlias
 
-from flint import fmpq
-from yaml.nodes import MappingNode, Node
+from yaml.nodes import Node
 
 from garkcli.constructions.adjoint import adjoint
 from garkcli.constructions.composition import Substep, composed
@@ -15,259 +14,175 @@ from garkcli.constructions.schemes.registry import OTHER_NAMES, SCHEMES
 from garkcli.constructions.schemes.scheme import MAX_ORDER, Scheme
 from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal
-from garkcli.exact.matrix import Vector
-from garkcli.exact.nodes import Literal
-from garkcli.methodfile.coefficient_schema import Schema, closed
-from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
-from garkcli.methodfile.description import ConstructionText, PartText, Structure
+from garkcli.methodfile.coefficients import NUMBER
+from garkcli.methodfile.constructed.parts import METHOD, PartReader
+from garkcli.methodfile.description import ConstructionText, Make, PartText
+from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, either, list_of, mapping, word
 from garkcli.methodfile.numbers import Entry
-from garkcli.methodfile.source import Entries
+from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
 
-_KEYS = ("of", "steps", "scheme", "order", "from", "processor")
 _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
-_FORM_OF_STEP = "write 1/2, or {step: 1/2, adjoint: true}"
-_NO_METHOD = "the step of no method"
 _NAME_IT = "give of: METHOD, here or for all of them"
 MAX_SUBSTEPS = 400
 """Most substeps of a composition."""
+_Step: TypeAlias = tuple[PartText, Entry, bool]
+"""Which method takes a substep, its fraction of the step, whether with the adjoint."""
 
 
-@dataclass(frozen=True)
-class _Step:
-    """A substep: which method takes it, and which number is its fraction."""
+def _scheme(at: PartReader, node: Node, where: str) -> Scheme | None:
+    name = at.source.scalar(node, where)
+    other = OTHER_NAMES.get(name or "")
+    if other:
+        at.source.fault(node, f"{where}: {name} is called {other} here", "write it so")
+        return None
+    return SCHEMES.get(at.source.choice(node, where, SCHEMES) or "")
 
-    part: int
-    number: int
-    is_adjoint: bool = False
+
+def _order(at: PartReader, node: Node, where: str) -> int | None:
+    order = at.source.whole(node, where, 2, MAX_ORDER)
+    if order is not None and order % 2:
+        message = f"{where}: a symmetric method has an even order"
+        at.source.fault(node, message, f"for instance {order + 1}")
+    return order
 
 
-class _Composition:
-    """One composition as it is read."""
+_ORDER = Kind(count(2, MAX_ORDER).schema, _order)
+_STEP = mapping(
+    Key("step: 1/2", NUMBER, "The fraction of the step that this substep takes.", is_needed=True),
+    Key("of: explicit-euler", METHOD, "The method of this substep."),
+    Key("adjoint: true", FLAG, "Whether this substep is with the adjoint of the method.", False),
+    form="write 1/2, or {step: 1/2, adjoint: true}",
+)
+_KEYS = mapping(
+    Key(
+        "of: {family: gauss, stages: 1}",
+        METHOD,
+        "The method of all substeps that name none of their own.",
+    ),
+    Key(
+        "steps: [1/2, 1/2]",
+        list_of(
+            either(NUMBER, at_mapping=_STEP), "substeps", MAX_SUBSTEPS, "compose, step {}", _FORM
+        ),
+        "The fractions of the step, or mappings with step, of and adjoint. They may be negative, "
+        "names of parameters, and free.",
+    ),
+    Key(
+        "scheme: kahan-li-8",
+        Kind(word(lambda: SCHEMES.keys()).schema, _scheme),
+        "The substeps by the name of a published scheme, as gark list shows them.",
+    ),
+    Key(
+        "order: 6",
+        _ORDER,
+        "With triple-jump and suzuki: the order of the result, two more with each round.",
+    ),
+    Key(
+        "from: 4",
+        _ORDER,
+        "With triple-jump and suzuki: the order of the method that is composed.",
+        2,
+    ),
+    Key(
+        "processor: {family: gauss, stages: 1}",
+        METHOD,
+        "A method π: the step is π, then the substeps, then the inverse of π.",
+    ),
+    form=_FORM,
+)
 
-    def __init__(self, reader: PartReader) -> None:
-        self.reader = reader
-        self.source = reader.source
-        self.parts: list[PartText] = []
-        self.numbers: list[Entry] = []
-        self.steps: list[_Step] = []
-        self.tolerance: fmpq | None = None
 
-    def part(self, node: Node, where: str) -> int | None:
-        """A method as a part, by its number."""
-        found = self.reader.method(node, where)
-        if found is None:
-            return None
-        self.parts.append(found)
-        return len(self.parts) - 1
+def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
+    """The methods and their substeps."""
+    source = at.source
+    before = len(source.faults)
+    found: Found | None = _KEYS.read(at, node, where)
+    if found is None:
+        return None
+    found.way(source, where, "the substeps are", ("scheme", "steps"))
+    if "scheme" in found.nodes and "of" not in found.nodes:
+        source.fault(node, f"{where}: of missing beside scheme", _FORM)
+    for key in found.nodes.keys() & {"order", "from"}:
+        if "scheme" not in found.nodes:
+            source.fault(found.nodes[key], f"{where}: {key} goes with scheme", "leave it out")
+    if not found.nodes.keys() & {"steps", "scheme", "processor"}:
+        cure = "give steps: [1/2, 1/2] or scheme: triple-jump"
+        source.fault(node, f"{where}: no substeps", cure)
+    if len(source.faults) > before:
+        return None
+    steps = [*_steps(at, found, where)]
+    if "processor" in found:
+        # π after, and its inverse before: the adjoint with the step −1
+        one, back = (at.numbers.written(x, node, where) for x in ("1", "-1"))
+        steps = [(found["processor"], back, True), *steps, (found["processor"], one, False)]
+    if len(source.faults) > before:
+        return None
+    scheme = found.get("scheme")
+    rounding = scheme and scheme.tolerance and read_decimal(scheme.tolerance)
+    return at.made(node, _maker(steps), rounding or None)
 
-    def add(self, part: int, entry: Entry, is_adjoint: bool) -> None:
-        """One substep more."""
-        self.numbers.append(entry)
-        step = _Step(part, len(self.numbers) - 1, is_adjoint)
-        self.steps.append(step)
 
-    def step(self, node: Node, where: str, whole: int | None) -> None:
-        """One item of ``steps``; ``whole`` is the method of all."""
-        if not isinstance(node, MappingNode):
-            entry = self.reader.number(node, where)
-            if whole is None:
-                self.source.fault(node, f"{where}: {_NO_METHOD}", _NAME_IT)
-            else:
-                self.add(whole, entry, False)
-            return
-        keys = ("step", "of", "adjoint")
-        entries = self.source.mapping(node, where, keys, form=_FORM_OF_STEP)
-        part = whole
-        if "of" in entries:
-            part = self.part(entries["of"], f"{where}, of")
-        if "step" not in entries:
-            message = f"{where}: step missing"
-            self.source.fault(node, message, _FORM_OF_STEP)
-            return
-        entry = self.reader.number(entries["step"], f"{where}, step")
-        truth = self.reader.truth(entries.get("adjoint"), f"{where}, adjoint")
-        if part is not None:
-            self.add(part, entry, bool(truth))
-        elif "of" not in entries:
-            self.source.fault(node, f"{where}: {_NO_METHOD}", _NAME_IT)
+def _steps(at: PartReader, found: Found, where: str) -> Iterator[_Step]:
+    """The substeps between those of the processor."""
+    whole: Any = found.get("of")
+    if "scheme" in found:
+        place = found.nodes["scheme"]
+        scheme = found["scheme"]
+        for text, is_adjoint in scheme.parts(*_orders(at, found, scheme)):
+            yield whole, at.numbers.written(text, place, scheme.name), is_adjoint
+    elif "steps" not in found and whole is not None:
+        yield whole, at.numbers.written("1", found.node, where), False
+    places = found.nodes["steps"].value if "steps" in found else ()
+    for number, (place, step) in enumerate(zip(places, found.get("steps", ()), strict=True), 1):
+        is_number = isinstance(step, Entry)
+        part = whole if is_number else step.get("of", whole)
+        if part is None:
+            at.source.fault(place, f"compose, step {number}: the step of no method", _NAME_IT)
+        elif is_number:
+            yield part, step, False
+        else:
+            yield part, step["step"], step.get("adjoint", False)
 
-    def scheme(self, entries: Entries, whole: int) -> None:
-        """The substeps of a scheme."""
-        node = entries["scheme"]
-        name = self.source.scalar(node, "compose, scheme")
-        found = SCHEMES.get(name or "")
-        if found is None:
-            other = OTHER_NAMES.get(name or "")
-            if name is not None and other:
-                message = f"compose, scheme: {name} is called {other} here"
-                self.source.fault(node, message, "write it so")
-            else:
-                self.source.choice(node, "compose, scheme", SCHEMES)
-            return
-        before = len(self.source.faults)
-        base, wanted = self._orders(entries, found)
-        if len(self.source.faults) > before:
-            return
-        if found.tolerance:
-            self.tolerance = read_decimal(found.tolerance)
-        for text, is_adjoint in found.parts(base, wanted):
-            entry = self.reader.numbers.written(text, node, found.name)
-            self.add(whole, entry, is_adjoint)
 
-    def _orders(self, entries: Entries, scheme: Scheme) -> tuple[int, int]:
-        """From which order to which a scheme that is repeated goes."""
-        if not scheme.has_orders:
-            for key in ("order", "from"):
-                if key in entries:
-                    message = f"{scheme.name} has one order, {scheme.order}"
-                    self.source.fault(entries[key], message, "leave it out")
-            return 0, 0
-        base = self._order(entries, "from", 2, 2)
-        wanted = self._order(entries, "order", base + 2, base + 2)
-        self._refuse_radicals(entries, scheme, base, wanted)
-        return base, wanted
+def _orders(at: PartReader, found: Found, scheme: Scheme) -> tuple[int, int]:
+    """From which order to which a scheme that is repeated goes.
 
-    def _refuse_radicals(self, entries: Entries, scheme: Scheme, base: int, wanted: int) -> None:
-        """Note an order for which the roots of all repetitions are too much together.
-
-        The substeps that take a symmetric method of order p further have a root of degree p + 1.
-        """
-        degree = prod(order + 1 for order in range(base, wanted, 2))
-        if degree <= MAX_DEGREE:
-            return
+    The substeps that take a symmetric method of order p further have a root of degree p + 1.
+    """
+    if not scheme.has_orders:
+        for key in found.nodes.keys() & {"order", "from"}:
+            message = f"{scheme.name} has one order, {scheme.order}"
+            at.source.fault(found.nodes[key], message, "leave it out")
+        return 0, 0
+    base = found.get("from", 2)
+    wanted = base + 2
+    if "order" in found:
+        wanted = at.source.whole(found.nodes["order"], "compose, order", wanted) or base
+    degree = prod(order + 1 for order in range(base, wanted, 2))
+    if degree > MAX_DEGREE:
         message = f"{scheme.name} from order {base} to {wanted} has radicals of"
         message += f" degree {degree} together (limit {MAX_DEGREE})"
         cure = "take fewer repetitions, or a rounded scheme, such as yoshida-8"
-        self.source.fault(entries["order"], message, cure)
-
-    def _order(self, entries: Entries, key: str, default: int, smallest: int) -> int:
-        if key not in entries:
-            return default
-        node, where = entries[key], f"compose, {key}"
-        order = self.source.whole(node, where, smallest, MAX_ORDER)
-        if order is not None and order % 2:
-            message = f"{where}: a symmetric method has an even order"
-            self.source.fault(node, message, f"for instance {order + 1}")
-        return default if order is None else order
-
-    def processor(self, node: Node, place: Node) -> None:
-        """π after, and its inverse before: the adjoint with the step −1."""
-        part = self.part(node, "compose, processor")
-        if part is None:
-            return
-        numbers = self.reader.numbers
-        there = Entry(Literal(fmpq(1)), place, "compose, processor")
-        back = Entry(Literal(fmpq(-1)), place, "compose, processor")
-        numbers.entries += [there, back]
-        self.add(part, there, False)
-        self.add(part, back, True)
-        self.steps = [self.steps[-1], *self.steps[:-1]]
-
-    def text(self, node: Node) -> ConstructionText:
-        """The whole."""
-        steps = tuple(self.steps)
-
-        def make(tableaus: Sequence[Tableau], values: Vector) -> Tableau:
-            return _made(steps, tableaus, values)
-
-        tolerance = tolerance_of(self.parts, self.tolerance)
-        parts, numbers = tuple(self.parts), tuple(self.numbers)
-        return ConstructionText(node, parts, numbers, make, tolerance)
+        at.source.fault(found.nodes["order"], message, cure)
+        return base, base
+    return base, wanted
 
 
-def read(parts: PartReader, node: Node, _: Structure) -> ConstructionText | None:
-    """The methods and their substeps."""
-    source = parts.source
-    before = len(source.faults)
-    entries = source.mapping(node, "compose", _KEYS, form=_FORM)
-    if not isinstance(node, MappingNode):
-        return None
-    made = _Composition(parts)
-    whole = None
-    if "of" in entries:
-        whole = made.part(entries["of"], "compose, of")
-    _refuse_unclear(parts, node, entries)
-    if len(source.faults) > before:
-        return None
-    if "scheme" in entries and whole is not None:
-        made.scheme(entries, whole)
-    if "steps" in entries:
-        items = source.items(entries["steps"], "compose, steps", _FORM)
-        if len(items) > MAX_SUBSTEPS:
-            message = f"{len(items)} substeps (limit {MAX_SUBSTEPS})"
-            source.fault(entries["steps"], message)
-            return None
-        for number, item in enumerate(items, start=1):
-            made.step(item, f"compose, step {number}", whole)
-    if "steps" not in entries and "scheme" not in entries and whole is not None:
-        one = Entry(Literal(fmpq(1)), node, "compose")
-        parts.numbers.entries.append(one)
-        made.add(whole, one, False)
-    if "processor" in entries:
-        made.processor(entries["processor"], entries["processor"])
-    if len(source.faults) > before:
-        return None
-    if not made.steps:
-        source.fault(node, "compose: no substeps", _FORM)
-        return None
-    return made.text(node)
+def _maker(steps: Sequence[_Step]) -> Make:
+    def made(tableau_of: Callable[[PartText], Tableau], values: Values) -> Tableau:
+        turned: dict[int, Tableau] = {}
+        substeps = []
+        for part, entry, is_adjoint in steps:
+            tableau = tableau_of(part)
+            if is_adjoint:
+                if id(part) not in turned:
+                    turned[id(part)] = adjoint(tableau)
+                tableau = turned[id(part)]
+            substeps.append(Substep(tableau, values.number(entry)))
+        return composed(substeps)
+
+    return made
 
 
-def _refuse_unclear(parts: PartReader, node: Node, entries: Entries) -> None:
-    """Note keys that do not go together."""
-    source = parts.source
-    if "steps" in entries and "scheme" in entries:
-        message = "compose: the substeps are given by scheme already"
-        source.fault(entries["steps"], message, "keep one of steps, scheme")
-    if "scheme" in entries and "of" not in entries:
-        source.fault(node, "compose: of missing beside scheme", _FORM)
-    has_substeps = entries.keys() & {"steps", "scheme", "processor"}
-    if not has_substeps:
-        cure = "give steps: [1/2, 1/2] or scheme: triple-jump"
-        source.fault(node, "compose: no substeps", cure)
-    for key in ("order", "from"):
-        if key in entries and "scheme" not in entries:
-            message = f"compose: {key} goes with scheme"
-            source.fault(entries[key], message, "leave it out")
-
-
-def _made(steps: Sequence[_Step], tableaus: Sequence[Tableau], values: Vector) -> Tableau:
-    turned: dict[int, Tableau] = {}
-    substeps = []
-    for step in steps:
-        tableau = tableaus[step.part]
-        if step.is_adjoint:
-            if step.part not in turned:
-                turned[step.part] = adjoint(tableau)
-            tableau = turned[step.part]
-        substeps.append(Substep(tableau, values[step.number]))
-    return composed(substeps)
-
-
-def schema() -> Schema:
-    """Methods and substeps."""
-    number: Schema = {"$ref": "#/definitions/number"}
-    step = {
-        "anyOf": [
-            number,
-            closed({"step": number, "of": METHOD, "adjoint": {"type": "boolean"}}, "step"),
-        ]
-    }
-    order = {"type": "integer", "minimum": 2, "maximum": MAX_ORDER}
-    return {
-        **closed(
-            {
-                "of": METHOD,
-                "steps": {"type": "array", "items": step, "minItems": 1},
-                "scheme": {
-                    "enum": list(SCHEMES),
-                    "description": "The substeps by name, see gark list.",
-                },
-                "order": order,
-                "from": order,
-                "processor": METHOD,
-            }
-        ),
-        "description": "Substeps of methods, one after the other.",
-    }
+KIND = Kind(_KEYS.schema, _read, _KEYS.inside)

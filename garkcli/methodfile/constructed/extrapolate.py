@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode
+from yaml.nodes import Node, SequenceNode
 
 from garkcli.constructions.extrapolation import extrapolated
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
-from garkcli.exact.matrix import Vector
 from garkcli.families.extrapolated import SEQUENCES, sequence
-from garkcli.methodfile.coefficient_schema import Schema, closed
-from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
-from garkcli.methodfile.description import ConstructionText, Structure
-from garkcli.methodfile.source import Entries
+from garkcli.methodfile.constructed.parts import METHOD, PartReader
+from garkcli.methodfile.description import ConstructionText, PartText
+from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, either, mapping, word
+from garkcli.methodfile.values import Values
 from garkcli.order.deciding import order_of
 from garkcli.properties.symmetry import symmetry
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
-_KEYS = ("of", "order", "sequence", "from", "symmetric")
 _FORM = "write for instance {of: {family: gauss, stages: 1}, order: 6}"
 MAX_ORDER = 40
 """Largest order that is extrapolated to."""
@@ -30,126 +29,12 @@ MAX_PARTS = 200
 _MOST_ROWS = 20
 
 
-def read(parts: PartReader, node: Node, _: Structure) -> ConstructionText | None:
-    """The method and the numbers of its substeps."""
-    source = parts.source
-    before = len(source.faults)
-    entries = source.mapping(node, "extrapolate", _KEYS, form=_FORM)
-    if not isinstance(node, MappingNode):
-        return None
-    part = None
-    if "of" in entries:
-        part = parts.method(entries["of"], "extrapolate, of")
-    else:
-        source.fault(node, "extrapolate: of missing", _FORM)
-    plan = _Plan(parts, entries)
-    if not plan.numbers and plan.wanted is None:
-        cure = "give order: 6, or sequence: [1, 2, 3]"
-        source.fault(node, "extrapolate: how far is missing", cure)
-    if part is None or len(source.faults) > before:
-        return None
-    tolerance = tolerance_of([part], parts.tolerance)
-
-    def make(tableaus: Sequence[Tableau], _: Vector) -> Tableau:
-        (base,) = tableaus
-        return plan.made(base, tolerance)
-
-    return ConstructionText(node, (part,), (), make, tolerance_of([part]))
-
-
-class _Plan:
-    """How far a method is extrapolated.
-
-    Attributes:
-        word: the sequence by name.
-        numbers: it, where it is given number by number.
-        wanted: the order; None where the numbers say it.
-        base: the order of the method; None where it is to be found.
-        is_symmetric: whether its error has every second power only; None where that is to be found.
-    """
-
-    def __init__(self, parts: PartReader, entries: Entries) -> None:
-        source = parts.source
-        self.word = "harmonic"
-        self.numbers: tuple[int, ...] = ()
-        node = entries.get("sequence")
-        if isinstance(node, ScalarNode):
-            where = "extrapolate, sequence"
-            self.word = source.choice(node, where, SEQUENCES) or self.word
-        elif node is not None:
-            self.numbers = _numbers(parts, node)
-        self.wanted = _order(parts, entries, "order")
-        self.base = _order(parts, entries, "from")
-        place = entries.get("symmetric")
-        self.is_symmetric = parts.truth(place, "extrapolate, symmetric")
-        if self.numbers and self.wanted is not None:
-            message = "extrapolate: the numbers of sequence say the order"
-            source.fault(entries["order"], message, "keep one of them")
-
-    def made(self, base: Tableau, tolerance: fmpq | None) -> Tableau:
-        """The extrapolated method.
-
-        Raises:
-            MethodError: the order of the method is not known, or already high enough.
-        """
-        is_symmetric = self.is_symmetric
-        if is_symmetric is None:
-            if base.has_parameters:
-                raise MethodError(_FREE, _SAY)
-            is_symmetric = bool(symmetry(base, tolerance or ZERO).holds)
-        order = self.base
-        if order is None:
-            order = _found_order(base, tolerance)
-        numbers = self.numbers or self._sequence(order, is_symmetric)
-        return extrapolated(base, numbers, order, is_symmetric)
-
-    def _sequence(self, order: int, is_symmetric: bool) -> tuple[int, ...]:
-        assert self.wanted is not None
-        gap = 2 if is_symmetric else 1
-        rows = 1 - (order - self.wanted) // gap
-        if rows < 2:
-            message = f"the method has order {order} already"
-            raise MethodError(message, f"extrapolate to {order + gap} or more")
-        numbers = sequence(self.word, rows)
-        if max(numbers) > MAX_PARTS:
-            message = f"{max(numbers)} substeps in one row (limit {MAX_PARTS})"
-            raise MethodError(message, "take a lower order, or harmonic")
-        return numbers
-
-
-_FREE = "the order of a method with free parameters is not looked for"
-_SAY = "say from: its order, and symmetric: true or false"
-
-
-def _found_order(base: Tableau, tolerance: fmpq | None) -> int:
-    """The order of the method.
-
-    Raises:
-        MethodError: it has free parameters, or no order.
-    """
-    if base.has_parameters:
-        raise MethodError(_FREE, _SAY)
-    order = order_of(meant(base, tolerance), MAX_ORDER).order
-    if order < 1:
-        message = "the method has order 0: its error does not go to 0 with h"
-        raise MethodError(message, "extrapolate a consistent one")
-    return order
-
-
-def _order(parts: PartReader, entries: Entries, key: str) -> int | None:
-    if key not in entries:
-        return None
-    where = f"extrapolate, {key}"
-    return parts.source.whole(entries[key], where, 1, MAX_ORDER)
-
-
-def _numbers(parts: PartReader, node: Node) -> tuple[int, ...]:
+def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
     """Numbers of substeps, all different."""
-    source = parts.source
-    items = source.items(node, "extrapolate, sequence")
+    source = at.source
+    items = source.items(node, where)
     numbers: list[int] = []
     for item in items[:_MOST_ROWS]:
-        where = "extrapolate, sequence"
         number = source.whole(item, where, 1, MAX_PARTS)
         if number in numbers:
             message = f"{where}: {number} stands there twice"
@@ -160,33 +45,131 @@ def _numbers(parts: PartReader, node: Node) -> tuple[int, ...]:
         message = f"{len(items)} rows (limit {_MOST_ROWS})"
         source.fault(node, message, "take fewer numbers")
     elif len(items) < 2:
-        message = "extrapolate, sequence: two numbers are needed"
+        message = f"{where}: two numbers are needed"
         source.fault(node, message, "write for instance [1, 2]")
     return tuple(numbers)
 
 
-def schema() -> Schema:
-    """A method, and how far."""
-    order = {"type": "integer", "minimum": 1, "maximum": MAX_ORDER}
-    number = {"type": "integer", "minimum": 1, "maximum": MAX_PARTS}
-    numbers = {
+_NUMBERS = Kind(
+    lambda: {
         "type": "array",
-        "items": number,
+        "items": count(1, MAX_PARTS).schema(),
         "minItems": 2,
         "maxItems": _MOST_ROWS,
         "uniqueItems": True,
-    }
-    sequences = {"anyOf": [{"enum": list(SEQUENCES)}, numbers]}
-    return {
-        **closed(
-            {
-                "of": METHOD,
-                "order": order,
-                "sequence": sequences,
-                "from": order,
-                "symmetric": {"type": "boolean"},
-            },
-            "of",
-        ),
-        "description": "Several numbers of substeps, combined to a higher order.",
-    }
+    },
+    _numbers,
+)
+_KEYS = mapping(
+    Key("of: explicit-euler", METHOD, "The method that is extrapolated.", is_needed=True),
+    Key(
+        "order: 6",
+        count(1, MAX_ORDER),
+        "The order of the result; not beside a sequence of numbers, which says it already.",
+    ),
+    Key(
+        "sequence: [1, 2, 4]",
+        either(word(lambda: SEQUENCES), at_list=_NUMBERS),
+        "The numbers of substeps: a sequence by its name, or the numbers themselves.",
+        "harmonic",
+    ),
+    Key(
+        "from: 4",
+        count(1, MAX_ORDER),
+        "The order of the method; it is found where it is left out and no parameter is free.",
+    ),
+    Key(
+        "symmetric: true",
+        FLAG,
+        "Whether the method is its own adjoint, so that only even powers of h have to cancel; it "
+        "is found where it is left out and no parameter is free.",
+    ),
+    form=_FORM,
+)
+
+
+def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
+    """The method and the numbers of its substeps."""
+    source = at.source
+    found: Found | None = _KEYS.read(at, node, where)
+    if found is None:
+        return None
+    has_numbers = isinstance(found.nodes.get("sequence"), SequenceNode)
+    if has_numbers and "order" in found:
+        message = f"{where}: the numbers of sequence say the order"
+        source.fault(found.nodes["order"], message, "keep one of them")
+        return None
+    if not has_numbers and "order" not in found.nodes:
+        cure = "give order: 6, or sequence: [1, 2, 3]"
+        source.fault(node, f"{where}: how far is missing", cure)
+        return None
+    if not found.is_right:
+        return None
+    plan = _Plan(
+        found.get("sequence", "harmonic"),
+        found.get("order", 0),
+        found.get("from"),
+        found.get("symmetric"),
+        at.rounding(at.tolerance),
+    )
+
+    def made(tableau_of: Callable[[PartText], Tableau], _: Values) -> Tableau:
+        return plan.made(tableau_of(found["of"]))
+
+    return at.made(node, made)
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """How far a method is extrapolated.
+
+    Attributes:
+        sequence: by its name, or number by number.
+        wanted: the order; 0 where the numbers say it.
+        base: the order of the method; None where it is to be found.
+        is_symmetric: whether its error has every second power only; None where that is to be found.
+        tolerance: the rounding of its coefficients.
+    """
+
+    sequence: str | tuple[int, ...]
+    wanted: int
+    base: int | None
+    is_symmetric: bool | None
+    tolerance: fmpq | None
+
+    def made(self, base: Tableau) -> Tableau:
+        """The extrapolated method.
+
+        Raises:
+            MethodError: the order of the method is not known, or already high enough.
+        """
+        order, is_symmetric = self.base, self.is_symmetric
+        if base.has_parameters and (order is None or is_symmetric is None):
+            message = "the order of a method with free parameters is not looked for"
+            raise MethodError(message, "say from: its order, and symmetric: true or false")
+        if is_symmetric is None:
+            is_symmetric = bool(symmetry(base, self.tolerance or ZERO).holds)
+        if order is None:
+            order = order_of(meant(base, self.tolerance), MAX_ORDER).order
+        if order < 1:
+            message = "the method has order 0: its error does not go to 0 with h"
+            raise MethodError(message, "extrapolate a consistent one")
+        numbers = self.sequence
+        if isinstance(numbers, str):
+            numbers = self._by_name(numbers, order, is_symmetric)
+        return extrapolated(base, numbers, order, is_symmetric)
+
+    def _by_name(self, name: str, order: int, is_symmetric: bool) -> tuple[int, ...]:
+        gap = 2 if is_symmetric else 1
+        rows = 1 - (order - self.wanted) // gap
+        if rows < 2:
+            message = f"the method has order {order} already"
+            raise MethodError(message, f"extrapolate to {order + gap} or more")
+        numbers = sequence(name, rows)
+        if max(numbers) > MAX_PARTS:
+            message = f"{max(numbers)} substeps in one row (limit {MAX_PARTS})"
+            raise MethodError(message, "take a lower order, or harmonic")
+        return numbers
+
+
+KIND = Kind(_KEYS.schema, _read, _KEYS.inside)

@@ -2,29 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from yaml.nodes import Node, SequenceNode
 
-from garkcli.errors import counted
-from garkcli.exact.nodes import Expression, Literal
-from garkcli.methodfile.coefficient_schema import Schema, closed
-from garkcli.methodfile.constructed.multirate_makers import (
-    COUPLINGS,
-    SLOWEST_FIRST,
-    Make,
-    given,
-    named,
-    of_mis,
-    of_mri,
+from garkcli.constructions.multirate import (
+    Blocks,
+    Coupling,
+    by_blocks,
+    by_rule,
+    mis_coupling,
+    mri,
+    slowest_first,
 )
-from garkcli.methodfile.constructed.parts import METHOD, PartReader, tolerance_of
-from garkcli.methodfile.description import ConstructionText, PartText, Structure
+from garkcli.errors import MethodError, counted
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.nodes import Literal
+from garkcli.methodfile.coefficients import MATRIX, ROW
+from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
+from garkcli.methodfile.description import ConstructionText, Make, PartText
+from garkcli.methodfile.grammar import (
+    Found,
+    Key,
+    Kind,
+    as_it_is,
+    count,
+    either,
+    list_of,
+    mapping,
+    word,
+)
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
-from garkcli.methodfile.source import Entries
+from garkcli.methodfile.values import Values
+from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Tableau
+from garkcli.transfer import RULES
 
-_KEYS = ("fast", "steps", "slow", "coupling", "mis", "mri")
 _FORM = "write for instance {mis: kutta, fast: rk4, steps: 4}"
 _FORM_OF_MRI = "write {c: [0, 1/2, 1], gamma: [[[1/2, 0], [0, 1/2]]]}"
 _FORM_OF_COUPLING = "write slowest-first, collocation, or "
@@ -33,178 +50,244 @@ MAX_STEPS = 400
 """Most small steps."""
 MAX_POWERS = 12
 """Most matrices of one slow part, one for each power of τ."""
+SLOWEST_FIRST = "slowest-first"
 _BLOCKS = ("fast-slow", "slow-fast")
 _NAMES = ("lambda", "M")
 """Which small step it is, from 1, and how many there are, in coupling matrices."""
+TableauOf: TypeAlias = Callable[[PartText], Tableau]
+
+_SMALL_STEPS = Kind(MATRIX.schema, as_it_is)
+_COUPLING = mapping(
+    Key(
+        "fast-slow: [[(lambda - 1)/M]]",
+        _SMALL_STEPS,
+        "How the fast stages of small step lambda see the slow slopes; entries may use lambda "
+        "and M.",
+        is_needed=True,
+    ),
+    Key(
+        "slow-fast: [[0]]",
+        _SMALL_STEPS,
+        "How the slow stages see the fast slopes of small step lambda; entries may use lambda "
+        "and M.",
+        is_needed=True,
+    ),
+    form=_FORM_OF_COUPLING,
+)
 
 
-def read(parts: PartReader, node: Node, _: Structure) -> ConstructionText | None:
+def _powers(key: str) -> Kind:
+    """A matrix for each power of τ."""
+    return list_of(MATRIX, "matrices", MAX_POWERS, f"{key}, matrix {{}}", _FORM_OF_MRI)
+
+
+_MRI = mapping(
+    Key(
+        "c: [0, 1/3, 2/3, 1]",
+        ROW,
+        "The nodes that the slow stages go through, from 0 to 1.",
+        is_needed=True,
+    ),
+    Key(
+        "gamma: [[[1/3], [-1/3, 2/3], [0, -2/3, 1]]]",
+        _powers("gamma"),
+        "The coefficients of the implicit slow part, or of the only one: a matrix for each power.",
+    ),
+    Key(
+        "omega: [[[1/3], [-1/3, 2/3], [0, -2/3, 1]]]",
+        _powers("omega"),
+        "The coefficients of the explicit slow part beside an implicit one.",
+    ),
+    form=_FORM_OF_MRI,
+    rules={"anyOf": [{"required": ["gamma"]}, {"required": ["omega"]}]},
+)
+_KEYS = mapping(
+    Key("fast: rk4", METHOD, "The method of the fast part, of one colour.", is_needed=True),
+    Key(
+        "steps: 4", count(1, MAX_STEPS), "How many small steps the fast part takes.", is_needed=True
+    ),
+    Key("slow: kutta", METHOD, "The method of the slow part, of one colour."),
+    Key(
+        "coupling: slowest-first",
+        either(word(lambda: (SLOWEST_FIRST, *RULES)), at_mapping=_COUPLING),
+        "How the slow and the fast part see each other: slowest-first, a transfer rule for all "
+        "small steps as one method, or the matrices of each small step.",
+        SLOWEST_FIRST,
+    ),
+    Key(
+        "mis: {A: [[], [1/3], [-3/16, 15/16]], b: [1/6, 3/10, 8/15]}",
+        METHOD,
+        "The slow method of multirate infinitesimal steps with a constant forcing: between two "
+        "stages the fast problem is solved by small steps.",
+    ),
+    Key(
+        "mri: {c: [0, 1], gamma: [[[1]]]}",
+        _MRI,
+        "Multirate infinitesimal steps whose forcing has polynomials in time.",
+    ),
+    form=_FORM,
+    rules={"oneOf": [{"required": [key]} for key in ("slow", "mis", "mri")]},
+)
+
+
+@dataclass(frozen=True)
+class Infinitesimal:
+    """What makes a multirate infinitesimal method.
+
+    Attributes:
+        fast: the fast method.
+        coupling: of the slow stages, from what gives tableaus and values.
+        steps: small ones, between two slow stages.
+    """
+
+    fast: PartText
+    coupling: Callable[[TableauOf, Values], Coupling]
+    steps: int
+
+    def __call__(self, tableau_of: TableauOf, values: Values) -> Tableau:
+        """The method."""
+        fast = _method(tableau_of, self.fast, "fast")
+        return mri(self.coupling(tableau_of, values), fast, self.steps)
+
+
+def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
+    tableau = tableau_of(part)
+    message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
+    return one_field(tableau, message + "where one of one vector field is expected")
+
+
+def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     """The methods, and how they are coupled."""
-    before = len(parts.source.faults)
-    entries = parts.source.mapping(node, "multirate", _KEYS, form=_FORM)
-    if not isinstance(node, MappingNode):
+    before = len(at.source.faults)
+    found: Found | None = _KEYS.read(at, node, where)
+    if found is None:
         return None
-    made = _Multirate(parts, node).read(entries)
-    return None if len(parts.source.faults) > before else made
-
-
-class _Multirate:
-    """One multirate method as it is read."""
-
-    def __init__(self, reader: PartReader, node: Node) -> None:
-        self.reader = reader
-        self.source = reader.source
-        self.numbers = reader.numbers
-        self.node = node
-
-    def read(self, entries: Entries) -> ConstructionText | None:
-        """The whole; None where something is missing or faulty."""
-        fast = self._part(entries, "fast")
-        steps = self._steps(entries)
-        ways = [key for key in ("slow", "mis", "mri") if key in entries]
-        if len(ways) != 1:
-            message = "multirate: the slow method is missing"
-            if ways:
-                message = f"multirate: the slow part is given by {ways[0]} already"
-            self.source.fault(entries[ways[1]] if ways else self.node, message, _FORM)
-            return None
-        if "coupling" in entries and ways[0] != "slow":
-            message = f"multirate: coupling does not go with {ways[0]}"
-            self.source.fault(entries["coupling"], message, "leave it out")
-        if ways[0] == "mri":
-            return self._mri(entries["mri"], fast, steps)
-        slow = self._part(entries, ways[0])
-        if fast is None or slow is None or steps is None:
-            return None
-        if ways[0] == "mis":
-            return self._text([fast, slow], (), of_mis(steps))
-        return self._coupled(entries, fast, slow, steps)
-
-    def _part(self, entries: Entries, key: str) -> PartText | None:
-        if key in entries:
-            return self.reader.method(entries[key], f"multirate, {key}")
-        self.source.fault(self.node, f"multirate: {key} missing", _FORM)
+    way = found.way(at.source, where, "the slow part is", ("slow", "mis", "mri"))
+    if way is None and not found.nodes.keys() & {"slow", "mis", "mri"}:
+        at.source.fault(node, f"{where}: the slow method is missing", _FORM)
+    elif way != "slow" and "coupling" in found.nodes:
+        message = f"{where}: coupling does not go with {way}"
+        at.source.fault(found.nodes["coupling"], message, "leave it out")
+    if way == "mri" and "mri" in found and not found["mri"].nodes.keys() & {"gamma", "omega"}:
+        at.source.fault(found.nodes["mri"], f"{where}, mri: gamma missing", _FORM_OF_MRI)
+    if len(at.source.faults) > before:
         return None
+    make: Make
+    if way == "slow":
+        make = _coupled(at, found)
+    elif way == "mis":
+        make = Infinitesimal(
+            found["fast"],
+            lambda tableau_of, _: mis_coupling(_method(tableau_of, found["mis"], "mis")),
+            found["steps"],
+        )
+    else:
+        make = Infinitesimal(found["fast"], _polynomials(at, found["mri"]), found["steps"])
+    return None if len(at.source.faults) > before else at.made(node, make)
 
-    def _steps(self, entries: Entries) -> int | None:
-        if "steps" in entries:
-            where = "multirate, steps"
-            return self.source.whole(entries["steps"], where, 1, MAX_STEPS)
-        self.source.fault(self.node, "multirate: steps missing", _FORM)
-        return None
 
-    def _text(self, parts: Sequence[PartText], numbers: Row, make: Make) -> ConstructionText:
-        tolerance = tolerance_of(parts)
-        return ConstructionText(self.node, tuple(parts), numbers, make, tolerance)
+def _coupled(at: PartReader, found: Found) -> Make:
+    """Two methods with a coupling by name, or by matrices."""
+    coupling = found.get("coupling", SLOWEST_FIRST)
+    steps: int = found["steps"]
+    matrices: list[list[Rows]] = []
+    if isinstance(coupling, Found):
+        matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in _BLOCKS]
 
-    def _coupled(
-        self, entries: Entries, fast: PartText, slow: PartText, steps: int
-    ) -> ConstructionText | None:
-        """Two methods with a coupling by name, or by matrices."""
-        parts = [fast, slow]
-        node = entries.get("coupling")
-        if node is None:
-            return self._text(parts, (), named(SLOWEST_FIRST, steps))
-        if isinstance(node, ScalarNode):
-            where = "multirate, coupling"
-            word = self.source.choice(node, where, COUPLINGS)
-            if word is None:
-                return None
-            return self._text(parts, (), named(word, steps))
-        where = "multirate, coupling"
-        found = self.source.mapping(node, where, _BLOCKS, form=_FORM_OF_COUPLING)
-        for key in _BLOCKS:
-            if key not in found and isinstance(node, MappingNode):
-                self.source.fault(node, f"{where}: {key} missing", _FORM_OF_COUPLING)
-                return None
-        if not found:
-            return None
-        blocks = [self._small_steps(found[key], key, steps) for key in _BLOCKS]
-        if not all(blocks):
-            return None
-        every = [x for block in blocks for rows in block for row in rows for x in row]
-        return self._text(parts, tuple(every), given(blocks))
+    def made(tableau_of: TableauOf, values: Values) -> Tableau:
+        fast, slow = (_method(tableau_of, found[key], key) for key in ("fast", "slow"))
+        if coupling == SLOWEST_FIRST:
+            return slowest_first(slow, fast, steps)
+        if isinstance(coupling, str):
+            return by_rule(slow, fast, steps, RULES[coupling])
+        of_fast, of_slow = (tuple(map(values.matrix, every)) for every in matrices)
+        _check_shape("fast-slow", of_fast[0], fast, slow)
+        _check_shape("slow-fast", of_slow[0], slow, fast)
+        return by_blocks(slow, fast, Blocks(of_fast, of_slow))
 
-    def _small_steps(self, node: Node, key: str, steps: int) -> list[Rows]:
-        """A coupling matrix for each small step; its entries may use their number."""
-        before = len(self.source.faults)
-        found: list[Rows] = []
-        for step in range(1, steps + 1):
-            with _Defined(self.numbers, (step, steps)):
-                rows = self.numbers.matrix(node, key)
-            if len(self.source.faults) > before or not rows:
-                return []
-            self.numbers.rectangular(rows, node, key)
-            found.append(rows)
-        return found
+    return made
 
-    def _mri(self, node: Node, fast: PartText | None, steps: int | None) -> ConstructionText | None:
-        """Nodes, and matrices for the powers of τ."""
-        where = "multirate, mri"
-        keys = ("c", "gamma", "omega")
-        entries = self.source.mapping(node, where, keys, form=_FORM_OF_MRI)
-        has_matrices = entries.keys() & {"gamma", "omega"}
-        if "c" not in entries or not has_matrices:
-            if isinstance(node, MappingNode):
-                message = f"{where}: c and gamma are needed"
-                self.source.fault(node, message, _FORM_OF_MRI)
-            return None
-        c = self.numbers.row(entries["c"], "c")
-        given_powers = [key for key in ("omega", "gamma") if key in entries]
-        count = len(c)
-        every = [self._powers(entries[x], x, count) for x in given_powers]
-        if fast is None or steps is None or not c or not all(every):
-            return None
-        numbers = list(c)
-        for matrices in every:
-            for rows in matrices:
-                numbers += [x for row in rows for x in row]
-        shapes = [len(matrices) for matrices in every]
-        return self._text([fast], tuple(numbers), of_mri(len(c), shapes, steps))
 
-    def _powers(self, node: Node, key: str, count: int) -> list[Rows]:
-        """A matrix for each power of τ, with a row from each node to the next and a column a
-        node.
-        """
-        items = self.source.items(node, key, _FORM_OF_MRI)
-        if len(items) > MAX_POWERS:
-            message = f"{key}: {len(items)} matrices (limit {MAX_POWERS})"
-            self.source.fault(node, message)
-            return []
-        if not items and isinstance(node, SequenceNode):
-            message = f"{key}: no matrices"
-            self.source.fault(node, message, _FORM_OF_MRI)
-        found: list[Rows] = []
-        for k, item in enumerate(items):
-            name = f"{key}^{k}"
-            rows = self.numbers.matrix(item, name)
-            whole = self._whole(rows, item, name, count) if rows else ()
-            if not whole:
-                return []
-            found.append(whole)
-        return found
+def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None:
+    """Refuse a coupling matrix of another shape than its methods.
 
-    def _whole(self, rows: Rows, node: Node, name: str, count: int) -> Rows:
-        """The matrix with a row less than nodes; what is left out at the right is zero, and a first
-        row of zeros, that of the beginning, may stand before the others.
-        """
-        if len(rows) == count and not any(map(_is_nonzero, rows[0])):
-            rows = rows[1:]
-        width = max(map(len, rows))
-        if len(rows) != count - 1 or width > count:
-            found = f"{len(rows)} by {width}"
-            message = f"{name} is {found} for {counted(count, 'node')}"
-            cure = "give a row from each node to the next, a column a node"
-            self.source.fault(node, message, cure)
-            return ()
-        whole: list[Row] = []
-        for i, row in enumerate(rows, start=1):
-            missing = count - len(row)
-            nothing = Literal(fmpq(0))
-            zero = Entry(nothing, node, f"{name}, row {i}")
-            self.numbers.entries += [zero] * bool(missing)
-            whole.append(row + (zero,) * missing)
-        return tuple(whole)
+    Raises:
+        MethodError: that is the case.
+    """
+    rows, columns = seeing.stages, seen.stages
+    if len(matrix) == rows and len(matrix[0]) == columns:
+        return
+    found = f"{len(matrix)} by {len(matrix[0])}"
+    message = f"{key} is {found} and should be {rows} by {columns}"
+    cure = "give a row for each stage that sees, a column for each seen"
+    raise MethodError(message, cure)
+
+
+def _small_steps(at: PartReader, node: Node, key: str, steps: int) -> Iterator[Rows]:
+    """A coupling matrix for each small step; its entries may use their number."""
+    before = len(at.source.faults)
+    for step in range(1, steps + 1):
+        with _defined(at.numbers, (step, steps)):
+            rows = at.numbers.matrix(node, key)
+        at.numbers.rectangular(rows, node, key)
+        if len(at.source.faults) > before:
+            return
+        yield rows
+
+
+@contextmanager
+def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
+    """While it is open, ``lambda`` and ``M`` are numbers."""
+    before = {name: numbers.parameters.get(name) for name in _NAMES}
+    for name, number in zip(_NAMES, values, strict=True):
+        numbers.define(name, Literal(fmpq(number)))
+    yield
+    for name, value in before.items():
+        if value is None:
+            numbers.forget(name)
+        else:
+            numbers.define(name, value)
+
+
+def _polynomials(at: PartReader, found: Found) -> Callable[[TableauOf, Values], Coupling]:
+    """Polynomial couplings between nodes, of the explicit part before the implicit one."""
+    c: Row = found["c"]
+    parts = [
+        [
+            _whole(at, rows, item, f"{key}, matrix {k}", len(c))
+            for k, (rows, item) in _each(found, key)
+        ]
+        for key in ("omega", "gamma")
+        if key in found
+    ]
+
+    def coupling(_: TableauOf, values: Values) -> Coupling:
+        matrices = tuple(tuple(map(values.matrix, part)) for part in parts)
+        return Coupling(values.vector(c), matrices)
+
+    return coupling
+
+
+def _each(found: Found, key: str) -> Iterator[tuple[int, tuple[Rows, Node]]]:
+    """The matrices under a key, numbered, and where each stands."""
+    node = found.nodes[key]
+    assert isinstance(node, SequenceNode)
+    return enumerate(zip(found[key], node.value, strict=True), start=1)
+
+
+def _whole(at: PartReader, rows: Rows, node: Node, name: str, count: int) -> Rows:
+    """The matrix with a row less than nodes and a column a node; what is left out at the right is
+    zero, and a first row of zeros, that of the beginning, may stand before the others.
+    """
+    if len(rows) == count and not any(map(_is_nonzero, rows[0])):
+        rows = rows[1:]
+    width = max(map(len, rows), default=0)
+    if len(rows) != count - 1 or width > count:
+        message = f"{name} is {len(rows)} by {width} for {counted(count, 'node')}"
+        cure = "give a row from each node to the next, a column a node"
+        at.source.fault(node, message, cure)
+    zero = at.numbers.written("0", node, name)
+    return tuple(row + (zero,) * (count - len(row)) for row in rows)
 
 
 def _is_nonzero(entry: Entry) -> bool:
@@ -212,51 +295,4 @@ def _is_nonzero(entry: Entry) -> bool:
     return not (isinstance(expression, Literal) and not expression.value)
 
 
-class _Defined:
-    """While it is open, ``lambda`` and ``M`` are numbers."""
-
-    def __init__(self, numbers: Numbers, values: tuple[int, int]) -> None:
-        self.numbers = numbers
-        self.values = values
-        self.before: dict[str, Expression | None] = {}
-
-    def __enter__(self) -> None:
-        for name, value in zip(_NAMES, self.values, strict=True):
-            self.before[name] = self.numbers.parameters.get(name)
-            self.numbers.define(name, Literal(fmpq(value)))
-
-    def __exit__(self, *_: object) -> None:
-        for name, value in self.before.items():
-            if value is None:
-                self.numbers.forget(name)
-            else:
-                self.numbers.define(name, value)
-
-
-def schema() -> Schema:
-    """Methods and couplings."""
-    row: Schema = {"$ref": "#/definitions/row"}
-    matrix: Schema = {"$ref": "#/definitions/matrix"}
-    powers = {"type": "array", "items": matrix, "minItems": 1}
-    blocks = closed(dict.fromkeys(_BLOCKS, matrix), *_BLOCKS)
-    infinitesimal = {
-        **closed({"c": row, "gamma": powers, "omega": powers}, "c"),
-        "anyOf": [{"required": ["gamma"]}, {"required": ["omega"]}],
-    }
-    ways = [{"required": [key]} for key in ("slow", "mis", "mri")]
-    return {
-        **closed(
-            {
-                "fast": METHOD,
-                "steps": {"type": "integer", "minimum": 1, "maximum": MAX_STEPS},
-                "slow": METHOD,
-                "coupling": {"anyOf": [{"enum": list(COUPLINGS)}, blocks]},
-                "mis": METHOD,
-                "mri": infinitesimal,
-            },
-            "fast",
-            "steps",
-        ),
-        "oneOf": ways,
-        "description": "Small steps of a fast method within one step of a slow one.",
-    }
+KIND = Kind(_KEYS.schema, _read, _KEYS.inside)

@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.errors import MethodFileError
+from garkcli.errors import MethodError, MethodFileError
 from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.build import families_of, nodes_to_spell_out
-from garkcli.methodfile.coefficient_schema import Schema
-from garkcli.methodfile.description import Description, PartText
-from garkcli.methodfile.numbers import Entry, Numbers
+from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
+from garkcli.methodfile.grammar import defined
+from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Source
+from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Tableau
 
 _FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
 _NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"
 AT_POINTS = "its substeps cannot be spelled out"
-METHOD: Schema = {"$ref": "#/definitions/part"}
-"""A method inside of a construction, in the JSON Schema."""
+METHOD = defined("part", lambda at, node, where: at.method(node, where))
+"""A method inside of a construction."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ Written: TypeAlias = Callable[[Node, str], Description | None]
 
 
 class PartReader:
-    """Reads what constructions of one file are made from.
+    """Reads what one construction is made from.
 
     Args:
         source: the file, where faults are noted.
@@ -52,6 +54,10 @@ class PartReader:
         written: what reads methods that are spelled out.
         opened: what reads methods of the catalogue.
         tolerance: the rounding that the file states; None where it states none.
+        structure: which vector fields the problem has.
+
+    Attributes:
+        parts: the methods that were read.
     """
 
     def __init__(
@@ -60,11 +66,14 @@ class PartReader:
         numbers: Numbers,
         written: Written,
         opened: Open,
-        tolerance: fmpq | None = None,
+        tolerance: fmpq | None,
+        structure: Structure,
     ) -> None:
         self.source = source
         self.numbers = numbers
         self.tolerance = tolerance
+        self.structure = structure
+        self.parts: list[PartText] = []
         self._written = written
         self._open = opened
 
@@ -82,7 +91,9 @@ class PartReader:
         description = self._written(node, where)
         if description is None:
             return None
-        return _part(self.source, self.numbers, description, why)
+        part = _part(self.source, self.numbers, description, why)
+        self.parts.append(part)
+        return part
 
     def _named(self, node: ScalarNode, where: str, why: str) -> PartText | None:
         """A single method of a family, or one of the catalogue."""
@@ -99,7 +110,7 @@ class PartReader:
             mapping.start_mark = node.start_mark
             return self.method(mapping, where, why)
         try:
-            return self._of_catalogue(name, why)
+            part = self._of_catalogue(name, why)
         except MethodFileError as error:
             first = error.faults[0]
             message = f"{where}: {first.message}"
@@ -107,6 +118,8 @@ class PartReader:
                 message = f"{where}: {name}: {first.message}"
             self.source.fault(node, message, first.help)
             return None
+        self.parts.append(part)
+        return part
 
     def _refused(self, node: Node, where: str, name: str) -> bool:
         """Note what is no name: nothing at all, or a file."""
@@ -137,16 +150,21 @@ class PartReader:
         self.numbers.entries += opened.numbers.entries
         return part
 
-    def number(self, node: Node, where: str) -> Entry:
-        """A coefficient of the construction."""
-        return self.numbers.entry(node, where)
+    def made(self, node: Node, make: Make, rounding: fmpq | None = None) -> ConstructionText:
+        """What is made from the methods that were read.
 
-    def truth(self, node: Node | None, where: str) -> bool | None:
-        """True or false; None where nothing stands there, or a fault was noted."""
-        if node is None:
-            return None
-        word = self.source.choice(node, where, ("true", "false"))
-        return None if word is None else word == "true"
+        Args:
+            node: where it stands.
+            make: what makes it.
+            rounding: of its own numbers.
+        """
+        parts = tuple(self.parts)
+        return ConstructionText(node, parts, make, self.rounding(rounding))
+
+    def rounding(self, *others: fmpq | None) -> fmpq | None:
+        """That of what is made from the parts: the largest; None where all are exact."""
+        found = [x for x in (*(part.tolerance for part in self.parts), *others) if x is not None]
+        return max(found, default=None)
 
 
 def _part(source: Source, numbers: Numbers, description: Description, why: str) -> PartText:
@@ -155,8 +173,13 @@ def _part(source: Source, numbers: Numbers, description: Description, why: str) 
     return PartText(source, description, families, nodes)
 
 
-def tolerance_of(parts: Iterable[PartText | None], *others: fmpq | None) -> fmpq | None:
-    """The rounding of what is made from parts: the largest of theirs; None where all are exact."""
-    known = [part.tolerance for part in parts if part is not None]
-    found = [x for x in (*known, *others) if x is not None]
-    return max(found, default=None)
+def one_field(tableau: Tableau, message: str) -> Method:
+    """The one colour of a method.
+
+    Raises:
+        MethodError: it has several.
+    """
+    block = tableau.block(0, 0)
+    if tableau.size != 1 or block is None:
+        raise MethodError(message, "give a method of one colour")
+    return Method("", tableau.space(0), block, tableau.colours[0].b)

@@ -1,0 +1,290 @@
+"""The keys of method files, and the JSON Schema (draft-07) of such files, for editors.
+
+The schema says what can be said about one value at a time. Sizes that have to fit each other, names
+of parameters and everything mathematical are for ``gark check``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from flint import fmpq
+from yaml.nodes import Node
+
+from garkcli.errors import LimitExceeded
+from garkcli.exact.expression import read_decimal
+from garkcli.glossary.key import Files
+from garkcli.glossary.key import Key as Entry
+from garkcli.methodfile.ark_prk import ARK, PRK
+from garkcli.methodfile.bibliography import ALIASES, REFERENCE
+from garkcli.methodfile.coefficients import DEFINITIONS, NUMBER
+from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, STRUCTURES
+from garkcli.methodfile.expectations import EXPECT
+from garkcli.methodfile.further import DENSE
+from garkcli.methodfile.grammar import (
+    FLAG,
+    TEXT,
+    VERSION,
+    Key,
+    Kind,
+    Schema,
+    count,
+    defined,
+    later,
+    mapping,
+    word,
+)
+from garkcli.methodfile.grammar import told as entries_of
+from garkcli.methodfile.members import FAMILY
+from garkcli.methodfile.parameters import PARAMETERS
+from garkcli.methodfile.spelled_out import BUTCHER, TABLEAU, TABLEAU_KEYS, rows_of
+from garkcli.methodfile.transfers import RULE, TRANSFER
+from garkcli.methodfile.words import shortened
+
+_PAGE = "docs/method-file.md#"
+_MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
+_PAPER = f"{_PAGE}methods-and-transfer-the-papers-construction"
+_DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
+
+
+def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
+    """A rational number between 0 and 1; no parameters, as it is no coefficient."""
+    text = at.source.scalar(node, where)
+    if text is None:
+        return None
+    try:
+        value = read_decimal(text) if _DECIMAL.fullmatch(text) else None
+    except LimitExceeded:
+        value = None
+    if value is not None and 0 < value < 1:
+        return value
+    message = f"{where}: a decimal number between 0 and 1 is expected, not {shortened(text)}"
+    at.source.fault(node, message, "for instance 1e-13")
+    return None
+
+
+def _methods() -> Schema:
+    method = defined("method").schema()
+    return {"anyOf": [rows_of(method), method]}
+
+
+def _inside_methods() -> Iterable[Key]:
+    return {key.name: key for key in (*BUTCHER.inside(), *FAMILY.inside())}.values()
+
+
+KEYS = {
+    key.name: key
+    for key in (
+        Key("gark: 1", VERSION, "The version of the format that a method file is written in.", 1),
+        Key(
+            "name: Heun's method",
+            TEXT,
+            "What people call the method. Without it reports call it by its file.",
+        ),
+        Key(
+            "aliases: [DOPRI5, RK45]",
+            ALIASES,
+            "What else the method is called: a list of texts, or one; without a / in them.",
+        ),
+        Key(
+            "description: for separable Hamiltonians",
+            TEXT,
+            "What the method is for, or where it is from, in words.",
+        ),
+        Key(
+            "reference: {authors: M. Kutta, title: Beitrag zur Integration, year: 1901}",
+            REFERENCE,
+            "Where the method was published: a text, or the fields of a publication.",
+            page=f"{_PAGE}reference-where-it-was-published",
+        ),
+        Key(
+            "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]",
+            Kind(_methods, inside=_inside_methods),
+            "The diagonal methods of the paper's construction, one a colour: families with their "
+            "stages, or Butcher tableaus. One method on its own needs no list.",
+            page=_PAPER,
+        ),
+        *TABLEAU_KEYS,
+        Key(
+            "transfer: collocation",
+            TRANSFER,
+            "How the off-diagonal blocks between the methods are made: one rule for all of them, "
+            "weights of several rules with the sum 1, or a default with exceptions.",
+            page=_PAPER,
+        ),
+        Key(
+            "tableau: {A: [[0, 0], [1/2, 0]], b: [0, 1]}",
+            TABLEAU,
+            "One Butcher tableau, or every block A^{l,m} of several colours spelled out.",
+            page=f"{_PAGE}tableau-every-block-spelled-out",
+        ),
+        Key(
+            "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}",
+            ARK,
+            "An additive method: colours that share their stage values, such as an IMEX pair.",
+            page=f"{_PAGE}ark-additive-rungekutta-shared-stages",
+        ),
+        Key(
+            "prk: {q: {A: [[0], [1]], b: [1]}, p: {A: [[1/2, 0]], b: [1/2, 1/2]}}",
+            PRK,
+            "A partitioned method: one tableau for the positions q, one for the momenta p.",
+            page=f"{_PAGE}prk-partitioned-rungekutta-written-as-the-paper-prints-the-rectangular-"
+            "method",
+        ),
+        Key(
+            "compose: {of: rk4, steps: [1/2, 1/2]}",
+            later("constructed.compose", "KIND"),
+            "Substeps of methods, one after the other, the first one first.",
+            page=_MADE,
+        ),
+        Key(
+            "adjoint: explicit-euler",
+            later("constructed.adjoint", "KIND"),
+            "The adjoint of a method: the inverse of its step with −h.",
+            page=_MADE,
+        ),
+        Key(
+            "extrapolate: {of: {family: gauss, stages: 1}, order: 6}",
+            later("constructed.extrapolate", "KIND"),
+            "Several numbers of equal substeps of a method, combined so that powers of h cancel.",
+            page=_MADE,
+        ),
+        Key(
+            "splitting: {a: [1/2, 1/2], b: [1]}",
+            later("constructed.splitting", "KIND"),
+            "The parts of a problem flow in turn, each by its exact flow or by a method.",
+            page=_MADE,
+        ),
+        Key(
+            "multirate: {slow: kutta, fast: kutta, steps: 4}",
+            later("constructed.multirate", "KIND"),
+            "Small steps of a fast method within one step of a slow one; colour 1 is the fast "
+            "part.",
+            page=f"{_PAGE}multirate-small-steps-of-one-method-within-one-of-another",
+        ),
+        Key(
+            "structure: separable",
+            word(lambda: STRUCTURES),
+            "Which vector fields the problem has: general ones, or Hamiltonians whose terms have "
+            "velocities or forces alone, so that fewer trees have conditions. It stands beside "
+            "methods, prk or splitting.",
+            "general",
+            page=f"{_PAGE}structure",
+        ),
+        Key(
+            "conjugate: true",
+            FLAG,
+            "Whether the method is the symplectic conjugate of what the rest of the file says.",
+            False,
+            page=f"{_PAGE}conjugate",
+        ),
+        Key(
+            "linear: [1]",
+            Kind(lambda: {"type": "array", "items": count(1).schema()}),
+            "Colours whose vector field is linear: their vertices have one branch at most.",
+        ),
+        Key(
+            "unknown: {stages: 3, shape: sdirk}",
+            later("shaped", "UNKNOWN"),
+            "A tableau of unknowns, by its stages and its shape, for gark design.",
+            page="docs/design.md",
+        ),
+        Key(
+            "design: {order: 3, l-stable: true}",
+            later("wishes", "DESIGN"),
+            "What gark design looks for, for all colours or for those that are named.",
+            page="docs/design.md",
+        ),
+        Key(
+            "parameters: {tau: 1/2, gamma: free}",
+            PARAMETERS,
+            "Names that coefficients are written with, each with a value, which may use the names "
+            "before it; or free, for gark design, gark sweep and --set.",
+        ),
+        Key(
+            "tolerance: 1e-13",
+            Kind(NUMBER.schema, _tolerance),
+            "How far each coefficient may be off; zeros are exact. A condition is met when its "
+            "residual is no larger than rounding every coefficient by this can make it.",
+            page=f"{_PAGE}rounded-coefficients",
+        ),
+        Key(
+            'expect: {order: 4, pair-order: ">= 2"}',
+            EXPECT,
+            "Claims that gark check confirms; gark claims FILE --write puts the true ones there.",
+            page=f"{_PAGE}expect",
+        ),
+    )
+}
+"""The keys of a method file by name, in the order of the documentation."""
+KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
+"""The keys of a method, wherever it stands."""
+
+
+def _schema(keys: Iterable[str], forms: Iterable[str]) -> Callable[[], Schema]:
+    rules = {"oneOf": [{"required": [form]} for form in forms], "allOf": _what_goes_together()}
+    return mapping(*(KEYS[key] for key in keys), rules=rules).schema
+
+
+def method_file_schema() -> Schema:
+    """The JSON Schema of method files, as plain data, with what each key means.
+
+    >>> method_file_schema()["title"]
+    'gark method file'
+    """
+    name: Schema = {
+        "type": "string",
+        "description": "A single method of a family, or a name of the catalogue.",
+    }
+    written = _schema(KEYS_OF_METHOD, (*FORMS, "A"))
+    whole = _schema(KEYS, (*FORMS, "unknown"))()
+    plain = {"required": ["A", "b"]}
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark method file",
+        "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
+        **whole,
+        "oneOf": [*whole["oneOf"], plain],
+        "definitions": {
+            **DEFINITIONS,
+            "dense": DENSE.schema(),
+            "butcher": BUTCHER.schema(),
+            "method": {"oneOf": [FAMILY.schema(), defined("butcher").schema()]},
+            "part": {"anyOf": [name, FAMILY.schema(), written()]},
+            "rule": RULE.schema(),
+        },
+    }
+
+
+def _what_goes_together() -> list[Schema]:
+    """Keys that need or exclude another, and values that do."""
+    several = {"methods": {"type": "array", "minItems": 2}}
+    not_general = {"structure": {"not": {"const": "general"}}}
+    of_two_parts = [{"required": [form]} for form in ("methods", "prk", "unknown", "splitting")]
+    one_hamiltonian = {"structure": {"not": {"const": "semi-separable"}}}
+    return [
+        _goes_with("transfer", {"required": ["methods"]}),
+        _goes_with("linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}),
+        _goes_with("unknown", {"not": {"required": ["parameters"]}}),
+        *(_goes_with(key, {"required": ["A"]}) for key in ("c", *BESIDE)),
+        {
+            "if": {"required": ["methods"], "properties": several},
+            "then": {"required": ["transfer"]},
+        },
+        {
+            "if": {"required": ["structure"], "properties": not_general},
+            "then": {"anyOf": of_two_parts},
+        },
+        _goes_with("prk", {"properties": one_hamiltonian}),
+    ]
+
+
+def _goes_with(key: str, form: Schema) -> Schema:
+    return {"if": {"required": [key]}, "then": form}
+
+
+def told(files: Files) -> Iterable[Entry]:
+    """What is told of the keys."""
+    return entries_of(KEYS.values(), files.page)

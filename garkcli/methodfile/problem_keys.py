@@ -1,0 +1,184 @@
+"""The keys of problem files, and their JSON Schema (draft-07), for editors.
+
+The schema says what can be said about one value at a time: which names formulas may have is for the
+loader.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from garkcli.exact.formula import RESERVED
+from garkcli.glossary.key import Files
+from garkcli.glossary.key import Key as Entry
+from garkcli.methodfile.grammar import (
+    TEXT,
+    VERSION,
+    Key,
+    Kind,
+    Schema,
+    by_name,
+    defined,
+    mapping,
+    one_or_more,
+)
+from garkcli.methodfile.grammar import told as entries_of
+from garkcli.problems.vectorfield import TIME
+
+FORMS = ("hamiltonian", "lagrangian", "rhs")
+"""The keys of which a file has one."""
+MAX_VARIABLES = 64
+"""Most degrees of freedom."""
+MAX_TERMS = 64
+"""Most terms."""
+MAX_INVARIANTS = 10
+"""Most invariants."""
+_CLASHING = {name.removeprefix("p") for name in RESERVED if name.startswith("p")}
+
+
+def _name_but(names: Iterable[str]) -> str:
+    """The pattern of a name that is none of ``names``."""
+    return f"^(?!({'|'.join(sorted(names))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
+
+
+def _names(pattern: str) -> Kind:
+    """One name, or a list of different ones."""
+    name = Kind(lambda: {"type": "string", "pattern": pattern})
+    return one_or_more(name, "variables", MAX_VARIABLES, True, {"uniqueItems": True})
+
+
+_NAME = _name_but(RESERVED)
+_SIGNS = r"^[-+*/^().,\sA-Za-z0-9_]+$"
+_FORMULA = defined("formula")
+_CONSTANT = defined("constant")
+_BY_NAME = by_name(_FORMULA)
+_TERMS = one_or_more(_FORMULA, "terms", MAX_TERMS, True)
+_SIDE = Kind(lambda: {"anyOf": [_FORMULA.schema(), _BY_NAME.schema()]})
+KEYS = {
+    key.name: key
+    for key in (
+        Key("gark: 1", VERSION, "The version of the format that a problem file is written in.", 1),
+        Key(
+            "name: Kepler",
+            TEXT,
+            "What people call the problem. Without it the problem is called like its file.",
+        ),
+        Key("description: an orbit of eccentricity 3/5", TEXT, "What the problem is, in words."),
+        Key(
+            "reference: E. Hairer, S. Nørsett, G. Wanner, section II.10",
+            TEXT,
+            "Where the problem is from, in words.",
+        ),
+        Key(
+            "variables: [x, y]",
+            _names(_NAME),
+            "The names of the positions, or of the unknowns of rhs. The momentum of x is called "
+            "px, its velocity vx. A name has letters, digits and _, at most 30 of them; there are "
+            "at most 64.",
+            is_needed=True,
+        ),
+        Key(
+            "hamiltonian: px**2/2 - cos(x)",
+            _TERMS,
+            "H in positions and momenta: a formula, or a list with one for each term, which are "
+            "the colours of the method. A file has one of hamiltonian, lagrangian and rhs.",
+            page="docs/problem-file.md#hamiltonian",
+        ),
+        Key(
+            "lagrangian: vx**2/2 + cos(x)",
+            _TERMS,
+            "L in positions and velocities: a formula, or a list with one for each term.",
+            page="docs/problem-file.md#lagrangian",
+        ),
+        Key(
+            "rhs: {x: y, y: -x}",
+            one_or_more(_SIDE, "terms", MAX_TERMS),
+            "The derivative of each variable by its name, a formula in variables and t; or a list "
+            "with such a mapping for each term.",
+            page="docs/problem-file.md#rhs",
+        ),
+        Key(
+            "initial: {x: 1, px: 0}",
+            by_name(_CONSTANT),
+            "The value of every variable at the start; of a Hamiltonian also of the momenta, of a "
+            "Lagrangian of velocities or momenta. It may be left out beside exact.",
+        ),
+        Key(
+            "exact: {x: cos(t), y: -sin(t)}",
+            _BY_NAME,
+            "The solution of rhs where it is known: a formula in t for each variable.",
+        ),
+        Key(
+            "parameters: {e: 3/5}",
+            by_name(_CONSTANT, propertyNames={"pattern": _NAME}),
+            "Names that formulas are written with, each with a value, which may use the names "
+            "before it.",
+        ),
+        Key(
+            "t_end: 5/2",
+            _CONSTANT,
+            "The final time of a convergence test: a positive rational number.",
+            2,
+        ),
+        Key(
+            "invariants: {angular momentum: x*py - y*px}",
+            by_name(_FORMULA, maxProperties=MAX_INVARIANTS),
+            "First integrals besides H, each a name and a formula: in positions and momenta, or "
+            "in the variables of rhs.",
+        ),
+    )
+}
+"""The keys of a problem file by name, in the order of the documentation."""
+
+
+def problem_file_schema() -> Schema:
+    """The JSON Schema of problem files, as plain data, with what each key means.
+
+    >>> problem_file_schema()["title"]
+    'gark problem file'
+    """
+    rules = {"oneOf": [_of_momenta("hamiltonian"), _of_momenta("lagrangian"), _of_rhs()]}
+    number: Schema = {"type": ["number", "string"], "pattern": _SIGNS}
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark problem file",
+        "description": "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
+        **mapping(*KEYS.values(), rules=rules).schema(),
+        "definitions": {
+            "formula": {"description": "A formula such as px**2/2 - cos(x).", **number},
+            "constant": {
+                "description": "A number: 2, 0.1, 2/5, sqrt(2), pi/3, with parameters.",
+                **number,
+            },
+        },
+    }
+
+
+def _of_momenta(form: str) -> Schema:
+    """What a file with a Hamiltonian or a Lagrangian has and has not."""
+    variables = _told_anew("variables", _names(_name_but({*RESERVED, *_CLASHING})))
+    return {"required": [form, "initial"], "properties": {"variables": variables, "exact": False}}
+
+
+def _of_rhs() -> Schema:
+    """What a file with right-hand sides has: a start, be it that of its solution."""
+    without_time = Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
+    return {
+        "required": ["rhs"],
+        "anyOf": [{"required": ["initial"]}, {"required": ["exact"]}],
+        "properties": {
+            "variables": _told_anew("variables", _names(_name_but({*RESERVED, TIME}))),
+            "parameters": _told_anew("parameters", without_time),
+        },
+    }
+
+
+def _told_anew(key: str, kind: Kind) -> Schema:
+    """A key with what it may have in some files."""
+    return replace(KEYS[key], kind=kind).schema()
+
+
+def told(files: Files) -> Iterable[Entry]:
+    """What is told of the keys."""
+    return entries_of(KEYS.values(), files.page)
