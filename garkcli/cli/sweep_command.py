@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output, declared
 from garkcli.doing import doing
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
-    from garkcli.report.sweep import SweepReport
     from garkcli.sweep.plan import Plan
     from garkcli.sweep.run import Progress
 
 
-@declared("sweep", ["text", "json", "jsonl", "csv"])
+@declared("sweep", [*FORMATS, "jsonl", "csv"])
 def command(
     spec: str,
     rows: str | None,
@@ -32,7 +32,7 @@ def command(
     see docs/sweep.md. Each criterion is decided exactly, as gark check and gark stability do. The
     rows are written one by one: a sweep that is ended at any moment goes on with --resume.
     """
-    from garkcli.report.sweep import SweepReport, refuse_parquet, write_parquet
+    from garkcli.report.sweep import REPORT, SweepReport, json_lines, refuse_parquet, write_parquet
     from garkcli.sweep.load import load_plan
     from garkcli.sweep.run import sweep
     from garkcli.sweep.store import RowStore
@@ -50,7 +50,12 @@ def command(
                 work.reach(last.before + last.done)
         report = SweepReport(spec, plan, store.rows, top)
     _tell(last, path, output)
-    output.write(_rendered(report, output))
+    if output.format == "jsonl":
+        output.write(json_lines(report))
+    else:
+        verbosity = max(output.verbosity, 0)  # what -q leaves out is on stderr
+        text = REPORT.render([report], output.format, output.paint, verbosity, width=output.width)
+        output.write(text)
     if parquet is not None:
         write_parquet(report, parquet)
     if plot is not None:
@@ -78,16 +83,3 @@ def _tell(progress: Progress, path: str, output: Output) -> None:
     output.note(f"{progress.done} rows added to {path}{before}")
     if output.verbosity > 0:
         output.note(f"processor time of the methods: {progress.seconds:.2f} s")
-
-
-def _rendered(report: SweepReport, output: Output) -> str:
-    from garkcli.report.sweep import render_csv, render_json, render_lines, render_text
-
-    match output.format:
-        case "json":
-            return render_json(report)
-        case "jsonl":
-            return render_lines(report)
-        case "csv":
-            return render_csv(report)
-    return render_text(report, output.width)

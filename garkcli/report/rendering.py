@@ -170,13 +170,7 @@ def _minimum(minimum: Minimum, format: str, name: str) -> str:
 def _sweep(report: SweepReport, format: str, _: str) -> str:
     from garkcli.report import sweep
 
-    if format == "text":
-        return sweep.render_text(report, WIDTH)
-    if format == "json":
-        return sweep.render_json(report)
-    if format == "csv":
-        return sweep.render_csv(report)
-    return sweep.render_lines(report)
+    return sweep.json_lines(report) if format == "jsonl" else sweep.REPORT.render([report], format)
 
 
 def _meanings(value: Any, format: str, name: str) -> str:
@@ -203,7 +197,7 @@ _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     ModifiedRun: (_modified_run, ("text", "json", "csv")),
     Design: (_design, FORMATS),
     Minimum: (_minimum, FORMATS),
-    SweepReport: (_sweep, ("text", "json", "jsonl", "csv")),
+    SweepReport: (_sweep, (*FORMATS, "jsonl", "csv")),
     Meaning: (_meanings, ("text", "json")),
     Audited: (_audited, (*AUDIT_FORMATS,)),
 }

@@ -42,7 +42,7 @@ REPORTS = {
     "list-exports": "garkcli.report.exports:exports_schema",
     "audit": "garkcli.report.audited:REPORT",
     "import": "garkcli.report.imported:import_report_schema",
-    "sweep": "garkcli.report.sweep:sweep_report_schema",
+    "sweep": "garkcli.report.sweep:REPORT",
 }
 """Where a report is declared, or the function is that makes its schema."""
 

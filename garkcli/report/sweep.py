@@ -1,30 +1,30 @@
-"""``gark sweep`` as text, JSON, JSON lines, CSV and Parquet."""
+"""``gark sweep``: the best methods, the front, and the rows as a table."""
 
 from __future__ import annotations
 
-import csv
 import io
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from textwrap import wrap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, counted
-from garkcli.page.json_text import to_json
-from garkcli.page.plain import printable
-from garkcli.page.schema import COUNT, FLAG, TEXT, Schema, array, published
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
 from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
-from garkcli.sweep.row import Row
+from garkcli.sweep.row import Row as Judged
+from garkcli.tell.facts import Kind, Level, Row, Section, table, told, via
+from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
+from garkcli.tell.report import Report
 
-SCHEMA = "gark/sweep/1"
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}
 """What is known of a find, as rows and as people have it."""
-FOUND = ("seed", "proof", "values")
-"""What tables have of finds beside the criteria."""
 
 
 @dataclass(frozen=True)
@@ -40,17 +40,17 @@ class SweepReport:
 
     source: str
     plan: Plan
-    rows: Mapping[str, Row]
+    rows: Mapping[str, Judged]
     top: int
 
     @property
-    def done(self) -> list[Row]:
+    def done(self) -> list[Judged]:
         """The rows of this sweep, in its order."""
         keys = (point.key for point in self.plan.points())
         return [self.rows[key] for key in keys if key in self.rows]
 
     @cached_property
-    def kept(self) -> list[Row]:
+    def kept(self) -> list[Judged]:
         """The rows that are kept, one of each method that was found several times."""
         return distinct(kept(self.done))
 
@@ -60,18 +60,18 @@ class SweepReport:
         return len(kept(self.done)) - len(self.kept)
 
     @property
-    def best(self) -> list[Row]:
+    def best(self) -> list[Judged]:
         """The kept rows, best first."""
         found = self.kept
         return best_first(found, self.plan.best) if self.plan.best else found
 
     @property
-    def front(self) -> list[Row]:
+    def front(self) -> list[Judged]:
         """The Pareto front."""
         return pareto_front(self.kept, self.plan.pareto)
 
     @property
-    def failed(self) -> list[Row]:
+    def failed(self) -> list[Judged]:
         """The rows of methods that could not be made."""
         return [row for row in self.done if "failure" in row]
 
@@ -79,132 +79,128 @@ class SweepReport:
         return f"<SweepReport {self.source}: {counted(len(self.done), 'row')}>"
 
 
-def render_text(report: SweepReport, width: int) -> str:
-    """The best methods and the front, for people."""
-    plan, best, failed = report.plan, report.best, report.failed
-    found = f"{counted(len(plan), 'method')}, {len(best)} kept"
-    if report.repeated:
-        found += f", {report.repeated} found again"
-    lines = [f"{printable(plan.name)}: {found}"]
-    if failed:
-        reason = printable(str(failed[0]["failure"]))
-        text = f"{len(failed)} cannot be made, the first: {reason}"
-        lines += wrap(text, width, initial_indent="  ", subsequent_indent="    ")
-    if best:
-        by = f", best by {', '.join(plan.best)}" if plan.best else ""
-        shown = best[: report.top]
-        of = f"{len(shown)} of them" if len(shown) < len(best) else "all of them"
-        lines += ["", f"  {of}{by}"]
-        lines += _entries(plan, shown, width)
-    if plan.pareto:
-        front = report.front
-        lines += ["", f"  Pareto front of {', '.join(plan.pareto)}: {len(front)}"]
-        lines += _entries(plan, front[: report.top], width)
-    return "\n".join(lines) + "\n"
+# for people
 
 
-def _entries(plan: Plan, rows: Sequence[Row], width: int) -> Iterator[str]:
-    for number, row in enumerate(rows, start=1):
-        head = f"{number:>5}  "
-        key = printable(str(row["key"]))
-        yield from wrap(key, width, initial_indent=head, subsequent_indent=" " * 9)
-        values = [f"{name} {_shown(row, name)}" for name in plan.criteria.columns]
-        lines = [", ".join(values)]
-        if "proof" in row:
-            word = WORDS[str(row["proof"])]
-            lines.insert(0, f"{word}: {_values(row)}")
-        for line in lines:
-            yield from wrap(
-                line,
-                width,
-                initial_indent=" " * 9,
-                subsequent_indent=" " * 9,
-                break_on_hyphens=False,
-            )
+def _answer(report: SweepReport, _: Plain) -> str:
+    """How many methods there are, and how many are kept."""
+    again = f", {report.repeated} found again" if report.repeated else ""
+    return f"{counted(len(report.plan), 'method')}, {len(report.best)} kept{again}"
 
 
-def _values(row: Row) -> str:
+def _failed_words(failed: Sequence[Judged], d: Plain) -> str:
+    return f"{len(failed)} cannot be made, the first: {d.prose(str(failed[0]['failure']))}"
+
+
+def _value_words(value: Value, d: Plain) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.6g}" if isinstance(value, float) else d.prose(str(value))
+
+
+def _values(row: Judged) -> str | None:
     """The values of the unknowns that were found."""
-    values = row["values"]
-    assert isinstance(values, dict)
+    values = row.get("values")
+    if not isinstance(values, dict):
+        return None
     return ", ".join(f"{name} = {value}" for name, value in values.items())
 
 
-def _shown(row: Row, name: str) -> str:
-    value = row.get(name)
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    return "-" if value is None else str(value)
+def _method(row: Judged) -> str:
+    """Which method it is, and what is known of a find."""
+    proof = f"; {WORDS[str(row['proof'])]}: {_values(row)}" if "proof" in row else ""
+    return f"{row['key']}{proof}"
 
 
-def render_json(report: SweepReport) -> str:
-    """The best methods and the front, for programs."""
-    plan = report.plan
-    data = {
-        "schema": SCHEMA,
-        "file": report.source,
-        "name": plan.name,
-        "methods": len(plan),
-        "kept": len(report.best),
-        "repeated": report.repeated,
-        "failed": len(report.failed),
-        "columns": list(plan.criteria.columns),
-        "best": report.best[: report.top],
-        "pareto": report.front if plan.pareto else [],
-    }
-    return to_json(data) + "\n"
+VALUE = Kind({"type": ["boolean", "number", "string", "null"]}, words=_value_words, absent="-")
 
 
-def render_lines(report: SweepReport) -> str:
+def _column(name: str) -> Row:
+    return Row(name, VALUE, lambda row: row.get(name), label=name)
+
+
+def _table(plan: Plan | None, label: str, get: Any, most: int = 10) -> Row:
+    """Methods, a line each: the criteria, and which method it is."""
+    criteria = [] if plan is None else [_column(name) for name in plan.criteria.columns]
+    of_row = via(lambda x: x[1], [*criteria, Row("method", TEXT, _method)])
+    kind = table(Section(Row("number", COUNT, lambda x: x[0]), *of_row), most, is_data=False)
+    return Row("lines", kind, lambda x: list(enumerate(get(x), start=1)), label=label)
+
+
+# for programs
+
+ROW: S.Schema = record(
+    key=S.TEXT,
+    spec=S.TEXT,
+    kept=S.FLAG,
+    method=S.TEXT,
+    parameters={"type": "object", "additionalProperties": S.TEXT},
+)
+ROW["properties"] |= {
+    "seed": S.COUNT,
+    "proof": {"enum": list(WORDS)},
+    "values": {"type": "object", "additionalProperties": S.TEXT},
+    **dict.fromkeys(columns(), VALUE.schema),
+}
+ROWS = Kind(S.array(ROW), lambda rows, _: list(rows))
+
+
+def section(report: SweepReport | None = None) -> Section:
+    """The rows that tell a sweep, by its criteria."""
+    plan = None if report is None else report.plan
+    by, front = ("", "") if plan is None else (", ".join(plan.best), ", ".join(plan.pareto))
+    most = 10 if report is None else report.top
+    return Section(
+        Row("file", TEXT, lambda x: x.source, DATA),
+        Row("name", TEXT, lambda x: x.plan.name, DATA),
+        Row("answer", told(_answer), lambda x: x, HEADLINE, label=""),
+        Row("methods", COUNT, lambda x: len(x.plan), DATA),
+        Row("kept", COUNT, lambda x: len(x.best), DATA),
+        Row("repeated", COUNT, level=DATA),
+        Row("failed", COUNT, lambda x: len(x.failed), DATA),
+        Row("failures", told(_failed_words), lambda x: x.failed, label="failed"),
+        Row("columns", TEXTS, lambda x: list(x.plan.criteria.columns), DATA),
+        Row("best", ROWS, lambda x: x.best[: x.top], DATA),
+        _table(plan, f"best by {by}" if by else "best", lambda x: x.best, most),
+        Row("pareto", ROWS, lambda x: x.front if x.plan.pareto else [], DATA),
+        _table(
+            plan,
+            f"Pareto front of {front}" if front else "pareto",
+            lambda x: x.front if x.plan.pareto else [],
+            most,
+        ),
+        title=lambda x, d: d.prose(x.plan.name),
+    )
+
+
+def flat(plan: Plan) -> Section:
+    """A row without nesting: what CSV and Parquet have of it."""
+
+    def setting(name: str) -> Row:
+        return Row(name, TEXT, lambda row: row["parameters"].get(name))
+
+    found = [_column("seed"), _column("proof"), Row("values", TEXT, _values)]
+    return Section(
+        Row("key", TEXT, lambda row: row["key"]),
+        Row("method", TEXT, lambda row: row["method"]),
+        *map(setting, plan.grids),
+        *(found if plan.has_searches else []),
+        *map(_column, plan.criteria.columns),
+    )
+
+
+def _lines(report: SweepReport) -> tuple[Section, Iterable[Judged]]:
+    return flat(report.plan), report.best
+
+
+REPORT: Report[SweepReport] = Report(
+    "gark/sweep/1", "report of gark sweep", lambda: [section()], section, key="", lines=_lines
+)
+
+
+def json_lines(report: SweepReport) -> str:
     """The kept rows as JSON lines, best first."""
     return "".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in report.best)
-
-
-def render_csv(report: SweepReport) -> str:
-    """The kept rows, best first."""
-    out = io.StringIO()
-    names = _flat_names(report.plan)
-    writer = csv.DictWriter(out, names, lineterminator="\n")
-    writer.writeheader()
-    for row in report.best:
-        flat = _flat(report.plan, row)
-        writer.writerow({name: _cell(flat[name]) for name in names})
-    return out.getvalue()
-
-
-def _flat_names(plan: Plan) -> list[str]:
-    names = ["key", "method", *plan.grids]
-    if plan.has_searches:
-        names += FOUND
-    return [*names, *plan.criteria.columns]
-
-
-def _flat(plan: Plan, row: Row) -> dict[str, Value]:
-    """A row without nesting."""
-    settings = row["parameters"]
-    assert isinstance(settings, dict)
-    flat: dict[str, Value] = {"key": str(row["key"]), "method": str(row["method"])}
-    for name in plan.grids:
-        flat[name] = settings.get(name)
-    if plan.has_searches:
-        seed, proof = row.get("seed"), row.get("proof")
-        assert not isinstance(seed, dict)
-        assert not isinstance(proof, dict)
-        values = _values(row) if "values" in row else None
-        flat |= {"seed": seed, "proof": proof, "values": values}
-    for name in plan.criteria.columns:
-        value = row.get(name)
-        assert not isinstance(value, dict)
-        flat[name] = value
-    return flat
-
-
-def _cell(value: Value) -> object:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return "" if value is None else value
 
 
 def refuse_parquet(path: str) -> None:
@@ -236,12 +232,12 @@ def write_parquet(report: SweepReport, path: str) -> None:
 
     from garkcli.page.writing import write_whole
 
-    rows = [_flat(report.plan, row) for row in report.best]
-    table: dict[str, Any] = {}
-    for name in _flat_names(report.plan):
-        table[name] = _without_text(name, [row[name] for row in rows], report.plan)
+    found: dict[str, Any] = {}
+    for row in flat(report.plan).rows:
+        values = [row.fact(x).value for x in report.best]
+        found[row.key] = _without_text(row.key, values, report.plan)
     sink = io.BytesIO()
-    pq.write_table(pa.table(table), sink)
+    pq.write_table(pa.table(found), sink)
     write_whole(path, [sink.getvalue()])
 
 
@@ -250,51 +246,3 @@ def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
     if name not in plan.criteria.columns or "infinity" not in values:
         return values
     return [None if value is None else float(value) for value in values]
-
-
-_VALUE: Schema = {"type": ["boolean", "number", "string", "null"]}
-
-
-def sweep_report_schema() -> Schema:
-    """The JSON Schema of what ``gark sweep --format json`` writes."""
-    fields: dict[str, Schema] = {
-        "schema": {"const": SCHEMA},
-        "file": TEXT,
-        "name": TEXT,
-        "methods": COUNT,
-        "kept": COUNT,
-        "repeated": COUNT,
-        "failed": COUNT,
-        "columns": array(TEXT),
-        "best": array(_row_schema()),
-        "pareto": array(_row_schema()),
-    }
-    document = {
-        "type": "object",
-        "required": list(fields),
-        "properties": fields,
-        "additionalProperties": False,
-    }
-    return published("report of gark sweep", document)
-
-
-def _row_schema() -> Schema:
-    fields: dict[str, Schema] = {
-        "key": TEXT,
-        "spec": TEXT,
-        "kept": FLAG,
-        "method": TEXT,
-        "parameters": {"type": "object", "additionalProperties": TEXT},
-    }
-    found: dict[str, Schema] = {
-        "seed": COUNT,
-        "proof": {"enum": list(WORDS)},
-        "values": {"type": "object", "additionalProperties": TEXT},
-    }
-    criteria = dict.fromkeys(columns(), _VALUE)
-    return {
-        "type": "object",
-        "required": list(fields),
-        "properties": {**fields, **found, **criteria},
-        "additionalProperties": False,
-    }

@@ -69,7 +69,7 @@ RUNS = [
     (("modified", VERLET), ("text", "json", "latex")),
     (("certificate", VERLET), ("json",)),
     (("design", FREE), ("text", "json", "markdown", "latex")),
-    (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "jsonl", "csv")),
+    (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "markdown", "latex", "jsonl", "csv")),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),
 ]

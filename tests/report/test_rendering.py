@@ -97,7 +97,7 @@ def test_a_sweep_is_rendered(tmp_path: Path) -> None:
     spec.write_text(text, encoding="utf-8")
     rows = tmp_path / "spec.jsonl"
     report = garkcli.run_sweep(spec, rows)
-    for name in ("text", "json", "jsonl", "csv"):
+    for name in ("text", "json", "markdown", "latex", "jsonl", "csv"):
         command = ("sweep", str(spec), "--resume", "--format", name)
         assert render(report, name) == gark(*command).out
 

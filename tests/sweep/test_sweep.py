@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -298,6 +299,10 @@ def test_reports(spec: Path) -> None:
     text = gark("sweep", str(spec), "--resume").out
     assert f"small: 32 methods, {data['kept']} kept" in text
     assert max(map(len, text.splitlines())) <= 80
+    told = gark(*resumed, "markdown").out
+    assert "| number | order |" in told
+    assert re.search(r"… \d+ more with -v", told)
+    assert "more with -v" not in gark(*resumed, "markdown", "-v").out
 
 
 def test_the_plot(spec: Path) -> None:
