@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from garkcli.cli.options import Output, declared
+from garkcli.tell.report import FORMATS as TOLD
+
+FORMATS = ("json", *(x for x in TOLD if x != "json"))
+"""JSON is what others check."""
 
 
-@declared("certificate", ["json"])
+@declared("certificate", FORMATS)
 def command(file: str, settings: dict[str, str], output: Output) -> int:
     """What proves the orders of a method, to be checked without gark.
 
@@ -15,7 +19,7 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
     """
     from garkcli.check.proof import prove_method
     from garkcli.methodfile.load import load
-    from garkcli.report.proof_json import render
+    from garkcli.report.certificate import REPORT
 
-    output.write(render(prove_method(load(file, settings))))
+    output.tell(REPORT, [prove_method(load(file, settings))])
     return 0

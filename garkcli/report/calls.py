@@ -15,7 +15,8 @@ from garkcli.constructions.schemes.registry import SCHEMES
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.families.registry import FAMILIES
 from garkcli.problems.builtin import PROBLEMS
-from garkcli.report import citation, proof_json
+from garkcli.report import citation
+from garkcli.report.certificate import REPORT
 from garkcli.report.sweep import SweepReport
 from garkcli.sweep.load import load_plan
 from garkcli.sweep.run import sweep
@@ -65,7 +66,7 @@ def certificate(method: AnyMethod) -> str:
     >>> json.loads(certificate("heun"))["schema"]
     'gark/certificate/1'
     """
-    return proof_json.render(prove_method(method))
+    return REPORT.json([prove_method(method)])
 
 
 def run_sweep(

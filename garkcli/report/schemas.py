@@ -33,7 +33,7 @@ REPORTS = {
     "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",
     "converge": "garkcli.report.comparison:schema",
     "energy": "garkcli.report.energy_json:energy_report_schema",
-    "certificate": "garkcli.report.proof_json:certificate_schema",
+    "certificate": "garkcli.report.certificate:REPORT",
     "export": "garkcli.bridges.targets.json_data:export_schema",
     "list": "garkcli.report.listing:list_report_schema",
     "list-methods": "garkcli.report.catalogue_list:list_methods_schema",

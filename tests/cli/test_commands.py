@@ -67,7 +67,7 @@ RUNS = [
     (("convert", VERLET), ("yaml", "text", "json", "latex")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown", "latex")),
     (("modified", VERLET), ("text", "json", "latex")),
-    (("certificate", VERLET), ("json",)),
+    (("certificate", VERLET), ("json", "text", "markdown", "latex")),
     (("design", FREE), ("text", "json", "markdown", "latex")),
     (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "markdown", "latex", "jsonl", "csv")),
     (("schema",), ("json",)),

@@ -24,7 +24,7 @@ import garkcli
 from garkcli import find_order, load, loads
 from garkcli.check.deciding import analyse
 from garkcli.check.proof import prove_method
-from garkcli.report.proof_json import render
+from garkcli.report.certificate import REPORT
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "referee.py"
@@ -45,7 +45,7 @@ REFEREE = _referee()
 
 def certificate(text: str) -> dict[str, Any]:
     """The proof of a method file."""
-    data = json.loads(render(prove_method(loads(text))))
+    data = json.loads(REPORT.json([prove_method(loads(text))]))
     assert isinstance(data, dict)
     return data
 
@@ -83,7 +83,7 @@ def test_every_method_is_proved(
 ) -> None:
     """The orders that the referee proves are those of ``gark check``."""
     method = load(path)
-    data = json.loads(render(prove_method(method)))
+    data = json.loads(REPORT.json([prove_method(method)]))
     assert judged(data, tmp_path) == 0
     found = analyse(method.tableau)
     orders = [found.order, found.conjugate_order, found.pair_order]
@@ -108,7 +108,7 @@ def test_the_catalogue_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[s
         method = load(path)
         if method.tolerance is not None:
             continue
-        data = json.loads(render(prove_method(method)))
+        data = json.loads(REPORT.json([prove_method(method)]))
         assert judged(data, tmp_path) == 0, path.name
         assert ("conjugate" in data) == ("pair" in data) == ("no_conjugate" not in data)
         proved = re.findall(r"^  (\w+): order (?:at least )?(\d+)", capsys.readouterr().out, re.M)
@@ -453,6 +453,6 @@ def _additive(draw: st.DrawFn) -> str:
 def test_random_methods_are_proved(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     """Whatever the method is, the referee agrees with its order, conjugate and pair."""
     method = loads(text)
-    data = json.loads(render(prove_method(method)))
+    data = json.loads(REPORT.json([prove_method(method)]))
     assert data["method"]["order"] == find_order(method).order
     assert judged(data, tmp_path_factory.mktemp("proof")) == 0

@@ -350,3 +350,20 @@ def test_a_convergence_test_says_in_every_format_what_its_problem_may_hide(
     if format == "latex":
         tables = [line for line in text.splitlines() if line.count("&") < 2]
         assert list(latex_faults("\n".join(tables))) == []
+
+
+@pytest.mark.parametrize("format", ["text", "markdown", "latex"])
+def test_a_certificate_says_what_proves_each_order(format: str) -> None:
+    """How many trees prove an order, and that of the pair; these trees with -v. JSON is what it
+    is without an option.
+    """
+    data = json.loads(gark("certificate", "rk4").out)
+    counts = [
+        sum(len(trees) for by_colour in part["spanning"] for trees in by_colour)
+        for part in (data["method"], data["pair"])
+    ]
+    told = " ".join(gark("certificate", "rk4", "--format", format).out.split())
+    for label, count in zip(("order 4", "pair order [&|]? ?4"), counts, strict=True):
+        assert re.search(f"{label}, proved by {count} trees; order 5 fails", told)
+    whole = gark("certificate", "rk4", "-v", "--format", format).out.replace("\\_", "_")
+    assert "[[[[]_1]_2]_1]_2" in whole
