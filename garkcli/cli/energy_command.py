@@ -11,19 +11,20 @@ from garkcli.cli.options import Output, declared
 from garkcli.cli.plotting import save_plot
 from garkcli.cli.stepping import given_positive, tell_failure
 from garkcli.errors import GarkError
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.longtime.history import LongRun
-    from garkcli.report.energy_text import Claim
+    from garkcli.report.energy import Claim
 
 
 NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
 """Verdicts that do not meet ``--bounded``."""
 
 
-@declared("energy", ["text", "json", "csv"])
+@declared("energy", [*FORMATS, "csv"])
 def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The energy error over a long time, and that of every other invariant: does it drift?
 
@@ -42,8 +43,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     after each power of h: it has the order of the next one. Exit code 1 where it has a lower order.
     """
     from garkcli.methodfile.load import load
-    from garkcli.report import energy as report
-    from garkcli.report.energy_text import Report
+    from garkcli.report.energy import REPORT, EnergyReport
 
     wanted = Wanted(**options)
     check_wanted(wanted)
@@ -60,11 +60,9 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
         run = followed(method, problem, time, step, wanted)
         steps = symplecticity_of(method, run, wanted.symplecticity)
     except GarkError as error:
-        return tell_failure(error, name, report.render_failure, output)
+        return tell_failure(error, name, REPORT, output)
     claims = _claims(run, wanted.bounded, limit)
-    made = Report(method.name, run, steps, claims)
-    says_all = output.verbosity >= 0
-    output.write(report.render(made, output.format, output.paint, says_all))
+    output.tell(REPORT, [EnergyReport(method.name, run, steps, claims)])
     if wanted.plot is not None:
         from garkcli.plots.energy import energy_scene
 
@@ -97,7 +95,7 @@ def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...
     """What the options claim. What is undecided is not shown to be bounded."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
-    from garkcli.report.energy_text import Claim
+    from garkcli.report.energy import Claim
 
     claims = []
     if bounded:

@@ -35,7 +35,7 @@ def measure_modified(
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
     from garkcli.api.modified import modified_run
-    from garkcli.report.modified_energy import ModifiedEnergyReport, render, render_failure
+    from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
     for option, value in others.items():
         if value:
@@ -51,7 +51,6 @@ def measure_modified(
         solved = find_hamiltonian(problem, method.tableau, seed)
         run = modified_run(method, solved, order, t_end, longest)
     except GarkError as error:
-        return tell_failure(error, method.name, render_failure, output)
-    made = ModifiedEnergyReport(method.name, run)
-    output.write(render(made, output.format, output.paint))
+        return tell_failure(error, method.name, REPORT, output)
+    output.tell(REPORT, [ModifiedEnergyReport(method.name, run)])
     return 1 if run.is_refuted else 0

@@ -16,12 +16,13 @@ if TYPE_CHECKING:
 
     from garkcli.problems.oscillator import Oscillator
     from garkcli.tableau.tableau import Tableau
+    from garkcli.tell.report import Report
 
 DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
 
 
-def tell_failure(error: GarkError, name: str, report: Any, output: Output) -> int:
+def tell_failure(error: GarkError, name: str, report: Report[Any], output: Output) -> int:
     """Tell people why a run has no result, and programs in the report; and return the exit code: a
     step that fails has 1, everything else 2.
 
@@ -34,12 +35,8 @@ def tell_failure(error: GarkError, name: str, report: Any, output: Output) -> in
     from garkcli.report.failure import Failure
 
     complain(error)
-    failure = Failure(name, faults_of(error))
-    if callable(report):  # TEMP
-        if text := report(failure, output.format):
-            output.write(text)
-    elif output.format in ("json", "csv"):
-        output.tell(report, [failure])
+    if output.format in ("json", "csv"):
+        output.tell(report, [Failure(name, faults_of(error))])
     return failure_code(error)
 
 

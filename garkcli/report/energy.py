@@ -1,47 +1,499 @@
-"""``gark energy``: conserved quantities over a long time, as text, JSON or CSV."""
+"""``gark energy``: what becomes of conserved quantities over a long time."""
 
 from __future__ import annotations
 
-import csv
-import io
-from math import isnan
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isfinite, isnan
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
-from garkcli.longtime.history import LongRun
-from garkcli.page.paint import Paint
-from garkcli.page.plain import csv_cell
-from garkcli.report.energy_text import Report, text_of
-from garkcli.report.fault_json import Failure
+from garkcli.exact.display import to_decimal, to_float
+from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Verdict
+from garkcli.longtime.rounding import power_of_ten
+from garkcli.longtime.stability import Stability
+from garkcli.longtime.symplecticity import Symplecticity
+from garkcli.longtime.trend import LEAST, Shape
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.asciiplot import terminal_band
+from garkcli.page.figures import measured
+from garkcli.page.paint import counted
+from garkcli.problems.hamiltonian import FLOAT_DIGITS
+from garkcli.report.failure import FAILURE, Failure
+from garkcli.report.problem import STEPPED, WORDS
+from garkcli.tableau.garkmethod import derivation_of, word_for
+from garkcli.tell.facts import (
+    Answer,
+    Kind,
+    Level,
+    Row,
+    Section,
+    part,
+    parts,
+    picture,
+    rows_of,
+    table,
+    told,
+    via,
+)
+from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
+from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+MOST_QUANTITIES = 10
+"""Of a table in a terminal, usually."""
+FATES = {
+    "elliptic": "the energy error is bounded for all time",
+    "unstable": "the energy grows for ever",
+    "contractive": "the energy decays for ever",
+    "marginal": "energy is lost, but not all of it",
+}
+"""What becomes of the energy of the oscillator."""
+_NEARLY = 2.0
+"""How many times round-off an uncertainty is that is nothing but round-off."""
 
 
-def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:
-    """The report as text, JSON or CSV; see ``text_of``."""
-    if format == "json":
-        from garkcli.report.energy_json import json_of
+@dataclass(frozen=True)
+class Claim:
+    """What is claimed of a run, what was found, and whether the claim holds."""
 
-        return json_of(report)
-    if format == "csv":
-        return _csv(report.run)
-    return "\n".join(text_of(report, paint, is_long)) + "\n"
+    claim: str
+    found: str
+    holds: bool
 
 
-def render_failure(failure: Failure, format: str) -> str:
-    """A run that has no result, for programs: its errors, or a table without rows. People are told
-    elsewhere.
+@dataclass(frozen=True)
+class EnergyReport:
+    """A long run and what is said about it.
+
+    Attributes:
+        name: of the method.
+        run: what became of the conserved quantities.
+        symplecticity: of the steps; None where the problem is not Hamiltonian.
+        claims: that the command was given.
     """
-    if format == "json":
-        from garkcli.report.energy_json import json_of_failure
 
-        return json_of_failure(failure)
-    return "t\n" if format == "csv" else ""
+    name: str
+    run: LongRun
+    symplecticity: Symplecticity | None = None
+    claims: tuple[Claim, ...] = ()
 
 
-def _csv(run: LongRun) -> str:
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    names = [csv_cell(history.name.replace(" ", "_")) for history in run.invariants]
-    writer.writerow(["t", *(f"{name}_error" for name in names)])
-    columns = [history.errors for history in run.invariants]
-    for t, *errors in zip(run.times, *columns, strict=True):
-        # an invariant without a value has an empty cell
-        writer.writerow([repr(t), *("" if isnan(x) else repr(x) for x in errors)])
-    return stream.getvalue()
+class Quantity(NamedTuple):
+    """What became of one quantity, and the run."""
+
+    history: InvariantHistory
+    run: LongRun
+
+
+# verdicts
+
+
+def _word(history: InvariantHistory, d: Plain) -> str:
+    """The verdict."""
+    match history.verdict:
+        case "exact":
+            return d.good("conserved")
+        case "round-off":
+            return d.good("no error")
+        case "bounded":
+            return d.good("bounded")
+        case "unstable":
+            return d.bad("UNSTABLE")
+        case "undecided":
+            return d.note("undecided")
+    return d.bad("DRIFTS")
+
+
+def _because(history: InvariantHistory, run: LongRun) -> str:
+    """What a verdict rests on, and what decides an undecided run."""
+    match history.verdict:
+        case "exact":
+            return " by every step, exactly"
+        case "round-off":
+            return _round_off(history, run)
+        case "unstable":
+            return _unstable(history, run)
+        case "undecided":
+            return "; ".join([f": {_undecided(history, run)}", *_cure(history, run)])
+        case "bounded":
+            return _bounded(run)
+    return f": {_reason(history, run)}"
+
+
+def _verdicts(run: LongRun, d: Plain) -> list[tuple[str, str]]:
+    return [(d.prose(x.name), _word(x, d) + d.prose(_because(x, run))) for x in run.invariants]
+
+
+def _round_off(history: InvariantHistory, run: LongRun) -> str:
+    text = f" above round-off, at most {history.round_off:.0e} here"
+    if run.digits and run.digits <= 100:
+        text += f"; --digits {2 * run.digits} shows more"
+    return text
+
+
+def _unstable(history: InvariantHistory, run: LongRun) -> str:
+    if run.escaped is None:
+        return f": blown up after {run.steps} steps, at t = {run.end:g}"
+    time = to_float(run.escaped)
+    error = measured(history.errors[-1], history.round_off, 2)
+    return f": the orbit escapes after t = {time:g}, where the error is {error}"
+
+
+def _undecided(history: InvariantHistory, run: LongRun) -> str:
+    """Why."""
+    match history.doubt:
+        case "steps":
+            return f"fewer than {LEAST} steps"
+        case "turns":
+            return f"the motion turns back {counted(run.turns, 'time')} only"
+        case "rest":
+            return "the solution does not move"
+        case "value":
+            return f"it has no value at t = {history.no_value_at}"
+        case "round-off":
+            return "rounding may be as large as it is"
+        case "modulation":
+            slope = f"the slope is {_times(history)} times its uncertainty"
+            return f"{slope}; a slow modulation may do that"
+        case "symplectic":
+            direction = _direction(history)
+            return (
+                f"it {direction} throughout; for a symplectic method that is usually a slow "
+                "oscillation"
+            )
+        case "rounding":
+            return "drifts; rounding of the coefficients may be the cause"
+    return "it moves to another level; that may happen once, or again and again"
+
+
+def _cure(history: InvariantHistory, run: LongRun) -> list[str]:
+    """What decides an undecided run."""
+    match history.doubt:
+        case None:
+            return []
+        case "rest":
+            return ["start elsewhere"]
+        case "value":
+            return ["choose an invariant that has one all along, or an earlier --t-end"]
+        case "round-off":
+            return [f"--digits {2 * (run.digits or FLOAT_DIGITS)} can tell"]
+        case "rounding":
+            return ["coefficients with more digits can tell"]
+    if history.longer is None:
+        return ["a larger step, for a longer time, can tell"]
+    if history.doubt == "symplectic":
+        return [f"try --t-end {history.longer}"]
+    return [f"--t-end {history.longer} can tell"]
+
+
+def _bounded(run: LongRun) -> str:
+    if run.stability is not None and run.stability.fate == "elliptic":
+        return " for all time: det R(h) = 1 and |tr R(h)| < 2, decided exactly"
+    return ": no drift beyond its uncertainty"
+
+
+def _reason(history: InvariantHistory, run: LongRun) -> str:
+    if run.stability is not None:
+        fate = FATES[run.stability.fate]
+        difference = _determinant(run.stability)
+        return f"det R(h) − 1 = {difference}, {fate}"
+    if history.shape == "line":
+        times = _times(history)
+        return f"the slope is {times} times its uncertainty"
+    if history.shape == "curve":
+        # the fitted slope of what is no line may be nothing but rounding
+        return f"it {_direction(history)} all along, by more than it oscillates"
+    return "it moves to another level and stays there"
+
+
+def _direction(history: InvariantHistory) -> str:
+    """Where a trend goes: by its slope, or by its end where no line fits it."""
+    drift = history.drift or 0.0
+    went = drift if history.shape == "line" else history.errors[-1]
+    return "rises" if went > 0 else "falls"
+
+
+def _times(history: InvariantHistory) -> str:
+    """How many times its uncertainty the drift is, to one digit."""
+    drift = history.drift or 0.0
+    uncertainty = history.uncertainty or 1.0
+    times = abs(drift) / uncertainty
+    digit = float(f"{times:.1g}")
+    return f"{digit:g}"
+
+
+def _determinant(stability: Stability) -> str:
+    """Det R(h) − 1."""
+    if stability.is_symplectic:
+        return "0"
+    difference = stability.determinant - 1
+    return to_decimal(difference, 4)
+
+
+# numbers
+
+
+def _is_measured(history: InvariantHistory) -> bool:
+    return history.verdict != "exact" and history.doubt not in ("rest", "value")
+
+
+def _oscillates(history: InvariantHistory) -> bool:
+    is_noise = history.verdict in ("round-off", "unstable") or history.doubt == "round-off"
+    return _is_measured(history) and not is_noise
+
+
+def _largest(x: Quantity) -> str | None:
+    history = x.history
+    return measured(history.max_error, history.round_off) if _is_measured(history) else None
+
+
+def _oscillation(x: Quantity) -> str | None:
+    history = x.history
+    return (
+        f"± {measured(history.amplitude, history.round_off, 3)}" if _oscillates(history) else None
+    )
+
+
+def _drift_in_words(x: Quantity) -> str | None:
+    is_told = _oscillates(x.history) and x.history.drift is not None
+    return _drift(x.history, x.run) if is_told else None
+
+
+def _drift(history: InvariantHistory, run: LongRun) -> str:
+    """Per unit of time and in all; digits below the uncertainty say nothing."""
+    drift = history.drift or 0.0
+    uncertainty = history.uncertainty or 0.0
+    in_all = drift * run.end
+    uncertain_in_all = uncertainty * run.end
+    is_seen = abs(drift) > uncertainty
+    if run.stability is not None:
+        if run.stability.fate == "elliptic":
+            return "none, for all time"
+        if not is_seen:
+            return "not at one rate in this run"
+        rate = measured(drift, uncertainty, 3)
+        total = measured(in_all, uncertain_in_all, 3)
+        return f"{rate} per unit of time, {total} in all"
+    if not is_seen and (history.verdict == "drifts" or history.doubt in ("symplectic", "rounding")):
+        return "not at one rate in this run"
+    if is_seen:
+        rate = f"{drift:.2e} ± {uncertainty:.0e}"
+        return f"{rate} per unit of time, {in_all:.2e} in all"
+    if uncertain_in_all <= _NEARLY * history.round_off:
+        return f"none above round-off, at most {history.round_off:.0e} in all"
+    rate = f"{uncertainty:.0e} per unit of time"
+    return f"none within {rate}, {uncertain_in_all:.0e} in all"
+
+
+# symplecticity
+
+
+def _symplectic(report: EnergyReport) -> Iterator[str]:
+    found, stability = report.symplecticity, report.run.stability
+    if found is None:
+        return
+    whose = word_for(report.run.method)
+    coefficients = "its coefficients" if whose == "method" else f"the coefficients of the {whose}"
+    is_lost = stability is not None and not stability.is_symplectic
+    if found.is_proved:
+        yield f"yes, by {coefficients}"
+    elif is_lost or any(x.is_seen for x in found.defects):
+        yield "no"
+    elif stability is None and not found.defects:
+        yield f"not proved by {coefficients}; --symplecticity measures"
+    else:
+        yield f"not proved by {coefficients}"
+    if stability is not None:
+        ending = ", exactly" if stability.is_symplectic else ""
+        yield f"det R(h) − 1 = {_determinant(stability)}{ending}"
+    if not found.defects:
+        return
+    times = ", ".join(str(x.time) for x in found.defects)
+    largest = max(found.defects, key=lambda x: x.size)
+    if any(x.is_seen for x in found.defects):
+        good_to = power_of_ten(largest.error)
+        size = f"has entries up to {largest.size:.3e}, good to {good_to:.0e}"
+    else:
+        bound = power_of_ten(max(x.error for x in found.defects))
+        size = f"is below {bound:.0e}, what it is measured to"
+    yield f"MᵀJM − J {size}, at t = {times}"
+
+
+# the report
+
+
+def _steps(run: LongRun) -> str:
+    how = "exact" if run.digits is None else "in floats"
+    if run.digits is not None and run.digits > FLOAT_DIGITS:
+        how = f"{run.digits} digits"
+    return f"{run.steps} of {run.step}, {how}"
+
+
+def _answer(_: str, answer: Answer, d: Plain) -> str:
+    return ", ".join(f"{d.prose(x.name)} {_word(x, d)}" for x in answer.value.invariants)
+
+
+def _claims(claims: tuple[Claim, ...], d: Plain) -> list[tuple[str, str]]:
+    return [
+        (
+            d.good("claim holds") if x.holds else d.bad("CLAIM FAILS"),
+            d.prose(x.claim if x.holds else f"{x.claim}, found: {x.found}"),
+        )
+        for x in claims
+    ]
+
+
+def _drawn(report: EnergyReport) -> LongRun | None:
+    """The run, where its errors are more than noise, which is different on every machine."""
+    first = report.run.invariants[0]
+    return report.run if first.max_error > first.round_off else None
+
+
+def _plot(run: LongRun, _: Any) -> list[str]:
+    first = run.invariants[0]
+    label = "H(t) − H(0)" if run.energy else f"error of {first.name}"
+    # an invariant may have lost its value on the way
+    points = [(t, x) for t, x in zip(run.times, first.errors, strict=True) if isfinite(x)]
+    times, errors = zip(*points, strict=True)
+    return terminal_band(times, errors, label).splitlines()
+
+
+def _float(x: Any) -> float | None:
+    return None if x is None else to_float(x)
+
+
+SIZE, NUMBER = Kind(S.SIZE), Kind(S.NUMBER)
+QUANTITY = Section(
+    Row("name", TEXT, lambda x: x.history.name, label=""),
+    Row(
+        "initial",
+        Kind(S.NUMBER, words=lambda x, _: f"{x:.6g}"),
+        lambda x: x.history.initial,
+        label="at the start",
+    ),
+    Row("largest", WORDS, _largest, label="largest error"),
+    Row("oscillation_in_words", WORDS, _oscillation, label="oscillation"),
+    Row("drift_in_words", WORDS, _drift_in_words, label="drift"),
+    *(
+        Row(key, kind, get, DATA)
+        for key, kind, get in (
+            ("max_error", SIZE, lambda x: x.history.max_error),
+            ("drift", NUMBER, lambda x: x.history.drift),
+            ("drift_uncertainty", SIZE, lambda x: x.history.uncertainty),
+            (
+                "drift_in_all",
+                NUMBER,
+                lambda x: None if x.history.drift is None else x.history.drift * x.run.end,
+            ),
+            ("oscillation", SIZE, lambda x: x.history.amplitude),
+            ("round_off", SIZE, lambda x: x.history.round_off),
+            ("rounded_coefficients", SIZE, lambda x: x.history.coefficients),
+            ("verdict", choice(*get_args(Verdict)), lambda x: x.history.verdict),
+            ("trend", choice(*get_args(Shape)), lambda x: x.history.shape),
+            ("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
+            ("doubt", choice(*get_args(Doubt), None), lambda x: x.history.doubt),
+            ("no_value_at", SIZE, lambda x: _float(x.history.no_value_at)),
+        )
+    ),
+)
+RUN = [
+    Row("steps_in_words", WORDS, _steps, label="steps"),
+    *(
+        Row(key, kind, get, DATA, has_null=True)
+        if key in ("digits", "turns")
+        else Row(key, kind, get, DATA)
+        for key, kind, get in (
+            ("step", SIZE, lambda x: to_float(x.step)),
+            ("step_exact", EXACT, lambda x: x.step),
+            ("t_end", SIZE, lambda x: to_float(x.t_end)),
+            ("t_end_exact", EXACT, lambda x: x.t_end),
+            ("steps", COUNT, lambda x: x.steps),
+            ("digits", POSITION, lambda x: x.digits),
+            ("turns", COUNT, lambda x: None if x.digits is None else x.turns),
+            ("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None),
+            ("escaped_at", SIZE, lambda x: _float(x.escaped)),
+            ("drifts", TRUTH, lambda x: x.drifts),
+        )
+    ),
+    Row("answer", told(lambda _, d: "", _answer), lambda x: x, HEADLINE),
+    Row("verdicts", rows_of(_verdicts), lambda x: x),
+    Row(
+        "quantities",
+        table(QUANTITY, MOST_QUANTITIES),
+        lambda run: [Quantity(x, run) for x in run.invariants],
+        label="",
+    ),
+]
+DEFECT = Section(
+    Row("t", SIZE, lambda x: to_float(x.time)),
+    Row("size", SIZE),
+    Row("good_to", SIZE, lambda x: x.error),
+)
+SYMPLECTIC = Section(
+    Row("proved", TRUTH, lambda x: x.symplecticity.is_proved),
+    Row(
+        "determinant_minus_1",
+        TEXT,
+        lambda x: (
+            None if x.run.stability is None else to_decimal(x.run.stability.determinant - 1, 4)
+        ),
+        is_optional=True,
+    ),
+    Row("defects", parts(DEFECT), lambda x: x.symplecticity.defects),
+)
+CLAIM = Section(Row("claim", TEXT), Row("found", TEXT), Row("holds", TRUTH))
+FORMS = {
+    kind: Section(
+        Row("name", TEXT, level=DATA),
+        Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.run.method), DATA),
+        *via(lambda x: x.run, [*rows, *RUN]),
+        Row("symplectic_in_words", WORDS, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
+        Row("claims_in_words", rows_of(_claims), lambda x: x.claims),
+        Row("plot", picture(_plot), _drawn, DETAIL),
+        Row(
+            "symplectic",
+            part(SYMPLECTIC),
+            lambda x: None if x.symplecticity is None else x,
+            DATA,
+            has_null=True,
+        ),
+        Row("claims", parts(CLAIM), level=DATA),
+        title=lambda x, d: d.prose(x.name),
+    )
+    for kind, rows in STEPPED.items()
+}
+"""By the kind of the problem."""
+MOMENT = Section(
+    Row("t", SIZE, lambda x: x[0]),
+    Row(
+        "errors",
+        Kind(
+            {"type": "object"},
+            csv=lambda errors: {
+                f"{name.replace(' ', '_')}_error": "" if isnan(x) else repr(x)
+                for name, x in errors.items()
+            },
+        ),
+        lambda x: x[1],
+    ),
+)
+"""A time of a run with the errors of all quantities; empty where there is no value."""
+
+
+def _moments(report: EnergyReport) -> Iterator[tuple[float, dict[str, float]]]:
+    invariants = report.run.invariants
+    for k, t in enumerate(report.run.times):
+        yield t, {x.name: x.errors[k] for x in invariants}
+
+
+REPORT: Report[EnergyReport | Failure] = Report(
+    "gark/energy/1",
+    "report of gark energy",
+    lambda: (*FORMS.values(), FAILURE),
+    lambda x: FAILURE if isinstance(x, Failure) else FORMS[type(x.run.problem)],
+    key="",
+    lines=lambda x: (MOMENT, () if isinstance(x, Failure) else _moments(x)),
+)

@@ -85,10 +85,10 @@ def formula_latex(formula: ModifiedFormula) -> str:
 
 
 def modified_run_html(run: ModifiedRun) -> str:
-    """What ``gark energy --modified`` prints."""
-    from garkcli.report.modified_energy import ModifiedEnergyReport, text_of
+    """What ``gark energy --modified`` tells."""
+    from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
-    return preformatted(text_of(ModifiedEnergyReport("", run), _PLAIN))
+    return REPORT.html(ModifiedEnergyReport("", run))
 
 
 def preformatted(lines: Iterable[str]) -> str:

@@ -129,10 +129,9 @@ def _convergence(result: Convergence, format: str, name: str) -> str:
 
 
 def _long_run(run: LongRun, format: str, name: str) -> str:
-    from garkcli.report.energy import render as written
-    from garkcli.report.energy_text import Report
+    from garkcli.report.energy import REPORT, EnergyReport
 
-    return written(Report(_called(name, run.method), run, None), format, _PLAIN)
+    return REPORT.render([EnergyReport(_called(name, run.method), run)], format)
 
 
 def _comparison(found: Comparison, format: str, _: str) -> str:
@@ -149,10 +148,9 @@ def _backward(found: BackwardAnalysis, format: str, name: str) -> str:
 
 
 def _modified_run(run: ModifiedRun, format: str, name: str) -> str:
-    from garkcli.report.modified_energy import ModifiedEnergyReport
-    from garkcli.report.modified_energy import render as written
+    from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
-    return written(ModifiedEnergyReport(_called(name, run.method), run), format, _PLAIN)
+    return REPORT.render([ModifiedEnergyReport(_called(name, run.method), run)], format)
 
 
 def _design(design: Design, format: str, name: str, minimum: Minimum | None = None) -> str:
@@ -191,10 +189,10 @@ _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
     Analysis: (_analysis, FORMATS),
     Stability: (_stability, FORMATS),
     Convergence: (_convergence, (*FORMATS, "csv")),
-    LongRun: (_long_run, ("text", "json", "csv")),
+    LongRun: (_long_run, (*FORMATS, "csv")),
     Comparison: (_comparison, FORMATS),
     BackwardAnalysis: (_backward, ("text", "json", "latex")),
-    ModifiedRun: (_modified_run, ("text", "json", "csv")),
+    ModifiedRun: (_modified_run, (*FORMATS, "csv")),
     Design: (_design, FORMATS),
     Minimum: (_minimum, FORMATS),
     SweepReport: (_sweep, (*FORMATS, "jsonl", "csv")),

@@ -47,7 +47,7 @@ FEW = 4
 """So many of a list are named; the others are counted."""
 
 
-_NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9]|$|unknown$")
+_NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
 
 
 def _broken(text: str, width: int) -> Iterator[str]:

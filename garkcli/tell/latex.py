@@ -25,7 +25,8 @@ SIGNS = {
         "λ": r"\lambda", "π": r"\pi", "ρ": r"\rho", "τ": r"\tau", "−": "-", "²": "^2", "³": "^3",
         "ᵀ": r"^{\mathsf T}", "𝟙": r"\mathbf 1", "→": r"\to", "↔": r"\leftrightarrow",
         "Â": r"\hat A", "·": r"\cdot", "×": r"\times", "ẏ": r"\dot y", "…": r"\dots",
-        "β": r"\beta", "√": r"\surd", "<": "<", ">": ">",
+        "β": r"\beta", "½": r"\frac12", "±": r"\pm", "‖": r"\|", "∂": r"\partial", "Σ": r"\sum",
+        "¨": r"\ddot q", "√": r"\surd", "<": "<", ">": ">",
     }.items()},
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
     **{sign: f"\\{sign}" for sign in "&%#_{}$"},
@@ -50,7 +51,7 @@ class Latex(Plain):
     infinity = r"$\infty$"
 
     def prose(self, text: str) -> str:
-        return "".join(SIGNS.get(sign, sign) for sign in printable(text))
+        return "".join(SIGNS.get(sign, sign) for sign in printable(text).replace("q\u0308", "¨"))
 
     def good(self, text: str) -> str:
         return text

@@ -20,13 +20,12 @@ from garkcli.longtime.history import MAX_STEPS, InvariantHistory, LongRun, whole
 from garkcli.longtime.longtime import long_run, usual
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
-from garkcli.page.paint import Paint
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.problems.problem import quantities_function
 from garkcli.problems.vectorfield import symbols
-from garkcli.report.energy_text import Report, text_of
+from garkcli.report.energy import REPORT, EnergyReport
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, trajectory
@@ -270,7 +269,7 @@ def test_a_tolerance_makes_no_drift_bounded(source: str, digits: int) -> None:
         assert history.uncertainty is not None
         assert abs(history.drift) > 1000 * history.uncertainty
         assert (history.verdict, history.doubt, history.longer) == ("undecided", "rounding", None)
-    shown = " ".join(" ".join(text_of(Report("m", found, None), Paint())).split())
+    shown = " ".join(REPORT.render([EnergyReport("m", found)]).split())
     assert shown.count("undecided: drifts; rounding of the coefficients may be the cause") == 2
 
 
@@ -338,7 +337,7 @@ def test_an_invariant_without_a_value(invariant: str, digits: int, n: int) -> No
     assert (other.verdict, other.doubt) == ("undecided", "value")
     assert other.no_value_at == 1
     assert (other.drift, other.longer, found.steps) == (None, None, 20 * n)
-    shown = " ".join(" ".join(text_of(Report("m", found, None), Paint())).split())
+    shown = " ".join(REPORT.render([EnergyReport("m", found)]).split())
     assert "undecided: it has no value at t = 1;" in shown
 
 
@@ -486,7 +485,7 @@ def test_an_orbit_that_escapes_soon_is_unstable() -> None:
     assert never.escaped is None
     assert (never.energy.verdict, never.energy.shape) == ("drifts", "curve")
     assert never.energy.max_error > 1
-    shown = "\n".join(text_of(Report("Euler", never, None), Paint()))
+    shown = REPORT.render([EnergyReport("Euler", never)], verbosity=1)
     assert "it rises all along" in shown
     assert "not at one rate in this run" in shown
 

@@ -367,3 +367,25 @@ def test_a_certificate_says_what_proves_each_order(format: str) -> None:
         assert re.search(f"{label}, proved by {count} trees; order 5 fails", told)
     whole = gark("certificate", "rk4", "-v", "--format", format).out.replace("\\_", "_")
     assert "[[[[]_1]_2]_1]_2" in whole
+
+
+@pytest.mark.parametrize("format", ["markdown", "latex", "csv"])
+def test_long_runs_are_told_in_every_format(format: str) -> None:
+    """The verdict of the energy with its reason, and orders that are no more than bounds."""
+    run = gark("energy", "rk4", "--t-end", "100", "--format", format).out
+    assert ("DRIFTS: det R(h)" in run) == (format != "csv")
+    modified = gark(
+        *(
+            "energy",
+            "methods/stoermer-verlet.gark.yaml",
+            "--problem",
+            "pendulum",
+            "--modified",
+            "3",
+        ),
+        *("--t-end", "1", "--format", format),
+    ).out
+    assert (": orders agree for H, to h" in modified) == (format != "csv")
+    if format == "latex":
+        texts = [line for text in (run, modified) for line in text.splitlines()]
+        assert not list(latex_faults("\n".join(x for x in texts if x.count("&") < 2)))
