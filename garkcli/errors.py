@@ -287,6 +287,13 @@ class MethodFileError(GarkError):
 class HasFreeParameters(MethodFileError):
     """A family of methods where one method is expected; nothing else is wrong with the file."""
 
+    reading: Any = None
+    """What was read of the file: its family is made from that, where it is in this process."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        *made, state = super().__reduce__()
+        return (*made, {**state, "reading": None})
+
 
 EXCERPT_WIDTH = 72
 """Most columns that are shown of a line at fault."""

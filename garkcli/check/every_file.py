@@ -10,7 +10,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
 from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError
 from garkcli.methodfile.expectations import highest_order
-from garkcli.methodfile.family import loads_family
+from garkcli.methodfile.family import family_of
 
 MOST_PARAMETERS = 30
 """Free parameters of a file that is checked: with 27 it takes ten seconds, with 35 minutes."""
@@ -29,7 +29,7 @@ def check_every(
         settings: values of other parameters.
     """
     try:
-        family = loads_family(file.text, file.source, settings, is_design=False)
+        family = family_of(file, settings)
         count = len(family.parameters)
         if count > MOST_PARAMETERS:
             message = f"{count} free parameters (limit {MOST_PARAMETERS})"

@@ -15,8 +15,8 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.check.every_facts import Fact, Question, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
+from garkcli.design.stability_functions import characteristic_coefficients
 from garkcli.design.stable_values import Wanted, stable_values
-from garkcli.design.wants.r_infinity import characteristic_coefficients
 from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval, Point, where
 from garkcli.exact.field import ONE

@@ -139,7 +139,7 @@ def _choices() -> Iterator[Sense]:
     from garkcli.constructions.schemes.flows import SPLITTINGS
     from garkcli.constructions.schemes.registry import SCHEMES
     from garkcli.families.registry import FAMILIES
-    from garkcli.methodfile.shapes.registry import SHAPES, find_shape
+    from garkcli.methodfile.shapes import SHAPES
     from garkcli.problems.builtin import PROBLEMS
     from garkcli.transfer import SUMMARIES
 
@@ -150,7 +150,7 @@ def _choices() -> Iterator[Sense]:
         texts = {name: f"{sentence(x.summary)} Order {x.order}." for name, x in schemes.items()}
         sources = {name: x.reference for name, x in schemes.items()}
         yield _listed(f"scheme of {kind}", texts, sources)
-    shapes = {name: find_shape(name).summary for name in SHAPES}
+    shapes = {name: x.summary for name, x in SHAPES.items()}
     pages = dict.fromkeys(SHAPES, "docs/design.md")
     yield _listed("shape of unknown tableaus", shapes, pages)
     problems = {name: x.summary for name, x in PROBLEMS.items()}

@@ -9,7 +9,7 @@ from garkcli.cli.companion import companion
 from garkcli.cli.options import Output
 from garkcli.cli.rendering import refuse_partitioned, write_tableau
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem
-from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.methodfile.family import FamilyFile, family_of
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tableau.tableau import Tableau
 
@@ -22,7 +22,7 @@ def read_family(
     Raises:
         UsageProblem: it is not said for every value.
     """
-    file = loads_family(error.text, error.source, settings, is_design=False)
+    file = family_of(error, settings)
     try:
         return file, every_family(file)
     except MethodError as refusal:

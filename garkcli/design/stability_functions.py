@@ -12,8 +12,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.wants.r_infinity import characteristic_coefficients
 from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -148,3 +148,26 @@ def _squared(p: Coefficients) -> Coefficients:
             product = -a * b if is_negative else a * b
             squared[power] = squared[power] + product
     return tuple(squared)
+
+
+def characteristic_coefficients(A: Matrix) -> list[Any]:
+    """Those of det(I − zA) = Σ c_k z^k, by Faddeev's and Le Verrier's recursion."""
+    s = len(A)
+    stages = range(s)
+    coefficients: list[Any] = [fmpq(1)]
+    M: list[list[Any]] = [[ZERO] * s for _ in stages]
+    for k in range(1, s + 1):
+        for i in stages:
+            M[i][i] = M[i][i] + coefficients[-1]
+        M = [[_dot(A[i], [M[n][j] for n in stages]) for j in stages] for i in stages]
+        trace = sum((M[i][i] for i in stages), start=ZERO)
+        coefficients.append(-trace / fmpq(k))
+    return coefficients
+
+
+def _dot(row: Vector, column: list[Any]) -> Any:
+    total: Any = ZERO
+    for a, x in zip(row, column, strict=True):
+        if a and x:
+            total = total + a * x
+    return total

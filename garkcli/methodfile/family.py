@@ -8,8 +8,8 @@ from itertools import chain
 
 from flint import fmpq_mpoly
 
-from garkcli.design.wants.want import numerators, sign_polynomial
-from garkcli.errors import MethodError
+from garkcli.design.want import numerators, sign_polynomial
+from garkcli.errors import HasFreeParameters, MethodError
 from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.methodfile.description import ClaimText, Description, Structure, left_behind
 from garkcli.methodfile.family_values import FamilyValues
@@ -106,6 +106,22 @@ def loads_family(
     reader, description = _with_unknowns(text, source, settings)
     wishes = _wishes(reader) if is_design else Wishes()
     return _family(reader, description, wishes, settings, deadline)
+
+
+def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
+    """The family of a file that was read as a method; what it wants is passed over.
+
+    Args:
+        error: the refusal of the file.
+        settings: with which it was read.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+    """
+    if error.reading is None:  # the file was read in another process
+        return loads_family(error.text, error.source, settings, is_design=False)
+    reader, description = error.reading
+    return _family(reader, description, Wishes(), settings, None)
 
 
 def _family(

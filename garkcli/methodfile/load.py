@@ -85,7 +85,7 @@ def loads(
     """
     reader, description = described(text, source, settings)
     if reader.numbers.free:
-        raise _free(reader)
+        raise _free(reader, description)
     made = built(reader, description, Values)
     return MethodFile(
         source=source,
@@ -108,14 +108,15 @@ def loads(
     )
 
 
-def _free(reader: Reader) -> MethodFileError:
+def _free(reader: Reader, description: Description) -> MethodFileError:
     """The error of a family of methods, with whatever else is wrong with it."""
     is_faulty = bool(reader.source.faults)
-    refuse_free(reader.numbers)
-    error = reader.source.error()
+    error = reader.source.error_with(lambda: refuse_free(reader.numbers))
     if is_faulty:
         return error
-    return HasFreeParameters(error.source, error.faults, error.text)
+    free = HasFreeParameters(error.source, error.faults, error.text)
+    free.reading = reader, description
+    return free
 
 
 def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Reader, Description]:

@@ -22,8 +22,7 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.grammar import Found, Key, Kind, count, mapping, one_or_more, word
 from garkcli.methodfile.nodes import Extent, extent
 from garkcli.methodfile.numbers import Free, Numbers, Row, Rows
-from garkcli.methodfile.shapes.layout import Layout, Texts
-from garkcli.methodfile.shapes.registry import SHAPES, find_shape, layout_of
+from garkcli.methodfile.shapes import SHAPES, Layout, Texts, layout_of
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 
@@ -40,7 +39,7 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     return None
 
 
-_SHAPE = Kind(word(lambda: {x: find_shape(x).summary for x in SHAPES}).schema, _shape)
+_SHAPE = Kind(word(lambda: {name: x.summary for name, x in SHAPES.items()}).schema, _shape)
 UNKNOWN = mapping(
     Key(
         "stages: 3",

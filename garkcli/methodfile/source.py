@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -126,6 +126,14 @@ class Source:
             rest = Fault(more, "mend these first", last.line, last.column)
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
+
+    def error_with(self, note: Callable[[], None]) -> MethodFileError:
+        """What has been found, with what ``note`` notes, which is forgotten again."""
+        before = list(self._found)
+        note()
+        error = self.error()
+        self._found = before
+        return error
 
     def compose(self) -> MappingNode | None:
         """The root of the file; None, with faults noted, where there is no mapping."""

@@ -11,8 +11,7 @@ from typing import Any
 from yaml.nodes import MappingNode, Node
 
 from garkcli.deadline import until
-from garkcli.design.wants.registry import WANTS, find_want
-from garkcli.design.wants.want import Asked, Meaning, Want
+from garkcli.design.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
@@ -45,8 +44,9 @@ _VALUES = {
 
 def _wanted() -> Iterator[Key]:
     """The wants, each for all colours or for those that are named."""
-    for name in WANTS:
-        want = find_want(name)
+    from garkcli.design.wants import WANTS  # few files have them
+
+    for name, want in WANTS.items():
         value, example = _VALUES[want.kind]
         colours = by_name(value, propertyNames={"pattern": "^[1-9][0-9]*$"})
         schema = either(value, at_mapping=colours).schema
@@ -152,8 +152,8 @@ def read_wishes(at: Any, node: Node | None) -> Wishes:
     found: Found | None = None if node is None else DESIGN.read(at, node, "design")
     if found is None:
         return Wishes()
-    wishes = [wish for key in found if key in WANTS for wish in found[key]]
-    return Wishes(found.get("order"), tuple(found.get("fix", ())), tuple(wishes))
+    every = [found[key] for key in found if key not in {"order", "fix", "range"}]
+    return Wishes(found.get("order"), tuple(found.get("fix", ())), tuple(chain(*every)))
 
 
 def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:

@@ -14,7 +14,7 @@ from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.methodfile.family import loads_family, with_values
-from garkcli.methodfile.shapes.registry import SHAPES, find_shape, layout_of
+from garkcli.methodfile.shapes import SHAPES, layout_of
 from tests.cli.harness import gark
 
 
@@ -155,7 +155,7 @@ def test_shapes_do_what_they_say() -> None:
     assert explicit == (("0", "0"), ("c2", "0"))
     assert implicit == (("0", "0"), ("c2 - gamma", "gamma"))
     for name in SHAPES:
-        shape = find_shape(name)
+        shape = SHAPES[name]
         assert (shape.name, bool(shape.summary)) == (name, True)
 
 

@@ -10,7 +10,7 @@ from garkcli import find_order, loads, pair
 from garkcli.design.chosen import first_method
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
-from garkcli.design.wants.registry import WANTS, find_want
+from garkcli.design.wants import WANTS
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.order.simplifying import simplifying
@@ -190,7 +190,7 @@ def test_what_cannot_be_met(tmp_path: object) -> None:
 def test_every_want_has_a_file() -> None:
     """Each is found by its key and says what it is."""
     for key in WANTS:
-        want = find_want(key)
+        want = WANTS[key]
         assert (want.key, bool(want.summary)) == (key, True)
 
 

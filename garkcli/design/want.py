@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq_mpoly
 
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
@@ -104,7 +104,7 @@ class Want:
     meaning: Callable[[Asked], Meaning]
 
 
-def stability(asked: Asked, kind: str) -> Meaning:
+def stability(kind: str, asked: Asked) -> Meaning:
     """A kind of stability, of the whole method or of one colour; decided at each solution."""
     colour = None
     if len(asked.colours) < asked.tableau.size:
@@ -127,6 +127,3 @@ def sign_polynomial(function: object, ring: Parameters) -> fmpq_mpoly:
     """A polynomial with the sign of a rational function, wherever that has no pole."""
     numerator, denominator = fraction(function, ring)
     return numerator * denominator
-
-
-ZERO = fmpq(0)

@@ -1,0 +1,162 @@
+"""What may be wanted of a method besides its order."""
+
+from __future__ import annotations
+
+from functools import partial
+from itertools import chain
+from typing import Any, cast
+
+from flint import fmpq
+
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.stability_functions import characteristic_coefficients
+from garkcli.design.want import Asked, Meaning, Want, stability
+from garkcli.errors import MethodError
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.parametric import fraction
+from garkcli.order.defects import Defects
+from garkcli.tableau.conjugate import symplectic_defect
+from garkcli.tableau.family import Stability
+from garkcli.tableau.forms import pair
+
+
+def _pair_order(asked: Asked) -> Meaning:
+    conditions = FamilyConditions(pair(asked.tableau), asked.ring)
+    one = asked.ring.constant(fmpq(1))
+    zeros: list[object] = []
+    for k in range(1, cast("int", asked.value) + 1):
+        polynomials = [condition.polynomial for condition in conditions.of_order(k)]
+        zeros += [asked.ring.quotient(p, one) for p in polynomials]
+    return Meaning(tuple(zeros), conditions.denominators)
+
+
+def _symplectic(asked: Asked) -> Meaning:
+    """b_i^l a_ij^{l,m} + b_j^m a_ji^{m,l} − b_i^l b_j^m = 0.
+
+    J. M. Sanz-Serna, BIT 28, 1988; for several colours A. Sandu, M. Günther, SINUM 53, 2015.
+    """
+    tableau = asked.tableau
+    zeros: list[object] = []
+    if tableau.is_partitioned:
+        raise MethodError("design: symplectic is for methods without parts", "ask for the pair")
+    for l in asked.colours:
+        for m in asked.colours:
+            asked.diagonal(l, "symplectic")
+            asked.block(l, m, "symplectic")
+            asked.block(m, l, "symplectic")
+            zeros += chain.from_iterable(symplectic_defect(tableau, l, m))
+    return Meaning(tuple(zeros))
+
+
+def _stiffly_accurate(asked: Asked) -> Meaning:
+    """The last row of A^{l,l} is b^l."""
+    zeros = []
+    for l in asked.colours:
+        A, b = asked.diagonal(l, "stiffly-accurate")
+        zeros += [x - y for x, y in zip(A[-1], b, strict=True)]
+    return Meaning(tuple(zeros))
+
+
+def _r_infinity(asked: Asked) -> Meaning:
+    """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA); the denominator keeps the degree that it has for
+    almost all methods of the family. E. Hairer, G. Wanner, *Solving Ordinary Differential
+    Equations II*, sections IV.3 and IV.6.
+    """
+    zeros: list[Any] = []
+    nonzero = []
+    for l in asked.colours:
+        A, b = asked.diagonal(l, "R-infinity")
+        below = characteristic_coefficients(A)
+        above = characteristic_coefficients(_minus_rows(A, b))
+        degree = max(k for k, x in enumerate(below) if x)
+        if not degree:
+            raise MethodError(
+                "design: R-infinity: R(z) is a polynomial for every value",
+                "leave it out: explicit methods have no value at infinity",
+            )
+        value: Any = asked.value
+        zeros.append(above[degree] - value * below[degree])
+        zeros += above[degree + 1 :]
+        numerator, _ = fraction(below[degree], asked.ring)
+        if not numerator.is_constant():
+            nonzero.append(numerator)
+    return Meaning(tuple(zeros), tuple(nonzero))
+
+
+def _minus_rows(A: Matrix, b: Vector) -> Matrix:
+    return tuple(tuple(x - y for x, y in zip(row, b, strict=True)) for row in A)
+
+
+def _stage_order(asked: Asked) -> Meaning:
+    """Σ_i b_i^l (c_i^l)^{k−1} = 1/k, Σ_j a_ij^{l,m} (c_j^m)^{k−1} = (c_i^l)^k / k for k = 1, …, q.
+
+    With s stages C(s + 1) is C(q) for every q > s. Let M have the d ≤ s nodes of a colour as its
+    simple zeros: by C(d + 1) of the colour's own block ∫_0^x M vanishes at each node, as M does.
+    Double zeros are too many for the degree d + 1, but d = 1 and the node 0; then those of all
+    colours are, and C(k) reads 0 = 0 for k > 1. B(2s + 1) has no solution: Hilbert's matrix has an
+    inverse, and its entries would be sums of s powers.
+    """
+    tableau = asked.tableau
+    stages = max(len(tableau.colours[l].c) for l in asked.colours)
+    wanted = cast("int", asked.value)
+    highest = min(wanted, stages + 1)
+    defects = Defects(tableau)
+    zeros: list[object] = []
+    for l in asked.colours:
+        for k in range(1, min(wanted, 2 * stages + 1) + 1):
+            zeros += defects.B(l, k)
+        asked.diagonal(l, "stage-order")
+        for m in asked.colours:
+            asked.block(l, m, "stage-order")
+            for k in range(1, highest + 1):
+                zeros += defects.C(l, m, k)
+    return Meaning(tuple(zeros))
+
+
+def _consistent(asked: Asked) -> Meaning:
+    """A^{l,m} 𝟙 = c^l for every block of the colours l.
+
+    A. Sandu, M. Günther, *A generalized-structure approach to additive Runge–Kutta methods*, SINUM
+    53, 2015.
+    """
+    defects = Defects(asked.tableau)
+    edges = [(l, m) for l, m in asked.tableau.edges() if l in asked.colours]
+    return Meaning(tuple(x for l, m in edges for x in defects.C(l, m, 1)))
+
+
+def _positive_weights(asked: Asked) -> Meaning:
+    weights = [x for l in asked.colours for x in asked.tableau.colours[l].b]
+    return Meaning(positive=tuple(weights))
+
+
+def _nodes_in_unit_interval(asked: Asked) -> Meaning:
+    nodes = [x for l in asked.colours for x in asked.tableau.colours[l].c]
+    return Meaning(not_negative=(*nodes, *(1 - x for x in nodes)))
+
+
+def _p_stable(asked: Asked) -> Meaning:
+    """Decided at each solution, in its number field."""
+    if len(asked.colours) < asked.tableau.size:
+        raise MethodError("design: p-stable is meant of the whole method", "write p-stable: true")
+    return Meaning(stable=(Stability("p-stable"),))
+
+
+WANTS = {
+    want.key: want
+    for want in (
+        Want("pair-order", "count", "the symplectic pair has that order", _pair_order),
+        Want("symplectic", "flag", "the method is symplectic", _symplectic),
+        Want("stiffly-accurate", "flag", "the last row of A is b", _stiffly_accurate),
+        Want("R-infinity", "number", "the stability function at infinity", _r_infinity),
+        Want("stage-order", "count", "B(q) and C(q)", _stage_order),
+        Want("consistent", "flag", "the nodes are the row sums of every block", _consistent),
+        Want("positive-weights", "flag", "every weight is positive", _positive_weights),
+        Want("nodes-in-unit-interval", "flag", "every node is in [0, 1]", _nodes_in_unit_interval),
+        Want(
+            "a-stable", "flag", "|R(z)| ≤ 1 in the left half plane", partial(stability, "a-stable")
+        ),
+        Want("l-stable", "flag", "A-stable with R(∞) = 0", partial(stability, "l-stable")),
+        Want("p-stable", "flag", "bounded on the oscillator for every step size", _p_stable),
+    )
+}
+"""Every one of them by its key, in the order of the documentation."""

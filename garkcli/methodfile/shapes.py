@@ -1,0 +1,304 @@
+"""Shapes of tableaus of unknowns: as text, which each shape changes entry by entry."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+from typing import Literal, TypeAlias
+
+from garkcli.errors import MethodError
+
+Kind: TypeAlias = Literal["tableau", "ark", "prk"]
+TextRow: TypeAlias = tuple[str, ...]
+Texts: TypeAlias = tuple[TextRow, ...]
+ZERO = "0"
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_OWN = re.compile(r"[ae][0-9_]+")
+"""An entry of a matrix that is an unknown of its own."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A tableau whose entries are zeros, names of unknowns and sums of them.
+
+    Attributes:
+        kind: the form of method file that it is.
+        A: a matrix for each colour.
+        b: a row of weights for each colour; of an ark one for all.
+    """
+
+    kind: Kind
+    A: tuple[Texts, ...]
+    b: Texts
+
+    @property
+    def stages(self) -> int:
+        """How many stages it has."""
+        return len(self.b[0])
+
+    @property
+    def unknowns(self) -> tuple[str, ...]:
+        """The names in it, each once, row by row."""
+        names: dict[str, None] = {}
+        for rows in (*self.A, self.b):
+            for text in _entries(rows):
+                names |= dict.fromkeys(_NAME.findall(text))
+        return tuple(names)
+
+    def with_entries(self, entry: Callable[[int, int, str], str]) -> Layout:
+        """The layout with the entries of its last matrix changed.
+
+        Args:
+            entry: from a row and a column, counted from 0, and the text there to another.
+        """
+        *others, last = self.A
+        changed: list[TextRow] = []
+        for i, row in enumerate(last):
+            texts: list[str] = []
+            for j, text in enumerate(row):
+                texts.append(entry(i, j, text))
+            changed.append(tuple(texts))
+        return replace(self, A=(*others, tuple(changed)))
+
+    def with_weights(self, weights: Iterable[str]) -> Layout:
+        """The layout with other weights for all of its colours."""
+        row = tuple(weights)
+        return replace(self, b=(row,) * len(self.b))
+
+
+def _entries(rows: Texts) -> Iterator[str]:
+    """Every entry, row by row."""
+    return chain.from_iterable(rows)
+
+
+def full_layout(stages: int) -> Layout:
+    """Every entry an unknown of its own, named by its place."""
+    join = "" if stages < 10 else "_"
+    numbers = range(1, stages + 1)
+    rows: list[TextRow] = []
+    for i in numbers:
+        row = [f"a{join}{i}{join}{j}" for j in numbers]
+        rows.append(tuple(row))
+    weights = tuple(f"b{join}{i}" for i in numbers)
+    return Layout("tableau", (tuple(rows),), (weights,))
+
+
+def with_nodes(layout: Layout) -> Layout:
+    """The layout with the node c_i an unknown in place of the first entry of row i.
+
+    Where that entry is an unknown that stands nowhere else it is the node minus the rest of the
+    row: the same methods, and values for nodes are the ones people choose.
+    """
+    if layout.kind == "prk":
+        return layout
+    matrices = tuple(_with_nodes(rows, layout) for rows in layout.A)
+    return replace(layout, A=matrices)
+
+
+def _with_nodes(rows: Texts, layout: Layout) -> Texts:
+    everything = list(layout.b[0])
+    for block in layout.A:
+        everything += _entries(block)
+    join = "" if layout.stages < 10 else "_"
+    changed: list[TextRow] = []
+    for i, row in enumerate(rows, start=1):
+        first, *others = row
+        uses = [text for text in everything if first in _NAME.findall(text)]
+        if not _OWN.fullmatch(first) or len(uses) > 1:
+            changed.append(row)
+            continue
+        rest = [x for x in others if x != ZERO]
+        difference = " - ".join([f"c{join}{i}", *rest])
+        changed.append((difference, *others))
+    return tuple(changed)
+
+
+def _explicit(layout: Layout) -> Layout:
+    return layout.with_entries(lambda i, j, text: text if j < i else ZERO)
+
+
+def _dirk(layout: Layout) -> Layout:
+    return layout.with_entries(lambda i, j, text: text if j <= i else ZERO)
+
+
+def _sdirk(layout: Layout) -> Layout:
+    return _dirk(layout).with_entries(lambda i, j, text: "gamma" if i == j else text)
+
+
+def _esdirk(layout: Layout) -> Layout:
+    return _sdirk(layout).with_entries(lambda i, _, text: text if i else ZERO)
+
+
+def _symplectic_dirk(layout: Layout) -> Layout:
+    """J. M. Sanz-Serna, L. Abia, *Order conditions for canonical Runge-Kutta schemes*, 1991."""
+    weights = layout.b[0]
+
+    def entry(i: int, j: int, _: str) -> str:
+        if j > i:
+            return ZERO
+        return f"{weights[j]}/2" if i == j else weights[j]
+
+    return layout.with_entries(entry)
+
+
+def _imex(layout: Layout) -> Layout:
+    """Explicit entries are called e_ij; the nodes and the weights are shared."""
+    implicit = _esdirk(layout)
+    rows = _explicit(layout).A[0]
+    named = [tuple(f"e{text[1:]}" if text != ZERO else text for text in row) for row in rows]
+    # the nodes of the implicit part are those of the explicit one: e_i1 = c_i − the others
+    return Layout("ark", (tuple(named), implicit.A[0]), layout.b)
+
+
+def _lower(weights: tuple[str, ...], reach: int) -> Texts:
+    """Rows of weights up to the diagonal, or before it."""
+    stages = range(len(weights))
+    rows: list[TextRow] = []
+    for i in stages:
+        end = i + reach
+        zeros = (ZERO,) * (len(weights) - end)
+        rows.append((*weights[:end], *zeros))
+    return tuple(rows)
+
+
+def _splitting(layout: Layout) -> Layout:
+    join = "" if layout.stages < 10 else "_"
+    numbers = range(1, layout.stages + 1)
+    drifts = tuple(f"a{join}{i}" for i in numbers)
+    kicks = tuple(f"b{join}{i}" for i in numbers)
+    A = _lower(drifts, 1), _lower(kicks, 0)
+    return Layout("prk", A, (drifts, kicks))
+
+
+def _stiffly_accurate(layout: Layout) -> Layout:
+    if layout.kind == "prk":
+        raise MethodError("a partitioned shape is not stiffly accurate", "leave one of them out")
+    last = layout.A[-1][-1]
+    if last[-1] == ZERO:
+        raise MethodError(
+            "no explicit shape is stiffly accurate: its last weight would be zero",
+            "take dirk, sdirk, esdirk or full before it",
+        )
+    bottom = layout.stages - 1
+    # names of weights stay; what the shapes before it fixed in the last row fixes weights
+    weights = []
+    for a, b in zip(last, layout.b[0], strict=True):
+        weights.append(b if a.startswith("a") else a)
+
+    def entry(i: int, j: int, text: str) -> str:
+        return weights[j] if i == bottom else text
+
+    return layout.with_entries(entry).with_weights(weights)
+
+
+def _palindromic(layout: Layout) -> Layout:
+    """b_{s+1−i} = b_i and a_{s+1−i,s+1−j} = b_j − a_ij.
+
+    G. Wanner, *Runge-Kutta-methods with expansion in even powers of h*, Computing 11, 1973.
+    """
+    if layout.kind != "tableau" or "gamma" in layout.unknowns:
+        raise MethodError(
+            "palindromic goes with full, dirk and symplectic-dirk", "leave one of them out"
+        )
+    s = layout.stages
+    (weights,) = layout.b
+    (matrix,) = layout.A
+    mirrored: dict[str, str] = {}
+    for i in range(s // 2, s):
+        mirrored[weights[i]] = weights[s - 1 - i]
+
+    def name_of(found: re.Match[str]) -> str:
+        name = found[0]
+        return mirrored.get(name, name)
+
+    def renamed(text: str) -> str:
+        return re.sub(r"\w+", name_of, text)
+
+    b = tuple(map(renamed, weights))
+    rows = [[renamed(text) for text in row] for row in matrix]
+    for i in range(s):
+        for j in range(s):
+            _mirror(rows, b, i, j)
+    made: Texts = tuple(map(tuple, rows))
+    return replace(layout, A=(made,), b=(b,))
+
+
+def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
+    """Write the entry at the place opposite of (i, j), where that is an unknown of its own."""
+    last = len(b) - 1
+    k, l = last - i, last - j
+    entry, opposite = rows[i][j], rows[k][l]
+    if entry == ZERO and opposite == ZERO:
+        raise MethodError("no explicit shape is palindromic", "take full, dirk or symplectic-dirk")
+    if not opposite.startswith("a"):
+        return
+    weight = b[j]
+    if entry == ZERO:
+        rows[k][l] = weight
+    elif (i, j) == (k, l):
+        rows[k][l] = f"{weight}/2"
+    elif (i, j) < (k, l):
+        rows[k][l] = f"{weight} - {entry}"
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A shape of tableaus.
+
+    Attributes:
+        name: in method files.
+        summary: what it is.
+        applied: the layout with that shape.
+        begins: whether it says which colours there are, and so stands first.
+    """
+
+    name: str
+    summary: str
+    applied: Callable[[Layout], Layout]
+    begins: bool = False
+
+
+SHAPES = {
+    shape.name: shape
+    for shape in (
+        Shape("full", "every entry unknown", lambda layout: layout),
+        Shape("explicit", "zero on and above the diagonal", _explicit),
+        Shape("dirk", "zero above the diagonal", _dirk),
+        Shape("sdirk", "zero above the diagonal, gamma on it", _sdirk),
+        Shape("esdirk", "sdirk with a first row of zeros", _esdirk),
+        Shape(
+            "symplectic-dirk",
+            "a_ij = b_j below the diagonal, b_i/2 on it: midpoint rules with steps b_i h",
+            _symplectic_dirk,
+        ),
+        Shape(
+            "imex", "an explicit and an esdirk part with the same nodes and weights", _imex, True
+        ),
+        Shape(
+            "splitting", "a1 h of the first part, b1 h of the second, and so on", _splitting, True
+        ),
+        Shape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
+        Shape("palindromic", "the same method backwards", _palindromic),
+    )
+}
+"""Every shape by its name, in the order of the documentation."""
+
+
+def layout_of(stages: int, names: Sequence[str]) -> Layout:
+    """The tableau of unknowns that has some shapes, one applied after the other.
+
+    Raises:
+        MethodError: they do not go together.
+
+    >>> layout_of(2, ["sdirk"]).A
+    ((('gamma', '0'), ('c2 - gamma', 'gamma')),)
+    """
+    layout = full_layout(stages)
+    for place, name in enumerate(names):
+        shape = SHAPES[name]
+        if shape.begins and place:
+            raise MethodError(f"{name} stands after {names[0]}", f"begin with {name}")
+        layout = shape.applied(layout)
+    return with_nodes(layout)
