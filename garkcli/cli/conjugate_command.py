@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from garkcli.cli.options import Output, declared
+from garkcli.tell.report import FORMATS
 
 
-@declared("conjugate", ["text", "yaml", "json", "latex"])
+@declared("conjugate", (*FORMATS, "yaml"))
 def command(
     file: str,
     is_pair: bool,

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output, declared
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.conversion.convert import Converted
 
 
-@declared("convert", ["yaml", "text", "json", "latex"])
+@declared("convert", ("yaml", *FORMATS))
 def command(
     file: str, to: str, stages: int | None, settings: dict[str, str], output: Output
 ) -> int:

@@ -8,15 +8,13 @@ import click
 
 from garkcli.cli.list_methods import filter_options, list_methods, refuse_filters
 from garkcli.cli.options import Output, declared
+from garkcli.tell.report import FORMATS
 
 WHAT = ("methods", "exports")
 """What is listed, besides what method files and problems can name."""
 
 
-FORMATS = ("text", "json", "csv", "markdown")
-
-
-@declared("list", FORMATS, WHAT={"type": click.Choice(WHAT)}, options=filter_options())
+@declared("list", (*FORMATS, "csv"), WHAT={"type": click.Choice(WHAT)}, options=filter_options())
 def command(what: str | None, output: Output, **options: Any) -> int:
     """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
     methods, those of the catalogue, or exports, the targets of gark export.
@@ -28,18 +26,18 @@ def command(what: str | None, output: Output, **options: Any) -> int:
         return list_methods(options, output)
     refuse_filters(options, output.format)
     if what == "exports":
-        from garkcli.report.exports import render
+        from garkcli.bridges.registry import bridges
+        from garkcli.report.listing import EXPORTS
 
-        output.write(render(output.format, output.paint))
+        output.tell(EXPORTS, [bridges()])
         return 0
     from garkcli.constructions.schemes.flows import SPLITTINGS
     from garkcli.constructions.schemes.registry import SCHEMES
     from garkcli.families.registry import FAMILIES
     from garkcli.problems.builtin import PROBLEMS
-    from garkcli.report import listing
+    from garkcli.report.listing import REPORT, Lists
     from garkcli.transfer import SUMMARIES
 
     problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
-    lists = listing.Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, problems)
-    output.write(listing.render(lists, output.format, output.paint))
+    output.tell(REPORT, [Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, problems)])
     return 0

@@ -85,7 +85,7 @@ def refuse_filters(given: Mapping[str, object], format: str) -> None:
             name = "words" if key == "words" else f"--{key.replace('_', '-')}"
             message = f"{name}: chosen are methods alone"
             raise UsageProblem(message, "write gark list methods")
-    if format not in {"text", "json"}:
+    if format == "csv":
         message = f"--format {format} is for methods"
         raise UsageProblem(message, "write gark list methods")
 
@@ -93,14 +93,12 @@ def refuse_filters(given: Mapping[str, object], format: str) -> None:
 def list_methods(given: Mapping[str, Any], output: Output) -> int:
     """Write the methods that are as wanted."""
     from garkcli.catalogue.entries import all_entries
-    from garkcli.report.catalogue_list import render
+    from garkcli.report.list_methods import REPORT
 
     wanted = _wanted(given)
-    entries = all_entries(bool(given["judge"]))
-    found = [entry for entry in entries if wanted.takes(entry)]
+    found = [x for x in all_entries(bool(given["judge"])) if wanted.takes(x)]
     listed = sorted_by(found, given["sort"] or "order")
-    width = output.width
-    output.write(render(listed, output.format, output.paint, width))
+    output.tell(REPORT, [listed])
     return 0
 
 

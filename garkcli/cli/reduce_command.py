@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output, declared
 from garkcli.errors import UsageProblem
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 
-@declared("reduce", ["yaml", "text", "json", "latex"])
+@declared("reduce", ("yaml", *FORMATS))
 def command(file: str, settings: dict[str, str], output: Output) -> int:
     """The smallest method that does the same, as a method file.
 

@@ -47,25 +47,17 @@ def write_tableau(
     if output.format == "yaml":
         output.write(_method_file(tableau, name, digits, tolerance, further))
         return
+    from garkcli.report.tableau import REPORT, Shown
+
     found = shown_entries(tableau, digits, further)
-    if output.format == "json":
-        from garkcli.report import tableau_json
-
-        output.write(tableau_json.render(tableau, found, name, derivation))
-        return
-    if tolerance is not None:
-        from garkcli.report.tableau_text import readable
-
-        found = readable(found)
+    shown = Shown(tableau, found, name, derivation, tolerance is not None)
     if output.format == "latex":
         from garkcli.page import tableau_latex
 
-        output.write(tableau_latex.render(tableau, found, printable(name), is_document))
-    else:
-        from garkcli.report import tableau_text
-
-        text = tableau_text.render(tableau, found, printable(name), output.paint, output.width)
+        text = tableau_latex.render(tableau, shown.readable, printable(name), is_document)
         output.write(text)
+    else:
+        output.tell(REPORT, [shown])
 
 
 def shown_entries(tableau: Tableau, digits: int | None, further: Further = NOTHING) -> Entries:

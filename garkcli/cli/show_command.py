@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output, declared
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.catalogue.facts import Entry
     from garkcli.methodfile.build import MethodFile
 
 
-@declared("show", ["text", "json"])
+@declared("show", FORMATS)
 def command(file: str, settings: dict[str, str], output: Output) -> int:
     """All about one method: its tableau, orders, properties, where it was published.
 
@@ -20,7 +21,7 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
     """
     from garkcli.cli.rendering import shown_entries
     from garkcli.methodfile.load import load
-    from garkcli.report.show import Shown, render
+    from garkcli.report.show import REPORT, Shown
 
     method = load(file, settings)
     shown = Shown(
@@ -30,7 +31,7 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
         method.description,
         method.bibliography,
     )
-    output.write(render(shown, output.format, output.paint, output.width))
+    output.tell(REPORT, [shown])
     return 0
 
 

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 from garkcli.cli.companion import companion
 from garkcli.cli.options import Output, declared
 from garkcli.errors import HasFreeParameters, UsageProblem
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.garkmethod import Derivation, GarkMethod
 
 
-@declared("tableau", ["text", "yaml", "json", "latex"])
+@declared("tableau", (*FORMATS, "yaml"))
 def command(
     file: str,
     which: Derivation | None,

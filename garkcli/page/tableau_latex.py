@@ -32,11 +32,13 @@ def render(tableau: Tableau, entries: Entries, name: str, is_document: bool = Fa
     """
     comments = (name, remark(entries))
     lines = [f"% {comment}\n" for comment in comments if comment]
-    shown = [*displays(tableau, entries, entries.embedded), *_dense(entries)]
-    lines += [f"{line}\n" for line in shown]
-    if is_document:
-        return "".join(fragment(lines, is_document))
-    return "".join(lines)
+    lines += [f"{line}\n" for line in tableau_lines(tableau, entries)]
+    return "".join(fragment(lines, is_document) if is_document else lines)
+
+
+def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
+    """The arrays, and the polynomials of dense output."""
+    return [*displays(tableau, entries, entries.embedded), *_dense(entries)]
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
     Args:
         methods: from files, texts or the catalogue; or paths and names.
-        format: bibtex, text or json.
+        format: bibtex, text, json, markdown or latex.
 
     Raises:
         UsageProblem: there is no such format.

@@ -1,4 +1,4 @@
-"""``gark cite``: publications of methods as BibTeX, as text, and as JSON."""
+"""``gark cite``: publications of methods as BibTeX, and as rows."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ from dataclasses import dataclass, fields
 from string import ascii_lowercase
 
 from garkcli.page.latex_letters import ascii_letters, letters
+from garkcli.page.paint import counted
 from garkcli.page.plain import printable
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import TEXT, Schema, array, nullable, published
 from garkcli.reference import Reference
+from garkcli.tell.facts import Level, Row, Section, part, parts, table
+from garkcli.tell.kinds import TEXT, TEXTS
+from garkcli.tell.report import FORMATS as TOLD
+from garkcli.tell.report import Report
 
-SCHEMA = "gark/cite/1"
 _ENTRY_TYPES = {
     "article": "article",
     "book": "book",
@@ -119,35 +121,9 @@ def last_name(name: str) -> str:
     return before if comma else name.split()[-1]
 
 
-FORMATS = ("bibtex", "text", "json")
-"""What publications are written as."""
-
-
-def render(cited: Sequence[Cited], format: str) -> str:
-    """The publications.
-
-    Args:
-        cited: each once.
-        format: one of ``FORMATS``.
-    """
-    if format == "json":
-        return _REPORT.text(cited)
-    if format == "text":
-        return "\n".join(map(_text, cited)) + "\n"
-    entries = map(_bibtex, cited, keys(cited))
-    return "\n".join(entries)
-
-
-def cite_report_schema() -> Schema:
-    """The JSON Schema of ``gark cite``."""
-    return published("report of gark cite", _REPORT.schema)
-
-
-def _text(cited: Cited) -> str:
-    names = ", ".join(map(printable, cited.methods))
-    if not cited.text:
-        return f"{names}: no reference in its file"
-    return f"{names}: {printable(cited.text)}"
+def bibliography(cited: Sequence[Cited]) -> str:
+    """The publications, each once, as BibTeX."""
+    return "\n".join(map(_bibtex, cited, keys(cited)))
 
 
 def _bibtex(cited: Cited, key: str) -> str:
@@ -246,46 +222,39 @@ def _has_capital(word: str) -> bool:
     return any(sign.isupper() for sign in word)
 
 
-def reference_data(reference: Reference | None) -> dict[str, object] | None:
-    """The fields that a publication has; None for plain text."""
-    if reference is None:
-        return None
-    found = {}
-    for field in fields(reference):
-        value = getattr(reference, field.name)
-        if value:
-            is_list = isinstance(value, tuple)
-            found[field.name] = list(value) if is_list else value
-    return found
+def _of(field: str) -> Row:
+    """A field of a publication, where it has it."""
+    is_list = field in {"authors", "editors"}
+    return Row(
+        field, TEXTS if is_list else TEXT, lambda x: getattr(x, field) or None, is_optional=True
+    )
 
 
-REFERENCE: Schema = {
-    "type": "object",
-    "properties": {
-        **{field.name: TEXT for field in fields(Reference)},
-        "authors": array(TEXT),
-        "editors": array(TEXT),
-    },
-    "additionalProperties": False,
-}
+REFERENCE = Section(*(_of(field.name) for field in fields(Reference)))
 """The fields of a publication, those that it has."""
-
-
-def _with_keys(cited: Sequence[Cited]) -> list[tuple[Cited, str]]:
-    return list(zip(cited, keys(cited), strict=True))
-
-
-def _bibtex_or_none(found: tuple[Cited, str]) -> str | None:
-    return _bibtex(*found) if found[0].text else None
-
-
-_CITED: Record[tuple[Cited, str]] = Record(
-    Field("methods", array(TEXT), lambda x: list(x[0].methods)),
-    Field("key", TEXT, lambda x: x[1]),
-    Field("text", nullable(TEXT), lambda x: x[0].text or None),
-    Field("reference", nullable(REFERENCE), lambda x: reference_data(x[0].reference)),
-    Field("bibtex", nullable(TEXT), _bibtex_or_none),
+CITED = Section(
+    Row("methods", TEXTS, lambda x: x[0].methods),
+    Row("key", TEXT, lambda x: x[1]),
+    Row("text", TEXT, lambda x: x[0].text or None, has_null=True),
+    Row("reference", part(REFERENCE), lambda x: x[0].reference, has_null=True),
+    Row("bibtex", TEXT, lambda x: _bibtex(*x) if x[0].text else None, has_null=True),
 )
-_REPORT: Record[Sequence[Cited]] = Record(
-    schema_named(SCHEMA), _CITED.every("references", _with_keys)
+LINE = Section(
+    Row("methods", TEXTS, lambda x: x.methods, label=""),
+    Row("reference", TEXT, lambda x: x.text or "no reference in its file"),
 )
+REPORT: Report[Sequence[Cited]] = Report.only(
+    "gark/cite/1",
+    "report of gark cite",
+    Section(
+        Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
+        Row("methods", table(LINE, 0, is_data=False), lambda x: x),
+        title=lambda x, _: counted(len(x), "publication"),
+    ),
+)
+FORMATS = ("bibtex", *TOLD)
+
+
+def render(cited: Sequence[Cited], format: str) -> str:
+    """The publications, each once, in one of ``FORMATS``."""
+    return bibliography(cited) if format == "bibtex" else REPORT.render([cited], format)

@@ -17,7 +17,19 @@ from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
 from garkcli.report.check import verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tell.facts import Answer, Kind, Level, Reason, Row, Section, Status, part, parts, table
+from garkcli.tell.facts import (
+    SAID,
+    Answer,
+    Kind,
+    Level,
+    Reason,
+    Row,
+    Section,
+    Status,
+    part,
+    parts,
+    table,
+)
 from garkcli.tell.facts import told as told_kind
 from garkcli.tell.kinds import (
     COUNT,
@@ -323,15 +335,15 @@ REPORT: Report[Compared] = Report.only(
         Row("relation", RELATION, relation, HEADLINE),
         Row("obstacle", TEXT, lambda x: x.found.obstacle or None, DATA, has_null=True),
         Row("remark", TEXT, lambda x: x.found.remark or None, DATA, has_null=True),
-        Row("same", told_kind(lambda text, d: d.prose(text)), told),
+        Row("same", SAID, told),
         Row("same", part(SAME), lambda x: x.found.sameness, DATA, has_null=True),
-        Row("tolerance", told_kind(lambda text, _: text), tolerances),
+        Row("tolerance", SAID, tolerances),
         Row("orders", told_kind(_orders_words), lambda x: x),
         Row("conditions", told_kind(_conditions_words), lambda x: x.found.met),
         Row("differences", parts(BLOCK), lambda x: x.found.gaps, DATA),
         Row(
             "compared",
-            told_kind(lambda text, _: text),
+            SAID,
             lambda x: (
                 "no entry: the numbers of colours differ"
                 if x.found.one.tableau.size != x.found.other.tableau.size

@@ -1,21 +1,23 @@
-"""``gark list``: what method files and commands can name."""
+"""``gark list`` and ``gark list exports``: what files and commands can name, declared once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from textwrap import wrap
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from garkcli.bridges.registry import Bridge
 from garkcli.constructions.schemes.flows import Splitting
 from garkcli.constructions.schemes.scheme import Scheme
 from garkcli.families.family import Family, Option
-from garkcli.page.paint import Paint, indented
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import TEXT, Schema, published
+from garkcli.page.paint import counted
+from garkcli.tell.facts import SAID, Level, Row, Section, parts, table, told
+from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
+from garkcli.tell.report import ListReport, Report
 
-SCHEMA = "gark/list/1"
-_WIDTH = 80
-_NAME = 21  # columns for the name of a family
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Lists(NamedTuple):
@@ -28,55 +30,11 @@ class Lists(NamedTuple):
     problems: Mapping[str, str]
 
 
-def render(lists: Lists, format: str, paint: Paint) -> str:
-    """The lists as text or JSON."""
-    if format == "json":
-        return _REPORT.text(lists)
-    lines = _families(lists.families, paint)
-    for title, entries in (
-        ("transfer rules", lists.rules),
-        ("schemes of compose", _with_orders(lists.schemes)),
-        ("schemes of splitting", _with_orders(lists.splittings)),
-        ("problems", lists.problems),
-    ):
-        lines += ["", paint("strong", title)]
-        lines += _entries(entries)
-    lines += ["", "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md."]
-    return "\n".join(lines) + "\n"
-
-
-def _with_orders(schemes: Mapping[str, Scheme] | Mapping[str, Splitting]) -> dict[str, str]:
-    """The summaries of schemes, with their orders."""
-    return {name: f"order {scheme.order}: {scheme.summary}" for name, scheme in schemes.items()}
-
-
-def _families(families: Mapping[str, Family], paint: Paint) -> list[str]:
-    """A line for each family, below their heads; what else it is chosen by below it."""
-    head = f"{'families':<20} {'stages':<8} order"
-    lines = [paint("strong", head)]
-    for family in families.values():
-        name = f"  {family.name:<18} "
-        if len(name) > _NAME:  # it has a line of its own
-            lines.append(name.rstrip())
-            name = " " * _NAME
-        about = f"{family.order:<7} {family.summary}"
-        lines.append(f"{name}{_stages(family):<8} {about}")
-        for key, values in _chosen_by(family):
-            lines.append(" " * _NAME + f"{key}: {values}")
-    return lines
-
-
-def _stages(family: Family) -> str:
-    """How many stages its members have; empty where they are counted by something else."""
-    return _sizes(family) if family.size == "stages" else ""
-
-
 def _sizes(family: Family) -> str:
-    smallest = str(family.smallest)
-    return smallest if family.is_single else f">= {smallest}"
+    return str(family.smallest) if family.is_single else f">= {family.smallest}"
 
 
-def _chosen_by(family: Family) -> Iterator[tuple[str, str]]:
+def chosen_by(family: Family) -> Iterator[tuple[str, str]]:
     """The keys of a family besides its stages, with what they may be."""
     if family.size != "stages":
         yield family.size, _sizes(family)
@@ -87,55 +45,75 @@ def _chosen_by(family: Family) -> Iterator[tuple[str, str]]:
 def _values(option: Option) -> str:
     if option.words:
         return ", ".join(option.words)
-    if option.smallest is not None:
-        return f">= {option.smallest}"
-    return "a coefficient"
+    return "a coefficient" if option.smallest is None else f">= {option.smallest}"
 
 
-def _entries(entries: Mapping[str, str]) -> list[str]:
-    """Names with their summaries beside them."""
-    width = max(map(len, entries)) + 4
-    margin = " " * width
-    lines = []
-    for name, summary in entries.items():
-        first, *rest = wrap(summary, _WIDTH - width)
-        label = f"  {name}".ljust(width)
-        lines.append(label + first)
-        lines += indented(rest, margin)
-    return lines
+def _family_words(family: Family, d: Plain) -> str:
+    options = (f"{key} {values}" for key, values in chosen_by(family))
+    return d.prose("; ".join([family.summary, *options]))
 
 
-_OPTION: Record[tuple[str, str]] = Record(
-    Field("key", TEXT, lambda x: x[0]), Field("values", TEXT, lambda x: x[1])
+NAME = Row("name", TEXT, lambda x: x[0], label="")
+OPTION = Section(Row("key", TEXT, lambda x: x[0]), Row("values", TEXT, lambda x: x[1]))
+FAMILY = Section(
+    Row("name", TEXT, label=""),
+    Row("stages", TEXT, lambda x: _sizes(x) if x.size == "stages" else ""),
+    Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),
+    Row("order", TEXT),
+    Row("summary", TEXT, level=DATA),
+    Row("summary", told(_family_words), lambda x: x),
+)
+NAMED = Section(NAME, Row("summary", TEXT, lambda x: x[1]))
+SCHEME = Section(
+    Row("name", TEXT, label=""),
+    Row("order", TEXT),
+    Row("summary", TEXT),
+    Row("reference", TEXT, level=DETAIL),
 )
 
 
-_FAMILY: Record[Family] = Record(
-    Field("name", TEXT, lambda x: x.name),
-    Field("stages", TEXT, _stages),
-    _OPTION.every("options", _chosen_by),
-    Field("order", TEXT, lambda x: x.order),
-    Field("summary", TEXT, lambda x: x.summary),
+def _title(lists: Lists, _: Plain) -> str:
+    names = ("families", "transfer rules", "schemes", "splittings", "problems")
+    return ", ".join(f"{len(x)} {name}" for x, name in zip(lists, names, strict=True))
+
+
+REPORT: Report[Lists] = Report.only(
+    "gark/list/1",
+    "report of gark list",
+    Section(
+        Row("families", table(FAMILY, 0), lambda x: [*x.families.values()]),
+        Row("transfer", table(NAMED, 0), lambda x: [*x.rules.items()]),
+        Row("schemes", table(SCHEME, 0), lambda x: [*x.schemes.values()]),
+        Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
+        Row("problems", table(NAMED, 0), lambda x: [*x.problems.items()]),
+        Row(
+            "own",
+            SAID,
+            lambda _: "one of your own is a file: --problem FILE.yaml, see docs/problem-file.md",
+            label="problem",
+        ),
+        title=_title,
+    ),
 )
-_NAMED: Record[tuple[str, str]] = Record(
-    Field("name", TEXT, lambda x: x[0]), Field("summary", TEXT, lambda x: x[1])
-)
-_SCHEME: Record[Scheme | Splitting] = Record(
-    Field("name", TEXT, lambda x: x.name),
-    Field("order", TEXT, lambda x: x.order),
-    Field("summary", TEXT, lambda x: x.summary),
-    Field("reference", TEXT, lambda x: x.reference),
-)
-_REPORT: Record[Lists] = Record(
-    schema_named(SCHEMA),
-    _FAMILY.every("families", lambda x: x.families.values()),
-    _NAMED.every("transfer", lambda x: x.rules.items()),
-    _SCHEME.every("schemes", lambda x: x.schemes.values()),
-    _SCHEME.every("splittings", lambda x: x.splittings.values()),
-    _NAMED.every("problems", lambda x: x.problems.items()),
+TARGET = Section(
+    Row("name", TEXT, label=""),
+    Row("kinds", TEXTS, lambda x: [*x.kinds]),
+    Row("reads_back", TRUTH, level=DETAIL),
+    Row("has_test", TRUTH, lambda x: x.test_driver is not None, DETAIL),
+    Row("suffix", TEXT, level=DETAIL),
+    Row("summary", TEXT),
 )
 
 
-def list_report_schema() -> Schema:
-    """The JSON Schema of ``gark list``."""
-    return published("report of gark list", _REPORT.schema)
+def _bridges(found: Any) -> list[Bridge]:
+    return [*found.values()]
+
+
+EXPORTS: Report[Mapping[str, Bridge]] = ListReport.only(
+    "",
+    "list of gark list exports",
+    Section(
+        Row("name", table(TARGET, 0), _bridges),
+        title=lambda found, _: counted(len(found), "target"),
+    ),
+)

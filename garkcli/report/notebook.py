@@ -5,14 +5,14 @@ Nothing is coloured, so that a page is readable whatever its background; all tex
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.explained import witness_text
-from garkcli.page.cells import cell_text, remark
+from garkcli.page.cells import remark
 from garkcli.page.plain import printable
-from garkcli.page.tableau_latex import displays, parts_of
+from garkcli.page.tableau_html import tableau_lines
+from garkcli.page.tableau_latex import displays
 from garkcli.trees.svg import draw_svg_sheet
 
 if TYPE_CHECKING:
@@ -23,12 +23,10 @@ if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder
     from garkcli.tableau.garkmethod import GarkMethod
-    from garkcli.tableau.pointwise import Cell, Entries
     from garkcli.tell.facts import Answer, Kind
 
 MAX_COLUMNS = 24
 """Most stages side by side; a larger tableau is named, not shown."""
-_LINE = "1px solid"
 Fact: TypeAlias = tuple[str, str]
 """A label and a text."""
 
@@ -46,82 +44,13 @@ def method_html(method: GarkMethod) -> str:
     """The tableau as a table, Q and P for a method for positions and momenta."""
     if _is_large(method):
         return f"<pre>{_text(repr(method))}</pre>"
-    tables = []
-    for letter, stages, colours in parts_of(method.tableau):
-        title = ", ".join(x for x in (method.name, letter) if x)
-        rows = _rows(method, stages, colours)
-        tables.append(_table(title, rows))
+    tables = tableau_lines(method.tableau, method.entries, method.name)
     note = remark(method.entries)
     return "\n".join([*tables, f"<p>{_text(note)}</p>"] if note else tables)
 
 
 def _is_large(method: GarkMethod) -> bool:
     return sum(method.stages) > MAX_COLUMNS
-
-
-def _rows(method: GarkMethod, stages: Sequence[int], colours: Sequence[int]) -> Iterator[str]:
-    """The stages of each colour of ``stages``, then the rows of weights."""
-    entries = method.entries
-    if len(colours) > 1:
-        yield _heads(method, colours)
-    for l in stages:
-        for i, node in enumerate(entries.c[l]):
-            head = cell_text(node, entries.digits)
-            groups = [_stage(entries, l, i, m) for m in colours]
-            yield _row(head, groups, is_first=i == 0)
-    feet = [entries.b]
-    if entries.embedded is not None:
-        feet.append(entries.embedded)
-    is_first = True
-    for weights in feet:
-        groups = [_cells(weights[m], entries) for m in colours]
-        yield _row("", groups, is_first)
-        is_first = False
-
-
-def _heads(method: GarkMethod, colours: Sequence[int]) -> str:
-    """The names of the colours over their columns."""
-    heads = ['<th scope="col"></th>']
-    for m in colours:
-        name = _text(method.tableau.colours[m].name)
-        span = len(method.entries.b[m])
-        attributes = f'scope="col" colspan="{span}"'
-        heads.append(f"<th {attributes}>{name}</th>")
-    joined = "".join(heads)
-    return f"<tr>{joined}</tr>"
-
-
-def _stage(entries: Entries, l: int, i: int, m: int) -> list[str]:
-    """Row i of the block l, m; blanks where there is none."""
-    block = entries.A[l][m]
-    if block is None:
-        return [""] * len(entries.b[m])
-    return _cells(block[i], entries)
-
-
-def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
-    digits = entries.digits
-    return [cell_text(x, digits) for x in row]
-
-
-def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
-    """A row of the tableau: a line to the left of each block, one above where it is the first."""
-    above = ""
-    if is_first:
-        above = f"border-top:{_LINE};"
-    cells = [_cell(head, above)]
-    for group in groups:
-        style = f"{above}border-left:{_LINE};"
-        for text in group:
-            cells.append(_cell(text, style))
-            style = above
-    joined = "".join(cells)
-    return f"<tr>{joined}</tr>"
-
-
-def _cell(text: str, style: str) -> str:
-    # where a page gives tables no room of their own, fractions side by side would touch
-    return f'<td style="padding:0.1em 0.5em;{style}">{_text(text)}</td>'
 
 
 def witness_html(witness: Witness) -> str:
@@ -185,16 +114,6 @@ def outcome_html(outcome: Outcome) -> str:
     from garkcli.report.checked import REPORT
 
     return REPORT.html(outcome)
-
-
-def _table(title: str, rows: Iterable[str]) -> str:
-    beside = "white-space:nowrap;text-align:left"
-    caption = ""
-    if title:
-        caption = f'<caption style="{beside}">{_text(title)}</caption>'
-    style = "border-collapse:collapse"
-    body = "\n".join(rows)
-    return f'<table style="{style}">{caption}<tbody>\n{body}\n</tbody></table>'
 
 
 def _text(text: str) -> str:

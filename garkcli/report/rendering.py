@@ -95,14 +95,11 @@ def _called(name: str, method: GarkMethod | None) -> str:
 
 def _method(method: GarkMethod, format: str, _: str) -> str:
     from garkcli.page import tableau_latex
-    from garkcli.report import tableau_json, tableau_text
+    from garkcli.report.tableau import REPORT, of_method
 
-    tableau, entries = method.tableau, method.entries
-    if format == "json":
-        return tableau_json.render(tableau, entries, method.name, method.derivation)
     if format == "latex":
-        return tableau_latex.render(tableau, entries, method.name, False)
-    return tableau_text.render(tableau, entries, method.name, _PLAIN, WIDTH)
+        return tableau_latex.render(method.tableau, method.entries, method.name, False)
+    return REPORT.render([of_method(method)], format)
 
 
 def _outcomes(value: Any, format: str, _: str) -> str:
@@ -184,7 +181,7 @@ def _audited(value: Any, format: str, _: str) -> str:
 
 
 _WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
-    GarkMethod: (_method, ("text", "json", "latex")),
+    GarkMethod: (_method, FORMATS),
     Outcome: (_outcomes, ("text", "json", "sarif", "junit", "github", "markdown", "latex")),
     Analysis: (_analysis, FORMATS),
     Stability: (_stability, FORMATS),

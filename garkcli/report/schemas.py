@@ -12,7 +12,7 @@ from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.report.field_texts import told
 from garkcli.tell.report import Report
 
-_TABLEAU = "garkcli.report.tableau_json:tableau_report_schema"
+_TABLEAU = "garkcli.report.tableau:REPORT"
 REPORTS = {
     "check": "garkcli.report.checked:REPORT",
     "claims": "garkcli.report.claims:REPORT",
@@ -35,11 +35,11 @@ REPORTS = {
     "energy": "garkcli.report.energy:REPORT",
     "certificate": "garkcli.report.certificate:REPORT",
     "export": "garkcli.bridges.targets.json_data:export_schema",
-    "list": "garkcli.report.listing:list_report_schema",
-    "list-methods": "garkcli.report.catalogue_list:list_methods_schema",
-    "show": "garkcli.report.show:show_report_schema",
-    "cite": "garkcli.report.citation:cite_report_schema",
-    "list-exports": "garkcli.report.exports:exports_schema",
+    "list": "garkcli.report.listing:REPORT",
+    "list-methods": "garkcli.report.list_methods:REPORT",
+    "show": "garkcli.report.show:REPORT",
+    "cite": "garkcli.report.citation:REPORT",
+    "list-exports": "garkcli.report.listing:EXPORTS",
     "audit": "garkcli.report.audited:REPORT",
     "import": "garkcli.report.imported:import_report_schema",
     "sweep": "garkcli.report.sweep:REPORT",

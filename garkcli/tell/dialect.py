@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from garkcli.exact.roots import RealRoot
     from garkcli.order.certificate import Witness
     from garkcli.stability.bounds import Bounds
+    from garkcli.tableau.pointwise import Entries
+    from garkcli.tableau.tableau import Tableau
     from garkcli.tell.facts import Reason, Status
     from garkcli.trees.tree import Tree
 
@@ -43,6 +45,10 @@ LONG_POLYNOMIAL = 320
 """Longer polynomials are described."""
 WORDS = 24
 """Columns of the terminal that are enough for words."""
+CUT = 8
+"""Columns that are enough for the beginning of words."""
+NAME = 26
+"""Longer names have a line of their own where a table is wide."""
 FEW = 4
 """So many of a list are named; the others are counted."""
 
@@ -58,9 +64,14 @@ def _broken(text: str, width: int) -> Iterator[str]:
 
 
 def _beside(columns: Sequence[Sequence[str]], widths: Sequence[int]) -> Iterator[str]:
-    """The lines of a table, numbers by their ends; long cells are folded."""
+    """The lines of a table, numbers by their ends. Long cells are folded, a long name has its own
+    line.
+    """
     are_right = [all(_NUMBER.match(x) for x in column[1:]) for column in columns]
     for row in zip(*columns, strict=True):
+        if len(row) > 1 and shown_width(row[0]) > widths[0]:
+            yield row[0]
+            row = ("", *row[1:])
         cells = [[*_broken(x, width)] for x, width in zip(row, widths, strict=True)]
         for texts in zip_longest(*cells, fillvalue=""):
             padded = (
@@ -319,16 +330,29 @@ class Plain:
             lines += [margin + " " * room + line for line in rest]
         return lines
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
-        """A table. A last column of words is folded where it does not fit; other columns that do
-        not fit continue below, each time beside the first one.
+    def grid(
+        self,
+        head: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        depth: int = 0,
+        is_cut: bool = False,
+    ) -> list[str]:
+        """A table. A last column of words is folded where it does not fit, or cut where that may
+        be; other columns that do not fit continue below, each time beside the first one.
         """
         columns = [*zip(head, *rows, strict=True)]
         widths = [max(map(shown_width, column)) for column in columns]
         room = self.width - 2 * depth
-        before = sum(widths[:-1]) + 2 * (len(columns) - 1)
-        if before + widths[-1] > room >= before + WORDS:
-            widths[-1] = room - before
+        is_cut = is_cut and self.is_brief
+        if is_cut:
+            widths[0] = min(widths[0], NAME)
+        last = room - sum(widths[:-1]) - 2 * (len(columns) - 1)
+        if widths[-1] > last >= (CUT if is_cut else WORDS):
+            widths[-1] = last
+            if last < WORDS:
+                columns[-1] = tuple(
+                    x if len(x) <= last else f"{x[: last - 1]}…" for x in columns[-1]
+                )
         widths[-1] = min(widths[-1], max(room - widths[0] - 2, WORDS))
         lines: list[str] = []
         start = 1
@@ -349,6 +373,12 @@ class Plain:
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         """Lines of a part."""
         return ["  " * depth + line for line in lines]
+
+    def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
+        """A tableau."""
+        from garkcli.page.tableau_text import tableau_lines
+
+        return ["", *tableau_lines(tableau, entries, self.width)]
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         """A drawing in signs."""

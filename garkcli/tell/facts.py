@@ -137,13 +137,14 @@ class Kind:
         phrase: the same as a part of a sentence, from the label; None for label and words.
         cell: the same in a table, where that is shorter.
         lines: a picture of the value, for outputs with room.
+        draw: the value in finished lines of the output.
         rows: the value as labels with words, among those of other facts.
         is_data: whether programs get it; pictures and rows of words are for people alone.
         beside: further fields of JSON.
         section: of a value that has facts of its own.
         is_list: whether the value is a list of such.
         is_never_empty: whether that has an entry at least.
-        most: of a list that is always a table, so many rows of it are usual.
+        most: of a list that is always a table, so many rows of it are usual; 0 for all.
         absent: what a table has where there is no value.
         csv: the value in CSV where that is not the one of JSON: a cell, or cells by their columns.
     """
@@ -155,6 +156,7 @@ class Kind:
     phrase: Callable[[str, Answer, Plain], str] | None = None
     cell: Words | None = None
     lines: Callable[[Any, Plain], list[str]] | None = None
+    draw: Callable[[Any, Plain], list[str]] | None = None
     rows: Callable[[Any, Plain], list[tuple[str, str]]] | None = None
     is_data: bool = True
     beside: tuple[Beside, ...] = ()
@@ -164,6 +166,11 @@ class Kind:
     most: int | None = None
     absent: str = ""
     csv: Callable[[Any], str | Mapping[str, str]] | None = None
+
+    @property
+    def is_below(self) -> bool:
+        """Whether it has lines of its own, below the other facts."""
+        return not (self.lines is None and self.draw is None and self.most is None)
 
     def __call__(self, value: Any) -> Said:
         """A value of this kind in a reason."""
@@ -292,6 +299,7 @@ class Section:
         rows: what is declared.
         title: of a part among others, and of a result: what it is about, such as the file.
         columns: keys of the rows that tell it in a line of a table.
+        is_cut: whether the last words of such a line may be cut.
     """
 
     def __init__(
@@ -299,10 +307,12 @@ class Section:
         *rows: Row,
         title: Callable[[Any, Plain], str] | None = None,
         columns: Sequence[str] = (),
+        is_cut: bool = False,
     ) -> None:
         self.rows = rows
         self.title = title
         self.columns = columns
+        self.is_cut = is_cut
 
     def facts(self, whole: Any, level: Level = Level.DATA) -> Iterator[Fact]:
         """The facts down to a level; what lies deeper by its row is not asked for."""
@@ -367,6 +377,10 @@ def told(words: Words, phrase: Callable[[str, Answer, Plain], str] | None = None
     return Kind({}, words=words, phrase=phrase, is_data=False)
 
 
+SAID = Kind({}, words=lambda text, d: d.prose(text), is_data=False)
+"""Words for people alone."""
+
+
 def rows_of(rows: Callable[[Any, Plain], list[tuple[str, str]]]) -> Kind:
     """Labels with words, for people alone."""
     return Kind({}, rows=rows, is_data=False)
@@ -375,6 +389,11 @@ def rows_of(rows: Callable[[Any, Plain], list[tuple[str, str]]]) -> Kind:
 def picture(lines: Callable[[Any, Plain], list[str]]) -> Kind:
     """A picture in signs, for people alone."""
     return Kind({}, lines=lines, is_data=False)
+
+
+def drawing(draw: Callable[[Any, Plain], list[str]]) -> Kind:
+    """What each output draws in its way, for people alone."""
+    return Kind({}, draw=draw, is_data=False)
 
 
 def parts(section: Section, words: Words | None = None) -> Kind:

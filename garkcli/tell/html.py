@@ -15,6 +15,8 @@ from garkcli.tell.latex import expression_latex
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.polynomial import Polynomial
+    from garkcli.tableau.pointwise import Entries
+    from garkcli.tableau.tableau import Tableau
     from garkcli.trees.tree import Tree
 
 
@@ -71,7 +73,13 @@ class Html(Plain):
         body = [f"<tr><th>{label}</th><td>{text}</td></tr>" for label, text in rows]
         return ["<table>", *body, "</table>"]
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
+    def grid(
+        self,
+        head: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        depth: int = 0,
+        is_cut: bool = False,
+    ) -> list[str]:
         def row(cells: Sequence[str], tag: str) -> str:
             return f"<tr>{''.join(f'<{tag}>{x}</{tag}>' for x in cells)}</tr>"
 
@@ -82,6 +90,11 @@ class Html(Plain):
 
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         return list(lines)
+
+    def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
+        from garkcli.page.tableau_html import tableau_lines
+
+        return tableau_lines(tableau, entries)
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return [f"<pre>{escape(chr(10).join(lines))}</pre>"]

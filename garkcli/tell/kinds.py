@@ -13,6 +13,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.tell.facts import NO_REASON, Answer, Beside, Kind, Reason, Status
 from garkcli.trees.notation import format_tree
@@ -56,7 +57,12 @@ COUNT = Kind(S.COUNT, words=lambda x, d: str(x))
 INTEGER = Kind(S.INTEGER, words=lambda x, d: str(x))
 POSITION = Kind(S.POSITION, words=lambda x, d: str(x))
 TEXT = Kind(S.TEXT, words=lambda x, d: d.prose(x))
-TEXTS = Kind(array(S.TEXT), lambda x, _: list(x), lambda x, d: ", ".join(map(d.prose, x)))
+TEXTS = Kind(
+    array(S.TEXT),
+    lambda x, _: list(x),
+    lambda x, d: ", ".join(map(d.prose, x)),
+    csv=lambda x: csv_cell("; ".join(x)),
+)
 FLOAT = Kind(S.SIZE, words=lambda x, d: f"{x:.6g}")
 UPPER = Kind(S.SIZE, lambda ball, _: float(ball.upper()), lambda x, d: d.size(x))
 """The upper end of a ball."""

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
+    from garkcli.tableau.pointwise import Entries
+    from garkcli.tableau.tableau import Tableau
     from garkcli.trees.tree import Tree
 
 SIGNS = {
@@ -133,7 +135,13 @@ class Latex(Plain):
             r"\begin{tabular}{lp{.7\linewidth}}", r"\hline", *body, r"\hline", r"\end{tabular}", "",
         ]  # fmt: skip
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
+    def grid(
+        self,
+        head: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        depth: int = 0,
+        is_cut: bool = False,
+    ) -> list[str]:
         body = [rf"{' & '.join(row)} \\" for row in rows]
         return [
             rf"\begin{{tabular}}{{{'l' * len(head)}}}",
@@ -145,6 +153,11 @@ class Latex(Plain):
 
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         return list(lines)
+
+    def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
+        from garkcli.page.tableau_latex import tableau_lines
+
+        return tableau_lines(tableau, entries)
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return []

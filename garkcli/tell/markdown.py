@@ -9,6 +9,8 @@ from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
 
 if TYPE_CHECKING:
+    from garkcli.tableau.pointwise import Entries
+    from garkcli.tableau.tableau import Tableau
     from garkcli.trees.tree import Tree
 
 
@@ -49,7 +51,13 @@ class Markdown(Plain):
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         return ["| | |", "|---|---|", *(f"| {label} | {text} |" for label, text in rows), ""]
 
-    def grid(self, head: Sequence[str], rows: Sequence[Sequence[str]], depth: int = 0) -> list[str]:
+    def grid(
+        self,
+        head: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        depth: int = 0,
+        is_cut: bool = False,
+    ) -> list[str]:
         return [
             f"| {' | '.join(head)} |",
             "|---" * len(head) + "|",
@@ -62,6 +70,9 @@ class Markdown(Plain):
 
     def indent(self, lines: Iterable[str], depth: int) -> list[str]:
         return list(lines)
+
+    def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
+        return self.picture(super().tableau(tableau, entries)[1:], 0)
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return ["```text", *lines, "```", ""]

@@ -48,8 +48,7 @@ def phrases(section: Section, whole: Any, d: Plain, level: Level) -> Iterator[st
 
 def _is_said(fact: Fact) -> bool:
     """Whether a fact can be a part of a sentence."""
-    kind = fact.row.kind
-    return kind.lines is None and kind.rows is None and kind.most is None
+    return not fact.row.kind.is_below and fact.row.kind.rows is None
 
 
 def phrase(fact: Fact, d: Plain) -> str:
@@ -103,7 +102,7 @@ def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> It
             continue
         if fact.row.is_short and level >= Level.DETAIL:
             continue
-        if kind.lines is not None or kind.most is not None or _is_opened(fact, level):
+        if kind.is_below or _is_opened(fact, level):
             below.append(fact)
         elif kind.rows is not None:
             rows += kind.rows(fact.value, d)
@@ -141,7 +140,7 @@ def labelled(
                 below.append((kind.section.title(part, d), part_rows))
         elif kind.rows is not None:
             rows += kind.rows(fact.value, d)
-        elif kind.lines is None:
+        elif kind.lines is None and kind.draw is None:
             rows.append((label(fact, d), words(fact, d)))
     yield "", rows
     yield from below
@@ -151,7 +150,9 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     """A part under its title; a list of flat parts as a table; a picture."""
     kind, value = fact.row.kind, fact.value
     section = kind.section
-    if section is None:
+    if kind.draw is not None:
+        yield from kind.draw(value, d)
+    elif section is None:
         assert kind.lines is not None
         yield from d.picture(kind.lines(value, d), depth)
     elif kind.is_list and section.title is None:
@@ -173,7 +174,7 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     """A list of flat parts, a line each; of a long one usually the first."""
     section, most = fact.row.kind.section, fact.row.kind.most
     assert section is not None
-    values = fact.value if level >= Level.DETAIL else fact.value[:most]
+    values = fact.value if level >= Level.DETAIL else fact.value[: most or None]
     shown = [dict(_cells(section, x, d, level)) for x in values]
     heads = [*dict.fromkeys(head for row in shown for head in row)]
     rows = [[row.get(head, "") for head in heads] for row in shown]
@@ -181,7 +182,7 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
         yield from d.title(label(fact, d), depth)
         depth += 1
     heads[0] = heads[0] or label(fact, d)
-    yield from d.grid(*filled(heads, rows), depth)
+    yield from d.grid(*filled(heads, rows), depth, section.is_cut)
     if more := len(fact.value) - len(values):
         yield from d.more(more, depth + 1)
 

@@ -182,3 +182,19 @@ class Report(Generic[Whole]):
 def one_or_more(schemas: Sequence[Schema]) -> Schema:
     """The schema, or one of several."""
     return schemas[0] if len(schemas) == 1 else one_of(*schemas)
+
+
+class ListReport(Report[Whole]):
+    """A report of one result whose document is a bare list, what it has for programs."""
+
+    def json(self, wholes: Sequence[Whole]) -> str:
+        """The list as a JSON document."""
+        (found,) = self.data(wholes[0]).values()
+        return to_json(found) + "\n"
+
+    @property
+    def schema(self) -> Schema:
+        """The JSON Schema of such lists."""
+        (section,) = self.forms()
+        (schema,) = section.schema["properties"].values()
+        return published(self.title, schema)

@@ -165,12 +165,13 @@ def test_what_is_hidden_is_not_listed(tmp_path: Path) -> None:
 
 
 def test_the_text_fits_and_says_what_its_letters_mean() -> None:
-    """80 columns, every letter of a row in the last lines."""
+    """80 columns, every letter of a row in the first lines."""
     run = gark("list", "methods")
     lines = run.out.splitlines()
     assert max(map(len, lines)) <= 80
-    head, *rows = lines[: lines.index("")]
-    legend = " ".join(lines[lines.index("") :])
+    start = next(i for i, line in enumerate(lines) if line.startswith("  name"))
+    legend = " ".join(lines[:start])
+    head, rows = lines[start][2:], [x[2:] for x in lines[start + 1 :]]
     assert head.split()[:5] == ["name", "order", "stages", "kind", "type"]
     assert {row.split(" ")[0] for row in rows} - {""} == set(EVERY)
     place = head.index("is")
@@ -202,10 +203,13 @@ def test_csv_has_every_column() -> None:
 
 def test_markdown_is_a_table() -> None:
     """Cells have no bar of their own, and the properties are words."""
-    run = gark("list", "methods", "--format", "markdown", "stoermer-verlet")
-    head, rule, row = run.out.splitlines()
+    run = gark("list", "methods", "--format", "markdown", "-v", "stoermer-verlet")
+    answer, _, head, rule, row = run.out.splitlines()[:5]
+    assert answer == "**1 method**"
     assert head.count("|") == rule.count("|") == row.count("|") == 8
     assert "symplectic, symmetric" in row
+    brief = gark("list", "methods", "--format", "markdown", "stoermer-verlet").out
+    assert "S: symplectic, R: symmetric" in brief.splitlines()[0]
 
 
 @pytest.mark.parametrize(

@@ -112,10 +112,11 @@ def test_a_fault_of_the_program_is_owned_up_to() -> None:
     traceback.
     """
     script = (
-        "import garkcli.cli.list_command, garkcli.report.listing as listing\n"
+        "import garkcli.cli.list_command\n"
+        "from garkcli.tell.report import Report\n"
         "from garkcli.cli import main\n"
-        "def broken(*_): raise RuntimeError('broken')\n"
-        "listing.render = broken\n"
+        "def broken(*_, **__): raise RuntimeError('broken')\n"
+        "Report.render = broken\n"
         "main(['list'])\n"
     )
     done = run(python=("-c", script))

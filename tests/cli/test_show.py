@@ -50,12 +50,11 @@ def test_the_text_has_what_people_look_for(tmp_path: Path) -> None:
     (tmp_path / "heun.gark.yaml").write_text(FILE)
     run = gark("show", "heun.gark.yaml", cwd=tmp_path)
     lines = run.out.splitlines()
-    assert lines[0] == "Heun"
+    assert lines[0] == "Heun: order 3"
     assert max(map(len, lines)) <= 80
-    told = dict(line.split("  ", 1) for line in lines if "  " in line.strip())
+    told = dict(line[2:].split("  ", 1) for line in lines if "  " in line.strip())
     told = {label: text.strip() for label, text in told.items()}
     assert told["aliases"] == "heun 3"
-    assert told["order"] == "3"
     assert told["it is"] == "explicit, nodes-in-unit-interval"
     assert "symplectic" in told["it is not"]
     assert told["coefficients"] == "as printed"

@@ -44,11 +44,18 @@ FORMULA = re.compile(r".*[|{}=/].*|[A-Z]|sqrt.*")
 """What stands before two blanks and is no label: formulas, and letters for methods."""
 
 
+def is_head(line: str) -> bool:
+    """Whether a list of methods begins."""
+    return line.startswith("  name ") and "order" in line
+
+
 def labels(text: str) -> Iterator[str]:
-    """What stands before two blanks at the beginning of lines."""
+    """What stands before two blanks at the beginning of lines, but for names of methods."""
+    is_list = False
     for line in text.splitlines():
+        is_list = line.startswith("  ") and (is_list or is_head(line))
         found = LABEL.match(line)
-        if found:
+        if found and (not is_list or is_head(line)):
             yield found[1].rstrip(",:")
 
 

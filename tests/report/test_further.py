@@ -20,9 +20,8 @@ from garkcli.report import check_junit
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
-from garkcli.report.tableau_json import render as tableau_json
-from garkcli.report.tableau_json import tableau_report_schema
-from garkcli.report.tableau_text import render as tableau_text
+from garkcli.report.tableau import REPORT as TABLEAU
+from garkcli.report.tableau import Shown
 from garkcli.tableau.pointwise import entries
 from tests.cli.harness import gark
 
@@ -193,20 +192,23 @@ def test_tableaus_show_them_in_every_format() -> None:
     """
     method = load(str(FILE))
     found = entries(method.tableau).beside(method.further)
-    text = tableau_text(method.tableau, found, "it", Paint())
+    shown = Shown(method.tableau, found, "it")
+    text = TABLEAU.render([shown])
     assert "embedded | 7/24  1/4  1/3  1/8" in text
     assert "    0  4/3   -8/9" in text
-    narrow = tableau_text(method.tableau, found, "it", Paint(), width=20)
+    narrow = TABLEAU.render([shown], width=20)
     assert "embedded{1} = 7/24," in narrow
-    data = json.loads(tableau_json(method.tableau, found, "it"))
-    jsonschema.validate(data, tableau_report_schema())
+    data = json.loads(TABLEAU.json([shown]))
+    jsonschema.validate(data, TABLEAU.schema)
     assert data["embedded"] == [["7/24", "1/4", "1/3", "1/8"]]
     assert data["float"]["dense"][0][1] == [0.0, 1.0, pytest.approx(-2 / 3)]
     latex = tableau_latex(method.tableau, found, "it")
     assert r"& \frac{7}{24} & \frac{1}{4}" in latex
     assert r"b_{4}(\theta) &= -\theta^{2} + \theta^{3}" in latex
-    bare = tableau_text(method.tableau, entries(method.tableau), "it", Paint())
-    assert "embedded" not in bare
+    assert "embedded" not in TABLEAU.render([shown._replace(entries=entries(method.tableau))])
+    assert "embedded | 7/24  1/4  1/3  1/8" in TABLEAU.render([shown], "markdown")
+    assert r"& \frac{7}{24} & \frac{1}{4}" in TABLEAU.render([shown], "latex")
+    assert "<td" in TABLEAU.html(shown)
 
 
 def test_latex_of_sums_and_zeros() -> None:

@@ -97,7 +97,7 @@ TERMS = (
         " symmetric, with positive weights and so on. Each may be claimed.",
         "",
         _PROPERTIES,
-        ("property", "decided of one alone"),
+        ("property", "decided of one alone", "is", "it is", "it is not"),
         ("explicit", "symmetric", "A-stable"),
     ),
     Term(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.report.citation import Cited, render
+from garkcli.report.citation import Cited, bibliography
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -21,7 +21,7 @@ def _content(method: Reported) -> Content | None:
         "url": "",
         "coefficients": "",
         "note": "",
-        "bibtex": render([cited], "bibtex"),
+        "bibtex": bibliography([cited]),
     }
     if fields is not None:
         found["doi"] = fields.doi

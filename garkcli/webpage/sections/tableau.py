@@ -13,7 +13,7 @@ from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import remark
 from garkcli.page.tableau_latex import dense_polynomials, parts_of
-from garkcli.report.tableau_text import readable
+from garkcli.page.tableau_text import readable
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import pair

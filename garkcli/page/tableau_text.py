@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from flint import arb
 
 from garkcli.exact.display import to_ball, to_text
-from garkcli.page.cells import cell_text, distinct_rows, remark
-from garkcli.page.paint import Paint, aligned, indented
+from garkcli.page.cells import cell_text, distinct_rows
+from garkcli.page.paint import aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
@@ -32,39 +32,18 @@ def readable(entries: Entries) -> Entries:
     return entries.changed(short)
 
 
-def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80) -> str:
+def tableau_lines(tableau: Tableau, entries: Entries, width: int = 80) -> list[str]:
     """The whole tableau.
 
     Args:
         tableau: for the names of its colours.
         entries: its entries, see ``garkcli.tableau.pointwise``.
-        title: the first line.
-        paint: colour or none.
         width: columns of the terminal.
     """
-    lines = [paint("strong", line) for line in _title_lines(title, width)]
-    if about := remark(entries):
-        lines.append(about)
-    lines.append("")
-    grid = _grid(tableau, entries)
-    widest = max(len(line) for line in grid)
-    if widest <= width:
-        lines += grid
-    else:
-        lines += _listing(tableau, entries, width)
-    lines += _dense(tableau, entries, width)
-    return "\n".join(lines) + "\n"
-
-
-def _title_lines(title: str, width: int) -> list[str]:
-    """The title, in several lines where it is long; names of files are left whole."""
-    if len(title) <= width:
-        return [title]
-    from textwrap import wrap  # slow to import, and most titles fit
-
-    return wrap(
-        title, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
-    )
+    lines = _grid(tableau, entries)
+    if max(map(len, lines)) > width:
+        lines = _listing(tableau, entries, width)
+    return [*lines, *_dense(tableau, entries, width)]
 
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:

@@ -1,0 +1,103 @@
+"""A tableau as tables of HTML, Q and P for a method for positions and momenta."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+
+from garkcli.page.cells import cell_text
+from garkcli.page.plain import printable
+from garkcli.page.tableau_latex import parts_of
+from garkcli.tableau.pointwise import Cell, Entries
+from garkcli.tableau.tableau import Tableau
+
+_LINE = "1px solid"
+
+
+def tableau_lines(tableau: Tableau, entries: Entries, name: str = "") -> list[str]:
+    """The tables, below the name and the letter of each."""
+    return [
+        _table(", ".join(filter(None, (name, letter))), _rows(tableau, entries, stages, colours))
+        for letter, stages, colours in parts_of(tableau)
+    ]
+
+
+def _rows(
+    tableau: Tableau, entries: Entries, stages: Sequence[int], colours: Sequence[int]
+) -> Iterator[str]:
+    """The stages of each colour of ``stages``, then the rows of weights."""
+    if len(colours) > 1:
+        yield _heads(tableau, entries, colours)
+    for l in stages:
+        for i, node in enumerate(entries.c[l]):
+            head = cell_text(node, entries.digits)
+            groups = [_stage(entries, l, i, m) for m in colours]
+            yield _row(head, groups, is_first=i == 0)
+    feet = [entries.b]
+    if entries.embedded is not None:
+        feet.append(entries.embedded)
+    is_first = True
+    for weights in feet:
+        groups = [_cells(weights[m], entries) for m in colours]
+        yield _row("", groups, is_first)
+        is_first = False
+
+
+def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
+    """The names of the colours over their columns."""
+    heads = ['<th scope="col"></th>']
+    for m in colours:
+        name = _text(tableau.colours[m].name)
+        span = len(entries.b[m])
+        attributes = f'scope="col" colspan="{span}"'
+        heads.append(f"<th {attributes}>{name}</th>")
+    joined = "".join(heads)
+    return f"<tr>{joined}</tr>"
+
+
+def _stage(entries: Entries, l: int, i: int, m: int) -> list[str]:
+    """Row i of the block l, m; blanks where there is none."""
+    block = entries.A[l][m]
+    if block is None:
+        return [""] * len(entries.b[m])
+    return _cells(block[i], entries)
+
+
+def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
+    digits = entries.digits
+    return [cell_text(x, digits) for x in row]
+
+
+def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
+    """A row of the tableau: a line to the left of each block, one above where it is the first."""
+    above = ""
+    if is_first:
+        above = f"border-top:{_LINE};"
+    cells = [_cell(head, above)]
+    for group in groups:
+        style = f"{above}border-left:{_LINE};"
+        for text in group:
+            cells.append(_cell(text, style))
+            style = above
+    joined = "".join(cells)
+    return f"<tr>{joined}</tr>"
+
+
+def _cell(text: str, style: str) -> str:
+    # where a page gives tables no room of their own, fractions side by side would touch
+    return f'<td style="padding:0.1em 0.5em;{style}">{_text(text)}</td>'
+
+
+def _table(title: str, rows: Iterable[str]) -> str:
+    beside = "white-space:nowrap;text-align:left"
+    caption = ""
+    if title:
+        caption = f'<caption style="{beside}">{_text(title)}</caption>'
+    style = "border-collapse:collapse"
+    body = "\n".join(rows)
+    return f'<table style="{style}">{caption}<tbody>\n{body}\n</tbody></table>'
+
+
+def _text(text: str) -> str:
+    """A text without controls, as it stands in HTML."""
+    return escape(printable(text))

@@ -1,0 +1,188 @@
+"""``gark list methods``: entries of the catalogue, declared once; one of them in ``gark show``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from flint import fmpq
+
+from garkcli.exact.expression import read_decimal
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.paint import counted
+from garkcli.properties.registry import every_property
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, parts, table, told
+from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.report import ListReport, Report
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+Entry: TypeAlias = dict[str, Any]
+ORDER = "order"
+"""The line of a report that has orders and how large errors are."""
+
+
+def _field(key: str, kind: Kind, level: Level = DATA, has_null: bool = True, line: str = "") -> Row:
+    """A row of the field of that name; what nobody knows is null."""
+    return Row(key, kind, lambda entry: entry[key], level, has_null, line=line)
+
+
+def rounding(entry: Entry) -> fmpq | None:
+    """Within which rounding a method is what it is."""
+    return None if entry["tolerance"] is None else read_decimal(entry["tolerance"])
+
+
+def order(key: str) -> Callable[[Entry], Answer]:
+    """An order as it is known."""
+    return lambda entry: Answer(entry[key], Status(rounding(entry)))
+
+
+def _order(key: str, level: Level = USUAL) -> Row:
+    return Row(key, COUNT, order(key), level, has_null=True, line=ORDER)
+
+
+KINDS = {"truth": TRUTH, "count": COUNT, "number": TEXT}
+PROPERTIES = [
+    _field(
+        x.field,
+        KINDS[x.kind],
+        DETAIL if x.kind == "truth" else USUAL,
+        line=ORDER if x.field == "stage_order" else "",
+    )
+    for x in every_property()
+]
+TRUTHS = ["symplectic", *(x.field for x in every_property() if x.kind == "truth")]
+STAGES = Kind(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs)))
+METHOD = [
+    _field("name", TEXT, USUAL, has_null=False),
+    _field("aliases", TEXTS, USUAL, has_null=False),
+    _field("file", TEXT, USUAL, has_null=False),
+    _field("folder", TEXT, DETAIL, has_null=False),
+    _field("catalogue", TEXT, DETAIL, has_null=False),
+    _field("facts", choice("found", "claimed", "unread"), DETAIL, has_null=False),
+    _field("title", TEXT, has_null=False),
+    _field("reference", TEXT, USUAL, has_null=False),
+    _field("authors", TEXTS, has_null=False),
+    _field("year", TEXT, has_null=False),
+    _order("order", HEADLINE),
+    _order("embedded_order"),
+    _order("conjugate_order"),
+    _order("pair_order"),
+    _order("nonautonomous_order"),
+    _field("stages", POSITION),
+    _field("stages_by_colour", STAGES, has_null=False),
+    _field("colours", POSITION),
+    _field("kind", choice("rk", "ark", "prk", "gark", "family", None), has_null=False),
+    _field("structure", TEXT),
+    _field("exact", TRUTH),
+    _field("tolerance", TEXT, USUAL),
+    _field("embedded", TRUTH),
+    _field("dense", TRUTH),
+    _field("error_constant", TEXT, USUAL, line=ORDER),
+    _field("symplectic", TRUTH, DETAIL),
+    *PROPERTIES,
+    _field("undecided", TEXTS, has_null=False),
+]
+"""A method of the catalogue."""
+MARKS = {
+    "A": ("a_stable", "A-stable"),
+    "L": ("l_stable", "L-stable"),
+    "B": ("algebraically_stable", "algebraically stable"),
+    "F": ("fsal", "first same as last"),
+    "S": ("symplectic", "symplectic"),
+    "R": ("symmetric", "symmetric (reversible)"),
+    "t": ("", "another order for y' = f(t, y)"),
+    "~": ("", "rounded"),
+}
+"""One letter each of what most people look for."""
+TYPES = {
+    "explicit": "explicit",
+    "sdirk": "SDIRK",
+    "esdirk": "ESDIRK",
+    "diagonally_implicit": "DIRK",
+    "fully_implicit": "implicit",
+}
+"""Words for how the stages depend on each other, the narrower before the wider."""
+
+
+def marks(entry: Entry) -> list[str]:
+    """The letters of a method."""
+    found = [mark for mark, (key, _) in MARKS.items() if key and entry[key]]
+    if entry["nonautonomous_order"] not in {None, entry["order"]}:
+        found.append("t")
+    return [*found, "~"] if entry["exact"] is False else found
+
+
+def _order_words(entry: Entry, _: Plain) -> str:
+    """The order with that of embedded weights, marked where it is a claim."""
+    if entry["order"] is None:
+        return ""
+    inner = "" if entry["embedded_order"] is None else f"({entry['embedded_order']})"
+    return f"{entry['order']}{inner}{'*' if entry['facts'] == 'claimed' else ''}"
+
+
+def _stages_words(entry: Entry, _: Plain) -> str:
+    """How many, a number a colour where colours have stages of their own."""
+    own = [entry["stages"]] if entry["kind"] == "ark" else entry["stages_by_colour"]
+    return "+".join(map(str, own))
+
+
+def _marks_words(entry: Entry, d: Plain) -> str:
+    if d.is_brief:
+        return d.prose("".join(marks(entry)))
+    return d.prose(", ".join(MARKS[x][1] for x in marks(entry)))
+
+
+def short_reference(entry: Entry) -> str:
+    """Last names and year, or the beginning of a reference that is plain text."""
+    names = [name.split()[-1] for name in entry["authors"]]
+    if not names:
+        return str(entry["reference"])
+    text = f"{names[0]} et al." if len(names) > 3 else ", ".join(names)
+    return f"{text} {entry['year']}".rstrip()
+
+
+def _reference_words(entry: Entry, d: Plain) -> str:
+    return d.prose(short_reference(entry) if d.is_brief else entry["reference"])
+
+
+def _type(entry: Entry) -> str:
+    return next((word for key, word in TYPES.items() if entry[key]), "")
+
+
+LINE = Section(
+    Row("name", TEXT, lambda x: x["name"], label=""),
+    Row("order", told(_order_words), lambda x: x),
+    Row("stages", told(_stages_words), lambda x: x),
+    Row("kind", TEXT, lambda x: x["kind"] or "unread"),
+    Row("explicit", TEXT, _type, label="type"),
+    Row("properties", told(_marks_words), lambda x: x, label="is"),
+    Row("reference", told(_reference_words), lambda x: x),
+    is_cut=True,
+)
+"""A method in a line."""
+
+
+def _title(entries: Sequence[Entry], d: Plain) -> str:
+    """How many there are, and what the letters mean."""
+    if not entries:
+        return "no method of the catalogue is such"
+    present = {mark for entry in entries for mark in marks(entry)} if d.is_brief else set()
+    legend = [f"{mark}: {MARKS[mark][1]}" for mark in MARKS if mark in present]
+    if any(x["facts"] == "claimed" and x["order"] is not None for x in entries):
+        legend.append("*: as its file claims (--judge finds it)")
+    return d.prose(". ".join(filter(None, [counted(len(entries), "method"), ", ".join(legend)])))
+
+
+REPORT: Report[Sequence[Entry]] = ListReport.only(
+    "",
+    "list of gark list methods",
+    Section(
+        Row("methods", parts(Section(*METHOD)), lambda x: x, DATA),
+        Row("name", table(LINE, 0, is_data=False), lambda x: x),
+        title=_title,
+    ),
+    lines=lambda entries: (Section(*METHOD), entries),
+)
