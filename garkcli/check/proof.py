@@ -11,10 +11,11 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.proof import Proof, prove
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import printed
+from garkcli.upward import Shown
 
 
 @dataclass(frozen=True)
-class MethodProof:
+class MethodProof(Shown):
     """What decides the orders of a method.
 
     Attributes:

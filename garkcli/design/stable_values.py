@@ -33,6 +33,7 @@ from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot, sign_at
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import Shown
 
 Wanted: TypeAlias = Literal["p-stable", "a-stable", "l-stable"]
 
@@ -41,7 +42,7 @@ MOST_DEGREE = 6
 
 
 @dataclass(frozen=True)
-class StableValues:
+class StableValues(Shown):
     """The values of a parameter for which a family has a kind of stability.
 
     Attributes:

@@ -48,3 +48,11 @@ REPORT: Report[Outcome] = Report(
     tail=Section(Row("summary", part(SUMMARY), lambda xs: xs)),
     is_open=True,
 )
+
+
+def whole(found: Any, name: str) -> Outcome:
+    """What is told of an outcome, or of an analysis by a name."""
+    from garkcli.check.analysis import Analysis
+    from garkcli.check.outcome import Outcome
+
+    return Outcome(name, name, analysis=found) if isinstance(found, Analysis) else found

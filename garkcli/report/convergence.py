@@ -318,3 +318,8 @@ REPORT: Report[ConvergenceReport | Failure] = Report(
         WORKED if x.has_work else STEP, steps(x)
     ),
 )  # fmt: skip
+
+
+def whole(result: Convergence, name: str) -> ConvergenceReport:
+    """What is told of a test, by the name of its method where there is no other."""
+    return ConvergenceReport(result, name or ("" if result.method is None else result.method.name))

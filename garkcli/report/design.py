@@ -567,3 +567,12 @@ REPORT: Report[DesignReport] = Report.only(
     WHOLE,
     lambda x: {"digits": x.digits, "colours": [c.name for c in x.design.tableau.colours]},
 )
+
+
+def whole(found: Design | Minimum, name: str) -> DesignReport:
+    """What is told of a design, or of a minimum, by the name of its family where there is no
+    other.
+    """
+    if isinstance(found, Minimum):
+        return DesignReport(name or found.design.family.name, found.design, minimum=found)
+    return DesignReport(name or found.family.name, found)

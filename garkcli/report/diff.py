@@ -86,11 +86,6 @@ class Compared(NamedTuple):
         return Method(method, self.files[index], self.found.forms[index])
 
 
-def compared(found: Comparison) -> Compared:
-    """A comparison of methods that have names at most."""
-    return Compared(found, (found.one.name or "first", found.other.name or "second"))
-
-
 # kinds
 
 
@@ -378,3 +373,8 @@ REPORT: Report[Compared] = Report.only(
     ),
     lambda x: {"colours": [colour.name for colour in x.found.one.tableau.colours]},
 )
+
+
+def whole(found: Comparison, _: str) -> Compared:
+    """What is told of a comparison; its methods have names."""
+    return Compared(found, (found.one.name or "first", found.other.name or "second"))

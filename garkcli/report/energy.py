@@ -497,3 +497,8 @@ REPORT: Report[EnergyReport | Failure] = Report(
     key="",
     lines=lambda x: (MOMENT, () if isinstance(x, Failure) else _moments(x)),
 )
+
+
+def whole(run: LongRun, name: str) -> EnergyReport:
+    """What is told of a run, by the name of its method where there is no other."""
+    return EnergyReport(name or ("" if run.method is None else run.method.name), run)

@@ -161,3 +161,8 @@ REPORT: Report[ModifiedEnergyReport | Failure] = Report(
     key="",
     lines=lambda x: (LINE, () if isinstance(x, Failure) else _errors(x.run)),
 )
+
+
+def whole(run: ModifiedRun, name: str) -> ModifiedEnergyReport:
+    """What is told of a run, by the name of its method where there is no other."""
+    return ModifiedEnergyReport(name or ("" if run.method is None else run.method.name), run)

@@ -16,8 +16,6 @@ from garkcli.page.tableau_latex import displays
 from garkcli.trees.svg import draw_svg_sheet
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis
-    from garkcli.check.outcome import Outcome
     from garkcli.order.certificate import Witness
     from garkcli.order.conditions import Condition
     from garkcli.order.deciding import AnyOrder
@@ -99,21 +97,6 @@ def condition_html(condition: Condition) -> str:
         weight = f"{condition.value} instead of {condition.required}"
     picture = draw_svg_sheet([tree])
     return f"{picture}<p>{_text(str(tree))}: {_text(weight)}</p>"
-
-
-def analysis_html(found: Analysis) -> str:
-    """What is found of a method."""
-    from garkcli.check.outcome import Outcome
-    from garkcli.report.checked import REPORT
-
-    return REPORT.html(Outcome("", "", analysis=found))
-
-
-def outcome_html(outcome: Outcome) -> str:
-    """What became of a file: what is found, and its claims or its faults."""
-    from garkcli.report.checked import REPORT
-
-    return REPORT.html(outcome)
 
 
 def _text(text: str) -> str:

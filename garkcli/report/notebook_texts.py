@@ -11,23 +11,12 @@ from garkcli.page.plain import printable
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from garkcli.backward.energy import ModifiedRun
     from garkcli.backward.formulas import ModifiedFormula
     from garkcli.backward.summary import BackwardAnalysis
-    from garkcli.comparison.comparison import Comparison
-    from garkcli.design.design import Design
-    from garkcli.design.minimise.result import Minimum
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.summary import Stability
 
 _PLAIN = Paint()
-
-
-def stability_html(found: Stability) -> str:
-    """What ``gark stability`` tells."""
-    from garkcli.report.stability import REPORT, StabilityReport
-
-    return REPORT.html(StabilityReport("", "", found))
 
 
 def stability_latex(found: Stability) -> str:
@@ -48,27 +37,6 @@ def function_latex(R: StabilityFunction) -> str:
     return f"$R(z) = {fraction}$"
 
 
-def comparison_html(found: Comparison) -> str:
-    """What ``gark diff`` tells."""
-    from garkcli.report.diff import REPORT, compared
-
-    return REPORT.html(compared(found))
-
-
-def design_html(design: Design) -> str:
-    """What ``gark design`` tells."""
-    from garkcli.report.design import REPORT, DesignReport
-
-    return REPORT.html(DesignReport("", design))
-
-
-def minimum_html(minimum: Minimum) -> str:
-    """What ``gark design --minimise`` tells."""
-    from garkcli.report.design import REPORT, DesignReport
-
-    return REPORT.html(DesignReport("", minimum.design, minimum=minimum))
-
-
 def backward_html(found: BackwardAnalysis) -> str:
     """What ``gark modified`` prints."""
     from garkcli.report.modified import text_of
@@ -82,13 +50,6 @@ def formula_latex(formula: ModifiedFormula) -> str:
     from garkcli.report.modified_formula import formula_latex as written
 
     return written(formula.expanded())
-
-
-def modified_run_html(run: ModifiedRun) -> str:
-    """What ``gark energy --modified`` tells."""
-    from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
-
-    return REPORT.html(ModifiedEnergyReport("", run))
 
 
 def preformatted(lines: Iterable[str]) -> str:

@@ -1,34 +1,42 @@
-"""What commands print, of values: one writer a kind of value, in the formats of its command."""
+"""What commands tell, of values that calls return: by rows, or by a writer of their own."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeAlias
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from garkcli.backward.energy import ModifiedRun
-from garkcli.backward.summary import BackwardAnalysis
-from garkcli.bridges.audit import Audited
-from garkcli.check.analysis import Analysis
-from garkcli.check.meanings import Meaning
-from garkcli.check.outcome import Outcome
-from garkcli.comparison.comparison import Comparison
-from garkcli.convergence.result import Convergence
-from garkcli.design.design import Design
-from garkcli.design.minimise.result import Minimum
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
-from garkcli.longtime.history import LongRun
 from garkcli.page.paint import Paint
-from garkcli.report.audited import FORMATS as AUDIT_FORMATS
-from garkcli.report.sweep import SweepReport
-from garkcli.stability.summary import Stability
-from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tell.report import FORMATS
+from garkcli.tell.report import FORMATS, Report
+
+if TYPE_CHECKING:
+    from garkcli.backward.summary import BackwardAnalysis
+    from garkcli.report.sweep import SweepReport
+    from garkcli.tableau.garkmethod import GarkMethod
 
 Writer: TypeAlias = "Callable[[Any, str, str], str]"
 """Of a value, a format, and what to call the method."""
 WIDTH = 80
 """Columns of texts."""
 _PLAIN = Paint()
+TOLD_BY = {
+    "backward.ModifiedRun": "modified_energy",
+    "check.Analysis": "checked",
+    "check.MethodProof": "certificate",
+    "check.Outcome": "checked",
+    "comparison.Comparison": "diff",
+    "convergence.Convergence": "convergence",
+    "design.Design": "design",
+    "design.Minimum": "design",
+    "design.StableValues": "stable_values",
+    "longtime.LongRun": "energy",
+    "report.SweepReport": "sweep",
+    "stability.Stability": "stability",
+}
+"""By room and kind of a value the file that tells it by rows: its ``REPORT``, and ``whole``, which
+makes of the value and a name what that tells.
+"""
 
 
 def render(value: object, format: str = "text", name: str = "") -> str:
@@ -37,8 +45,8 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     Args:
         value: a method (``gark tableau``); what ``check_file``, ``analyse``, ``find_stability``,
             ``converge``, ``long_run``, ``compare``, ``backward_analysis``, ``modified_run``,
-            ``find_parameters``, ``minimise``, ``run_sweep``, ``explain`` or ``audit`` returned; or
-            a list of outcomes.
+            ``find_parameters``, ``minimise``, ``stable_values``, ``prove_method``, ``run_sweep``,
+            ``explain`` or ``audit`` returned; or a list of outcomes.
         format: as the command has it: ``"text"``, ``"json"`` and others.
         name: what to call the method where the value does not say it.
 
@@ -62,35 +70,49 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     >>> json.loads(render(compare("heun", "rk4"), "json"))["schema"]
     'gark/diff/1'
     """
-    kind, writer, formats = _writer_of(value)
+    one = value[0] if isinstance(value, (list, tuple)) and value else value
+    kind, write, formats = _writer_of(one)
     if format not in formats:
         cure = did_you_mean(format, formats)
-        raise UsageProblem(f"no format {format!r} of {kind}", cure)
-    return writer(value, format, name)
+        raise UsageProblem(f"no format {format!r} of {kind.partition('.')[2]}", cure)
+    return write(value, format, name)
+
+
+def html(value: Any) -> str:
+    """A value that rows tell, as notebooks show it."""
+    report, whole = _told_by(TOLD_BY[_kind(value, TOLD_BY)])
+    return report.html(whole(value, ""))
+
+
+def _kind(value: object, known: Mapping[str, Any]) -> str:
+    """The room and the kind of a value, or of one that its kind is made from; else nothing."""
+    rooms = ((kind, kind.__module__.split(".")) for kind in type(value).__mro__)
+    kinds = (f"{''.join(room[1:2])}.{kind.__name__}" for kind, room in rooms)
+    return next((x for x in kinds if x in known), "")
+
+
+def _told_by(file: str) -> tuple[Report[Any], Callable[[Any, str], Any]]:
+    module = import_module(f"garkcli.report.{file}")
+    return module.REPORT, module.whole
 
 
 def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
-    """What writes a value.
+    """The kind of a value, what writes it, and in which formats.
 
     Raises:
         MethodError: nothing does.
     """
-    one = value
-    if isinstance(value, (list, tuple)) and value:
-        one = value[0]
-    for kind, (writer, formats) in _WRITERS.items():
-        if isinstance(one, kind):
-            return kind.__name__, writer, formats
+    if kind := _kind(value, WRITERS):
+        return kind, *WRITERS[kind]
+    if kind := _kind(value, TOLD_BY):
+        report, whole = _told_by(TOLD_BY[kind])
+        formats = FORMATS if report.lines is None else (*FORMATS, "csv")
+        return kind, lambda x, format, name: report.render([whole(x, name)], format), formats
     raise MethodError(
         f"no command prints values of the kind {type(value).__name__}",
         "give a method, or what analyse, check_file or another call that"
         " help(garkcli.render) names returned",
     )
-
-
-def _called(name: str, method: GarkMethod | None) -> str:
-    """What the caller says, or what the value knows."""
-    return name or (method.name if method is not None else "")
 
 
 def _method(method: GarkMethod, format: str, _: str) -> str:
@@ -109,57 +131,11 @@ def _outcomes(value: Any, format: str, _: str) -> str:
     return FORMATS[format](outcomes, _PLAIN, 0, None, WIDTH)
 
 
-def _analysis(found: Analysis, format: str, name: str) -> str:
-    return _outcomes(Outcome(name, name, analysis=found), format, name)
-
-
-def _stability(found: Stability, format: str, name: str) -> str:
-    from garkcli.report.stability import REPORT, StabilityReport
-
-    return REPORT.render([StabilityReport(name, name, found)], format)
-
-
-def _convergence(result: Convergence, format: str, name: str) -> str:
-    from garkcli.report.convergence import REPORT, ConvergenceReport
-
-    return REPORT.render([ConvergenceReport(result, _called(name, result.method))], format)
-
-
-def _long_run(run: LongRun, format: str, name: str) -> str:
-    from garkcli.report.energy import REPORT, EnergyReport
-
-    return REPORT.render([EnergyReport(_called(name, run.method), run)], format)
-
-
-def _comparison(found: Comparison, format: str, _: str) -> str:
-    from garkcli.report.diff import REPORT, compared
-
-    return REPORT.render([compared(found)], format)
-
-
 def _backward(found: BackwardAnalysis, format: str, name: str) -> str:
     from garkcli.report.modified import render as written
     from garkcli.report.modified_data import ModifiedReport
 
     return "".join(written(ModifiedReport(name, name, found), format, _PLAIN))
-
-
-def _modified_run(run: ModifiedRun, format: str, name: str) -> str:
-    from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
-
-    return REPORT.render([ModifiedEnergyReport(_called(name, run.method), run)], format)
-
-
-def _design(design: Design, format: str, name: str, minimum: Minimum | None = None) -> str:
-    from garkcli.report.design import REPORT, DesignReport
-
-    return REPORT.render(
-        [DesignReport(name or design.family.name, design, minimum=minimum)], format
-    )
-
-
-def _minimum(minimum: Minimum, format: str, name: str) -> str:
-    return _design(minimum.design, format, name, minimum)
 
 
 def _sweep(report: SweepReport, format: str, _: str) -> str:
@@ -176,24 +152,18 @@ def _meanings(value: Any, format: str, name: str) -> str:
 
 
 def _audited(value: Any, format: str, _: str) -> str:
+    from garkcli.report.audited import FORMATS
+
     tables = value if isinstance(value, (list, tuple)) else [value]
-    return AUDIT_FORMATS[format](tables)
+    return FORMATS[format](tables)
 
 
-_WRITERS: Mapping[type, tuple[Writer, Sequence[str]]] = {
-    GarkMethod: (_method, FORMATS),
-    Outcome: (_outcomes, ("text", "json", "sarif", "junit", "github", "markdown", "latex")),
-    Analysis: (_analysis, FORMATS),
-    Stability: (_stability, FORMATS),
-    Convergence: (_convergence, (*FORMATS, "csv")),
-    LongRun: (_long_run, (*FORMATS, "csv")),
-    Comparison: (_comparison, FORMATS),
-    BackwardAnalysis: (_backward, ("text", "json", "latex")),
-    ModifiedRun: (_modified_run, (*FORMATS, "csv")),
-    Design: (_design, FORMATS),
-    Minimum: (_minimum, FORMATS),
-    SweepReport: (_sweep, (*FORMATS, "jsonl", "csv")),
-    Meaning: (_meanings, ("text", "json")),
-    Audited: (_audited, (*AUDIT_FORMATS,)),
+WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
+    "backward.BackwardAnalysis": (_backward, ("text", "json", "latex")),
+    "bridges.Audited": (_audited, (*FORMATS, "github", "sarif")),
+    "check.Meaning": (_meanings, ("text", "json")),
+    "check.Outcome": (_outcomes, (*FORMATS, "sarif", "junit", "github")),
+    "report.SweepReport": (_sweep, (*FORMATS, "csv", "jsonl")),
+    "tableau.GarkMethod": (_method, FORMATS),
 }
-"""By the kind of a value what writes it, in which formats."""
+"""The same of values that have formats besides, or no rows: what writes them, in which formats."""

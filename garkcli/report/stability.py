@@ -583,6 +583,11 @@ REPORT: Report[StabilityReport] = Report(
 )
 
 
+def whole(found: Stability, name: str) -> StabilityReport:
+    """What is told of a stability by a name."""
+    return StabilityReport(name, name, found)
+
+
 def formulas(found: Stability) -> Iterator[tuple[str, str]]:
     """Names and values in LaTeX of what decides stability."""
     from garkcli.page.exactly import multivariate_latex, polynomial_latex

@@ -139,3 +139,8 @@ REPORT: Report[StableReport] = Report.only(
     WHOLE,
     lambda x: {"digits": x.digits},
 )
+
+
+def whole(found: StableValues, name: str) -> StableReport:
+    """What is told of a set of values, by the name of its family where there is no other."""
+    return StableReport(name or found.family.name, found)

@@ -18,6 +18,7 @@ from garkcli.sweep.row import Row as Judged
 from garkcli.tell.facts import Kind, Level, Row, Section, table, told, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
 from garkcli.tell.report import Report
+from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -28,7 +29,7 @@ WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"
 
 
 @dataclass(frozen=True)
-class SweepReport:
+class SweepReport(Shown):
     """What is told of a sweep.
 
     Attributes:
@@ -246,3 +247,8 @@ def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
     if name not in plan.criteria.columns or "infinity" not in values:
         return values
     return [None if value is None else float(value) for value in values]
+
+
+def whole(report: SweepReport, _: str) -> SweepReport:
+    """What is told of a sweep, which has a name."""
+    return report

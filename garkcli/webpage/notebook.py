@@ -10,9 +10,7 @@ from garkcli.convergence.result import Convergence
 from garkcli.longtime.history import LongRun
 from garkcli.plots.scene import Panel
 from garkcli.plots.svg import svg
-from garkcli.report.convergence import REPORT, ConvergenceReport
-from garkcli.report.energy import REPORT as ENERGY
-from garkcli.report.energy import EnergyReport
+from garkcli.report.rendering import html
 from garkcli.webpage.pictures import NotDrawn, energy, errors
 
 T = TypeVar("T")
@@ -20,12 +18,12 @@ T = TypeVar("T")
 
 def convergence_html(result: Convergence) -> str:
     """What ``gark converge`` tells, and the errors in a picture."""
-    return _shown(REPORT.html(ConvergenceReport(result, "")), errors, result)
+    return _shown(html(result), errors, result)
 
 
 def long_run_html(run: LongRun) -> str:
     """What ``gark energy`` tells, and the error of the first invariant in a picture."""
-    return _shown(ENERGY.html(EnergyReport("", run)), energy, run)
+    return _shown(html(run), energy, run)
 
 
 def _shown(report: str, draw: Callable[[T], Panel], result: T) -> str:

@@ -44,7 +44,7 @@ RUNS = [
     (("conjugate", VERLET), ("text", "yaml", "json", "markdown", "latex")),
     (("conjugate", COLLOCATION, "--pair"), ("text", "yaml", "json", "markdown", "latex")),
     (("stability", COLLOCATION), ("text", "json", "markdown", "latex")),
-    (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
+    (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "markdown", "latex", "csv")),
     (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
     (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
     (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),

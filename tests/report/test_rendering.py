@@ -10,7 +10,7 @@ import pytest
 
 import garkcli
 from garkcli import MethodError, UsageProblem, render
-from garkcli.report.rendering import _WRITERS
+from garkcli.report.rendering import _writer_of
 from tests.cli.harness import gark
 
 FAMILY = "tests/examples/families/sdirk.gark.yaml"
@@ -51,6 +51,12 @@ MADE: dict[str, Made] = {
         ("design", FAMILY, "--minimise", "error"),
         FAMILY,
     ),
+    "StableValues": (
+        lambda: garkcli.stable_values(FAMILY, "a-stable"),
+        ("design", FAMILY, "--a-stable"),
+        FAMILY,
+    ),
+    "MethodProof": (lambda: garkcli.prove_method("rk4"), ("certificate", "rk4"), ""),
     "Meaning": (lambda: garkcli.explain("density"), ("explain", "density"), "density"),
     "Audited": (lambda: list(garkcli.audit(KUTTA)), ("audit", KUTTA), ""),
 }
@@ -61,13 +67,16 @@ make the steps symplectic.
 """
 
 
+def first(made: Any) -> Any:
+    """A value, or the first of several."""
+    return made[0] if isinstance(made, list) else made
+
+
 def formats() -> list[tuple[str, str]]:
     """Each kind of value with each of its formats, but for sweeps, which have a file of rows."""
-    pairs = []
-    for kind, (_, names) in _WRITERS.items():
-        if kind.__name__ != "SweepReport":
-            pairs += [(kind.__name__, name) for name in names]
-    return pairs
+    return [
+        (kind, name) for kind, (make, _, _) in MADE.items() for name in _writer_of(first(make()))[2]
+    ]
 
 
 @pytest.fixture(scope="module")
