@@ -200,9 +200,8 @@ def _error_constant(analysis: Analysis) -> str | None:
 
 def _properties(analysis: Analysis) -> Entry:
     """Every property by its name in JSON; null where it has no meaning or is not decided."""
-    sought: tuple[str, ...] = KEYS
-    if not _is_small(analysis.tableau):
-        sought = tuple(key for key in KEYS if key not in _SIZES)
+    is_small = _is_small(analysis.tableau)
+    sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
     found: Entry = {"symplectic": analysis.symplectic}
     open_ones = []

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.files import is_inside
-from garkcli.glossary.key import Files, Key
 from garkcli.page.plain import printable
+
+if TYPE_CHECKING:
+    from garkcli.glossary.key import Files, Key
 
 OWN = ".gark.toml"
 SHARED = "pyproject.toml"
@@ -224,5 +226,7 @@ KEYS = {
 
 def told(files: Files) -> Iterator[Key]:
     """What is told of the keys."""
+    from garkcli.glossary.key import Key  # only pages and explanations tell of keys
+
     for name, key in KEYS.items():
         yield Key(name, key.text, f"{name} = {key.example}", key.default, files.page)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 from yaml.nodes import MappingNode, Node, SequenceNode
@@ -208,13 +208,6 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
     return found or ("", None)
 
 
-@dataclass(frozen=True)
-class _Reading:
-    """A file of which one key is read."""
-
-    source: Source
-
-
 def _value_of(source: Source, name: str, kind: Kind) -> Any:
     """The value of a key of the file; None where there is none."""
     root = source.compose()
@@ -222,5 +215,5 @@ def _value_of(source: Source, name: str, kind: Kind) -> Any:
         raise source.error()
     for key, value in root.value:
         if key.value == name:
-            return kind.read(_Reading(source), value, name)
+            return kind.read(SimpleNamespace(source=source), value, name)
     return None

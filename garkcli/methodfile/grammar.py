@@ -11,12 +11,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.glossary.key import Key as Entry
 from garkcli.methodfile.source import Entries, Source
+
+if TYPE_CHECKING:
+    from garkcli.glossary.key import Key as Entry
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
@@ -91,6 +93,8 @@ class Key:
 
     def entries(self, above: str, page: str) -> Iterator[Entry]:
         """What is told of it and of the keys inside of it, as those of a page."""
+        from garkcli.glossary.key import Key as Entry  # only pages and explanations tell of keys
+
         path, own = above + self.name, self.page or page
         if self.is_listed:
             yield Entry(path, self.text, self.line, self.default, own, self.is_word)
