@@ -97,7 +97,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
     """
     outcome = check_file(path)
     if outcome.analysis is None or not outcome.ok:
-        raise NoMethod(f"{path}: {_what_fails(outcome)}")
+        raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
     method = loads(text, path)
     return {**found_of(method, outcome.analysis, name, file), "digest": digest(text)}
 

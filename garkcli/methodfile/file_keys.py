@@ -61,7 +61,7 @@ def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
     if value is not None and 0 < value < 1:
         return value
     message = f"{where}: a decimal number between 0 and 1 is expected, not {shortened(text)}"
-    at.source.fault(node, message, "for instance 1e-13")
+    at.source.fault(node, message, "for instance 1e-13", code="wrong-value")
     return None
 
 

@@ -121,7 +121,9 @@ class Found(dict[str, Any]):
         given = [key for key in ways if key in self.nodes]
         for key in given[1:2]:
             message = f"{where}: {what} given by {given[0]} already"
-            source.fault(self.nodes[key], message, f"keep one of {', '.join(given)}")
+            source.fault(
+                self.nodes[key], message, f"keep one of {', '.join(given)}", code="given-twice"
+            )
         return given[0] if len(given) == 1 else None
 
 
@@ -165,7 +167,7 @@ def mapping(
         missing = [x.name for x in every().values() if x.is_needed and x.name not in found.nodes]
         if missing:
             place = "" if where == FILE else f"{where}: "
-            source.fault(node, f"{place}{' and '.join(missing)} missing", form)
+            source.fault(node, f"{place}{' and '.join(missing)} missing", form, code="missing-key")
         found.is_right = len(source.faults) == before
         return found
 
@@ -247,10 +249,12 @@ def list_of(
     def read(at: Any, node: Node, where: str) -> list[Any] | None:
         items: list[Node] = at.source.items(node, where, form)
         if most is not None and len(items) > most:
-            at.source.fault(node, f"{len(items)} {noun} (limit {most})", "use fewer")
+            at.source.fault(
+                node, f"{len(items)} {noun} (limit {most})", "use fewer", code="too-many"
+            )
             return None
         if not items and isinstance(node, SequenceNode):
-            at.source.fault(node, f"{where} is empty", form)
+            at.source.fault(node, f"{where} is empty", form, code="empty")
             return None
         places = [each.format(i) or where for i in range(1, len(items) + 1)]
         values = [item.read(at, x, place) for x, place in zip(items, places, strict=True)]
