@@ -97,11 +97,12 @@ ANSWERS = {
     "Witness.html=witness_html Order.html=order_html RoundedOrder.html=order_html "
     "DenseOrder.html=dense_order_html Condition.html=condition_html",
     "report.notebook_texts": "Stability.latex=stability_latex "
-    "StabilityFunction.latex=function_latex BackwardAnalysis.html=backward_html "
-    "ModifiedFormula.latex=formula_latex",
+    "StabilityFunction.latex=function_latex",
+    "report.modified": "ModifiedFormula.latex=formula_latex",
     "report.rendering": "Analysis.html=html Outcome.html=html Stability.html=html "
     "Comparison.html=html Design.html=html Minimum.html=html StableValues.html=html "
-    "SweepReport.html=html MethodProof.html=html ModifiedRun.html=html",
+    "SweepReport.html=html MethodProof.html=html ModifiedRun.html=html "
+    "BackwardAnalysis.html=html",
     "webpage.notebook": "Convergence.html=convergence_html LongRun.html=long_run_html",
 }
 """What values of lower rooms show and answer: the question, and the function that answers it."""

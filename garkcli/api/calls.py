@@ -44,7 +44,7 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
     for key in wanted:
         if key not in CLAIMS:
             cure = did_you_mean(key, CLAIMS)
-            raise UsageProblem(f"no claim {key!r}", cure, code="unknown-word")
+            raise UsageProblem(f"no claim {key!r}", cure)
     return true_claims(found, wanted or usual_keys(found))
 
 
@@ -69,11 +69,7 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
     """
     found = method_of(method)
     if not isinstance(found, MethodFile):
-        raise MethodError(
-            f"{found!r} has no text",
-            "give what load, loads or from_arrays return",
-            code="other-file",
-        )
+        raise MethodError(f"{found!r} has no text", "give what load, loads or from_arrays return")
     claims = claims_of(found, keys)
     return write_claims(found.source, found.text, claims)
 
@@ -102,11 +98,9 @@ def find_stability(
     refuse_rounded(method)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
-        raise MethodError(
-            "ratios are for exact methods of two colours", "leave them out", code="pasted-tableau"
-        )
+        raise MethodError("ratios are for exact methods of two colours", "leave them out")
     if any(ratio <= 0 for ratio in further):
-        raise MethodError("ratios are positive", "the axes are always there", code="option-value")
+        raise MethodError("ratios are positive", "the axes are always there")
     if near is None:
         return stability(method.tableau, ratios=further)
     return stability_of_rounded(method.tableau, near)
@@ -139,7 +133,6 @@ def two_springs(
         raise MethodError(
             "with rounded coefficients nothing is decided about two springs",
             "give exact coefficients, without tolerance",
-            code="rounded",
         )
     tableau = method.tableau
     colour = colour_of(fast, "fast", tableau.size)
@@ -148,18 +141,14 @@ def two_springs(
         return two_frequencies(tableau, split, _square(slow))
     low, high = map(_square, slow)
     if low >= high:
-        raise MethodError(
-            "slow: the ends are not in ascending order", "give (low, high)", code="option-value"
-        )
+        raise MethodError("slow: the ends are not in ascending order", "give (low, high)")
     return slow_interval(tableau, split, low, high)
 
 
 def _square(given: Number) -> fmpq:
     number = rational(given, "slow")
     if number < 0:
-        raise MethodError(
-            f"slow: {number}: a square is not negative", "give 0 or more", code="option-value"
-        )
+        raise MethodError(f"slow: {number}: a square is not negative", "give 0 or more")
     return number
 
 

@@ -44,9 +44,7 @@ def family_of(given: AnyFamily) -> Family:
     if isinstance(given, Family):
         return given
     raise MethodError(
-        f"a family is expected, not {type(given).__name__}",
-        "load a file with load_family(path)",
-        code="arrays",
+        f"a family is expected, not {type(given).__name__}", "load a file with load_family(path)"
     )
 
 
@@ -103,7 +101,7 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     """
     if objective not in OBJECTIVES:
         message = f"no objective {objective!r}"
-        raise UsageProblem(message, did_you_mean(objective, OBJECTIVES), code="unknown-word")
+        raise UsageProblem(message, did_you_mean(objective, OBJECTIVES))
     if not isinstance(design, Design):
         design = find_parameters(design, seconds=seconds)
     return minimising.minimise(design, objective, seconds)
@@ -188,7 +186,7 @@ def stable_values(
     """
     if wanted not in STABILITIES:
         message = f"no stability {wanted!r}"
-        raise UsageProblem(message, did_you_mean(wanted, STABILITIES), code="unknown-word")
+        raise UsageProblem(message, did_you_mean(wanted, STABILITIES))
     read = family_of(family)
     springs = alone = None
     if slow is not None:
@@ -226,9 +224,7 @@ def found_methods(
     """
     if isinstance(found, Result):
         if family is None:
-            raise MethodError(
-                "a search does not know its family", "found_methods(result, family)", code="arrays"
-            )
+            raise MethodError("a search does not know its family", "found_methods(result, family)")
         return list(_searched(found, _file_of(family_of(family)), whose))
     if isinstance(found, Minimum):
         return list(_least(found, _file_of(found.design.family)))
@@ -236,7 +232,6 @@ def found_methods(
         raise MethodError(
             f"what was found is expected, not {type(found).__name__}",
             "give what find_parameters, minimise or search_methods returned",
-            code="arrays",
         )
     chosen = accepted_methods(found)
     read = _file_of(found.family)
@@ -267,9 +262,7 @@ def _file_of(family: Family) -> FamilyFile:
     """
     if isinstance(family, FamilyFile):
         return family
-    raise MethodError(
-        f"{family!r} has no text", "give what load_family or loads_family return", code="other-file"
-    )
+    raise MethodError(f"{family!r} has no text", "give what load_family or loads_family return")
 
 
 def _made(

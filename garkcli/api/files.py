@@ -227,5 +227,4 @@ def _text(given: object) -> str:
     raise MethodError(
         f"a text is expected, not {type(given).__name__}",
         "load(path) and its like read a file, from_arrays takes arrays",
-        code="arrays",
     )

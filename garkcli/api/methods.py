@@ -230,7 +230,5 @@ def symplectic_pair(
     V = colours_of(velocities, "velocities", count)
     F = colours_of(forces, "forces", count)
     if not V and not F:
-        raise MethodError(
-            "a pair of no colour", "give colours of velocities and of forces", code="arrays"
-        )
+        raise MethodError("a pair of no colour", "give colours of velocities and of forces")
     return method_of(forms.symplectic_pair(tableau, V, F))

@@ -164,15 +164,11 @@ def _expanded(formula: Formula, power: int) -> Formula:
     size = int(expression.count_ops())
     if size > MAX_OPERATIONS:
         raise UsageProblem(
-            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})",
-            cure,
-            code="too-many",
+            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})", cure
         )
     if _summands(expression) > MAX_SUMMANDS:
         raise UsageProblem(
-            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})",
-            cure,
-            code="too-many",
+            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})", cure
         )
     return sympy.expand(expression)
 
@@ -225,6 +221,5 @@ def _radical(radical: Expression) -> Any:
         raise UsageProblem(
             "a formula is written in radicals, and a coefficient of the method is a root_of",
             "gark modified without a problem lists the coefficients",
-            code="no-radicals",
         )
     return Translator({}, {}).translate(radical)

@@ -9,13 +9,14 @@ from garkcli.cli.options import Output, check_document, declared
 from garkcli.cli.problems import find_hamiltonian
 from garkcli.cli.stepping import refuse_misplaced
 from garkcli.errors import UsageProblem
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.backward.formulas import ModifiedFormula
     from garkcli.tableau.garkmethod import GarkMethod
 
 
-@declared("modified", ["text", "json", "latex"])
+@declared("modified", FORMATS)
 def command(
     file: str,
     order: int,
@@ -42,8 +43,8 @@ def command(
     from garkcli.backward.summary import backward_analysis
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
-    from garkcli.report.modified import render
-    from garkcli.report.modified_data import ModifiedReport
+    from garkcli.page.latex import fragment
+    from garkcli.report.modified import REPORT, ModifiedReport
 
     check_document(document, output.format)
     method = exact_companion(load(file, settings), which)
@@ -53,7 +54,7 @@ def command(
         refuse_misplaced(problem, seed, None, {})
         formula = _formula(method, problem, seed, order)
     elif seed is not None:
-        raise UsageProblem("--seed is for the problem", "give --problem too", code="option-alone")
+        raise UsageProblem("--seed is for the problem", "give --problem too")
     if formula is not None:
         # the problem sees fewer trees than the tableau has
         order = possible_order(tableau, order)
@@ -61,9 +62,10 @@ def command(
     report = ModifiedReport(
         called(file), method.name, found, method.derivation, digits, equation, formula
     )
-    is_long = output.verbosity >= 0
-    format, paint = output.format, output.paint
-    output.write(render(report, format, paint, is_long, document))
+    if output.format == "latex":
+        output.write(fragment([REPORT.render([report], "latex")], document))
+    else:
+        output.tell(REPORT, [report])
     return 0
 
 
@@ -79,7 +81,6 @@ def _formula(method: GarkMethod, problem: str, seed: int | None, order: int) -> 
         raise UsageProblem(
             "--problem: a formula has exact coefficients, and those of the file are rounded",
             "give exact coefficients, without tolerance",
-            code="rounded",
         )
     solved = find_hamiltonian(problem, method.tableau, seed)
     return modified_formula(method.tableau, solved, order).expanded()

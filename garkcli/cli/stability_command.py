@@ -78,11 +78,9 @@ def _check_options(slow: str | None, fast: str | None, plot: str | None, order_s
         UsageProblem: one of them is missing, or there can be no such picture.
     """
     if (slow is None) != (fast is None):
-        raise UsageProblem("--slow and --fast belong together", "give both", code="option-alone")
+        raise UsageProblem("--slow and --fast belong together", "give both")
     if order_star and plot is None:
-        raise UsageProblem(
-            "--order-star is for the picture", "give --plot FILE too", code="option-alone"
-        )
+        raise UsageProblem("--order-star is for the picture", "give --plot FILE too")
     if plot is not None:
         _check_plot(plot)
 
@@ -108,11 +106,7 @@ def _check_plot(plot: str) -> None:
     """Refuse a picture that could not be written, before the work."""
     check_plot(plot)
     if not Path(plot).parent.is_dir():
-        raise UsageProblem(
-            f"cannot write {plot}: there is no such folder",
-            "choose another place",
-            code="cannot-write",
-        )
+        raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
 
 
 def _ratio(text: str) -> fmpq:
@@ -121,9 +115,7 @@ def _ratio(text: str) -> fmpq:
 
     ratio = rational("--ratio", text)
     if ratio <= 0:
-        raise UsageProblem(
-            f"--ratio {text}: radii are positive", "the axes are always there", code="option-value"
-        )
+        raise UsageProblem(f"--ratio {text}: radii are positive", "the axes are always there")
     return ratio
 
 
@@ -135,11 +127,7 @@ def _whole_report(
 
     if method.tolerance is None:
         if ratios and method.tableau.size != 2:
-            raise UsageProblem(
-                f"{file}: --ratio is for methods of two colours",
-                "leave it out",
-                code="options-clash",
-            )
+            raise UsageProblem(f"{file}: --ratio is for methods of two colours", "leave it out")
         found = stability(method.tableau, ratios=ratios)
     else:
         found = stability_of_rounded(method.tableau, method.tolerance)
@@ -160,7 +148,6 @@ def _springs_report(
         raise UsageProblem(
             f"{file}: with rounded coefficients nothing is decided about two springs",
             "give exact coefficients, without tolerance",
-            code="rounded",
         )
     tableau = method.tableau
     split = springs(tableau, term_of(tableau, fast))
@@ -192,8 +179,6 @@ def _strengths(slow: str) -> tuple[fmpq, fmpq]:
     high = rational("--slow", last) if dots else low
     if dots and not low < high:
         raise UsageProblem(
-            f"--slow {slow}: the ends are not in ascending order",
-            "give --slow A..B",
-            code="option-value",
+            f"--slow {slow}: the ends are not in ascending order", "give --slow A..B"
         )
     return low, high

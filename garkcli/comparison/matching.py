@@ -91,9 +91,7 @@ class _Search:
             self.trials += 1
             if self.trials > MAX_TRIALS:
                 raise LimitExceeded(
-                    f"more than {MAX_TRIALS} renumberings of stages",
-                    "compare the canonical forms",
-                    code="too-many",
+                    f"more than {MAX_TRIALS} renumberings of stages", "compare the canonical forms"
                 )
             if not self._fits(stage, j, stage, j):
                 continue

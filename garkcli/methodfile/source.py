@@ -55,8 +55,6 @@ class Source:
         offset: int = 0,
         where: str = "",
         cause: str = "",
-        *,
-        code: str,
     ) -> None:
         """Note a fault at ``node``, ``offset`` characters into its text.
 
@@ -69,7 +67,6 @@ class Source:
                 the file, with another ``where``, has the same cause and is told once, with its
                 other places; so is any other message that occurs often.
             cause: what has the same cause though the message is another one.
-            code: the kind of fault.
 
         Raises:
             MethodFileError: there are ``MAX_FAULTS_READ`` of them; no file is read further.
@@ -80,7 +77,7 @@ class Source:
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
-        fault = Fault(printable(text), printable(cure), line, column, code=code)
+        fault = Fault(printable(text), printable(cure), line, column)
         self._note(fault, cause, is_one)
 
     def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
@@ -103,7 +100,7 @@ class Source:
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
     ) -> None:
         """Note what is wrong with the text of a number."""
-        self.fault(node, error.message, error.help, error.start, where, cause, code=error.code)
+        self.fault(node, error.message, error.help, error.start, where, cause)
 
     def close(self) -> None:
         """Raise what has been found.
@@ -120,13 +117,13 @@ class Source:
         """
         if not self._found:
             message = f"this is not a {self.kind.name}"
-            self.fault(None, message, f"see {self.kind.page}", code="other-file")
+            self.fault(None, message, f"see {self.kind.page}")
         once = dict.fromkeys(self._found)
         faults = told_once(sorted(once, key=place_of))
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
-            rest = Fault(more, "mend these first", last.line, last.column, code="more-faults")
+            rest = Fault(more, "mend these first", last.line, last.column)
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
 
@@ -142,18 +139,18 @@ class Source:
         """The root of the file; None, with faults noted, where there is no mapping."""
         if len(self.text) > MAX_BYTES:
             message = f"a file of more than {MAX_BYTES} characters"
-            self.fault(None, message, "split it", code="file-too-large")
+            self.fault(None, message, "split it")
             return None
         root = composed(self.text)
         if isinstance(root, Fault):
             self._note(self._cured(root))
             return None
         if root is None:
-            self.fault(None, "the file is empty", self.kind.smallest, code="empty-file")
+            self.fault(None, "the file is empty", self.kind.smallest)
             return None
         if not isinstance(root, MappingNode):
             message = f"a {self.kind.name} is a mapping of keys to values"
-            self.fault(root, message, self._foreign(True) or self.kind.start, code="other-file")
+            self.fault(root, message, self._foreign(True) or self.kind.start)
             return None
         return root
 
@@ -190,7 +187,7 @@ class Source:
         """
         if not isinstance(node, MappingNode):
             message = f"{where}: a mapping of keys to values is expected here"
-            self.fault(node, message, form, code="mapping-expected")
+            self.fault(node, message, form)
             return {}
         known = list(allowed)
         given = keys_of(node)
@@ -198,12 +195,12 @@ class Source:
         unknown: list[ScalarNode] = []
         for key_node, value in node.value:
             if not isinstance(key_node, ScalarNode):
-                self.fault(key_node, f"{where}: a key is a plain word", code="no-key")
+                self.fault(key_node, f"{where}: a key is a plain word")
                 continue
             key = key_node.value
             if key in entries:
                 twice = f"the key {shortened(key)} stands here twice"
-                self.fault(key_node, f"{where}: {twice}", "keep one of them", code="doubled")
+                self.fault(key_node, f"{where}: {twice}", "keep one of them")
             elif not known or key in known:
                 entries[key] = value
             else:
@@ -240,35 +237,35 @@ class Source:
                 meant = meant_key(first, known)
                 if meant:
                     cure = f"did you mean {meant!r}?"
-            self.fault(nodes[0], message, cure, code="unknown-key")
+            self.fault(nodes[0], message, cure)
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
             message = f"{where}: and {count} more unknown keys"
-            self.fault(unknown[MAX_FAULTS], message, "mend these first", code="more-faults")
+            self.fault(unknown[MAX_FAULTS], message, "mend these first")
 
     def check_version(self, node: Node | None) -> None:
         """Note a version of the format that is not read; a file need not say which it is."""
         if node is not None and self.scalar(node, "gark") != "1":
             message = "gark: this program reads version 1 of the format"
-            self.fault(node, message, "write gark: 1", code="wrong-version")
+            self.fault(node, message, "write gark: 1")
 
     def items(self, node: Node, where: str, cure: str = "") -> list[Node]:
         """The items of a list."""
         if not isinstance(node, SequenceNode):
             cure = cure or "write it in brackets: [ , ]"
-            self.fault(node, "a list is expected here", cure, where=where, code="list-expected")
+            self.fault(node, "a list is expected here", cure, where=where)
             return []
         return list(node.value)
 
     def scalar(self, node: Node, where: str) -> str | None:
         """The text of a single value, as written."""
         if not isinstance(node, ScalarNode):
-            self.fault(node, "a single value is expected here", where=where, code="value-expected")
+            self.fault(node, "a single value is expected here", where=where)
             return None
         tag = str(node.tag)
         if not tag.startswith("tag:yaml.org,2002:") or tag.startswith(_PYTHON):
             message = f"the tag {shortened(tag)} has no place here"
-            self.fault(node, message, "leave it out", where=where, code="tag")
+            self.fault(node, message, "leave it out", where=where)
             return None
         return str(node.value)
 
@@ -288,12 +285,12 @@ class Source:
             if is_long:
                 wanted = f"a whole number of at most {_MOST_DIGITS} digits is expected"
             message = f"{where}: {wanted}, not {shortened(text)}"
-            self.fault(node, message, code="wrong-value")
+            self.fault(node, message)
             return None
         number = int(text)
         if largest is not None and number > largest:
             wanted = f"a whole number of at most {largest} is expected"
-            self.fault(node, f"{where}: {wanted}, not {number}", code="wrong-value")
+            self.fault(node, f"{where}: {wanted}, not {number}")
             return None
         return number
 
@@ -304,5 +301,5 @@ class Source:
         if text is None or text in words:
             return text
         message = f"{where}: {shortened(text)} is not known"
-        self.fault(node, message, did_you_mean(text, words), code="unknown-word")
+        self.fault(node, message, did_you_mean(text, words))
         return None

@@ -104,8 +104,7 @@ def _effects(rounded: RoundedTableau) -> Callable[[Tree], fmpq]:
     from garkcli.order.effects import Effects  # balls, which exact methods do without
 
     if rounded.obstacle:
-        cure = "give more digits and a smaller tolerance"
-        raise MethodError(rounded.obstacle, cure, code="zero-weight")
+        raise MethodError(rounded.obstacle, "give more digits and a smaller tolerance")
     return Effects(rounded).bound
 
 

@@ -1,4 +1,4 @@
-"""Properties by their names."""
+"""Properties by their names: a file of ``claimed`` each."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def find(key: str) -> Property:
     >>> find("a-stable").field
     'a_stable'
     """
-    file = import_module(f"garkcli.properties.claimed.{KEYS[key]}")
-    found = getattr(file, key.replace("-", "_"))
+    name = key.replace("-", "_")
+    found = import_module(f"garkcli.properties.claimed.{name}").PROPERTY
     assert isinstance(found, Property)
     return found
 

@@ -1,207 +1,308 @@
-"""``gark modified`` as text, JSON or LaTeX."""
+"""``gark modified``: the modified equation of a method, and the orders that it tells."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from itertools import groupby
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from garkcli.backward.summary import Reached
-from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
+from garkcli.backward.formulas import ModifiedFormula, PowerTerm
+from garkcli.backward.summary import BackwardAnalysis
+from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number
-from garkcli.page.latex import fragment, number
-from garkcli.page.paint import Paint, counted, folded, indented
-from garkcli.report.modified_data import ModifiedReport, TreeTerm, render_json
-from garkcli.report.modified_formula import formula_latex, formula_lines
-from garkcli.report.trees import picture
-from garkcli.trees.notation import format_latex, format_tree
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.latex import number
+from garkcli.page.paint import counted
+from garkcli.report.problem import WORDS, describe
+from garkcli.tell.facts import (
+    NO_REASON,
+    Answer,
+    Beside,
+    Kind,
+    Level,
+    Reason,
+    Row,
+    Section,
+    Status,
+    part,
+    parts,
+    rows_of,
+    table,
+    told,
+    via,
+)
+from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
+from garkcli.tell.report import Report
+from garkcli.trees.tree import Tree
 
-MOST_CHARACTERS = 24
-"""Longer numbers are shown in decimals."""
-_WIDTH = 80
-_TREE = 30  # columns of a tree beside its numbers
-_DIGITS = 10
-_UNDECIDED = "not decided"
-_FORMLESS = "no Hamiltonian problem has its form"
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+MOST_TERMS = 10
+"""Of a table in a terminal, usually."""
+_FORMLESS = Reason("no Hamiltonian problem has its form")
+_ROUNDED = Status(open=Reason("coefficients are rounded"))
 
 
-def render(
-    report: ModifiedReport,
-    format: str,
-    paint: Paint,
-    is_long: bool = True,
-    is_document: bool = False,
-) -> Iterator[str]:
-    """The report as pieces of text.
+@dataclass(frozen=True)
+class ModifiedReport:
+    """What is told of one file.
 
-    Args:
-        report: what was found.
-        format: text, json or latex.
-        paint: colour or none.
-        is_long: whether text has the coefficients too.
-        is_document: whether LaTeX gets a preamble.
+    Attributes:
+        file: its path as given.
+        name: the name of the method.
+        found: its modified equation.
+        derivation: "pair" or "conjugate" where it was made of the file; else empty.
+        digits: of decimals; None for exact numbers.
+        with_equation: whether rooted trees are shown where there is a Hamiltonian.
+        formula: on a problem, where one was asked for; multiplied out.
     """
-    if format == "json":
-        yield render_json(report)
-    elif format == "latex":
-        yield from fragment(_latex(report), is_document)
-    else:
-        for line in text_of(report, paint, is_long):
-            yield line + "\n"
+
+    file: str
+    name: str
+    found: BackwardAnalysis
+    derivation: str = ""
+    digits: int | None = None
+    with_equation: bool = False
+    formula: ModifiedFormula | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the colours."""
+        return tuple(x.name for x in self.found.equation.tableau.colours)
 
 
-def text_of(report: ModifiedReport, paint: Paint, is_long: bool = True) -> list[str]:
-    """The lines of the report."""
-    lines = [paint("strong", report.name or report.file)]
-    lines += indented(_head(report))
-    lines.append("")
-    for label, text in _orders(report):
-        first, *rest = folded(text, _WIDTH - 21, "")
-        lines.append(f"  {label:<19}{first}")
-        lines += indented(rest, " " * 21)
-    if not is_long:
-        return lines
-    if report.formula is not None:
-        return [*lines, "", *formula_lines(report.formula, paint)]
-    hamiltonian = report.hamiltonian
-    if hamiltonian is not None:
-        title = "modified Hamiltonian: Σ h^(ρ−1) b(u)/|Aut| H(u)"
-        lines += ["", *_table(report, title, hamiltonian, "|Aut|", paint)]
-    if hamiltonian is None or report.with_equation:
-        title = "modified equation: Σ h^(ρ−1) b(u)/σ F(u)"
-        lines += ["", *_table(report, title, report.equation, "σ", paint)]
-    return lines
+class Term(NamedTuple):
+    """One term of the modified equation or Hamiltonian.
+
+    Attributes:
+        tree: the rooted tree u, or the representative of a free tree.
+        symmetry: σ(u), or |Aut T|.
+        coefficient: b(u).
+    """
+
+    tree: Tree
+    symmetry: int
+    coefficient: Number
 
 
-def _head(report: ModifiedReport) -> list[str]:
-    """What the report is about."""
-    vertices = counted_vertices(report.found.equation.max_order)
-    lines = [f"{counted(len(report.names), 'colour')}; trees of up to {vertices}"]
-    numbers = [str(l) for l, _ in enumerate(report.names, start=1)]
-    if list(report.names) != numbers:
-        pairs = map(" ".join, zip(numbers, report.names, strict=True))
-        lines.append(f"colours: {', '.join(pairs)}")
-    if report.found.tolerance is not None:
-        near = decimal(report.found.tolerance)
-        lines.append(f"rounded to {near}: coefficients of the digits as they are given")
-    return lines
+# the coefficients
 
 
-def counted_vertices(count: int) -> str:
-    """A number of vertices in words."""
-    return "1 vertex" if count == 1 else f"{count} vertices"
+def _coefficient(x: Number, d: Plain) -> str:
+    if d.places is None:
+        return d.number(x)
+    text = to_decimal(x, d.places)
+    return d.formula(number(text), text)
 
 
-def _orders(report: ModifiedReport) -> Iterator[tuple[str, str]]:
-    """Each order with its label."""
+COEFFICIENT = Kind(
+    S.NUMERAL,
+    lambda x, d: to_text(x) if d.places is None else to_decimal(x, d.places),
+    _coefficient,
+)
+TERM = Section(
+    Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
+    Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
+    Row("tree", TREE),
+    Row("root", POSITION, lambda x: x.tree.root + 1, DATA),
+    Row("order", POSITION, lambda x: x.tree.order, DATA),
+    Row("symmetry", POSITION),
+    Row("coefficient", COEFFICIENT),
+    Row("factor", COEFFICIENT, lambda x: x.coefficient / x.symmetry),
+)
+"""Of the sum Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
+
+
+def _equation(report: ModifiedReport) -> Answer:
+    """The coefficients b(u) that are not zero; usual where there is no Hamiltonian.
+
+    Of rounded coefficients those of the orders that the method has are left out but for order 1:
+    they are zero within the tolerance.
+    """
     found = report.found
-    order = _order(found.order)
-    formless = _FORMLESS
-    if found.tolerance is not None:
-        order += f", within {decimal(found.tolerance)}"
-        formless = _UNDECIDED
-    yield "order", order
-    yield "symplectic", _symplectic(report)
-    yield "energy order", _order(found.energy, formless)
-    yield "effective order", _order(found.effective)
+    zero = range(2, found.order.order + 1) if found.tolerance is not None else ()
+    terms = [
+        Term(tree, tree.symmetry, coefficient)
+        for n in range(1, found.equation.max_order + 1)
+        if n not in zero
+        for tree, coefficient in found.equation.terms(n)
+    ]
+    is_told = report.formula is None and (found.hamiltonian is None or report.with_equation)
+    return Answer(terms, level=USUAL if is_told else DATA)
 
 
-def _symplectic(report: ModifiedReport) -> str:
-    found = report.found
-    if found.is_symplectic and found.tolerance is not None:
-        return f"within {decimal(found.tolerance)}"
-    if found.is_symplectic:
-        return "yes, by its coefficients"
-    if found.tolerance is not None:
-        return f"not within {decimal(found.tolerance)}"
-    if found.symplectic is None:
-        return _FORMLESS
-    return f"to order {_order(found.symplectic)}"
+def _hamiltonian(report: ModifiedReport) -> Answer:
+    """The terms of the modified Hamiltonian; None where there is none."""
+    found = report.found.hamiltonian
+    terms = found and [Term(x.tree.representative, x.tree.symmetry, x.coefficient) for x in found]
+    return Answer(terms, level=USUAL if report.formula is None else DATA)
 
 
-def _order(reached: Reached | None, missing: str = _UNDECIDED) -> str:
-    """An order in words, or what is said where there is none."""
-    if reached is None:
-        return missing
-    if reached.is_lower_bound:
-        return f"at least {reached.order}"
-    return str(reached.order)
+# the formula on a problem
 
 
-def _table(
-    report: ModifiedReport, title: str, terms: Iterable[TreeTerm], symmetry: str, paint: Paint
-) -> list[str]:
-    """The terms below their powers of h."""
-    heading = _row("u", symmetry, "b(u)", "factor")
-    lines = [f"  {title}", heading.rstrip()]
-    for order, group in groupby(terms, key=lambda term: term.tree.order):
-        lines.append(paint("strong", f"  h^{order - 1}"))
-        for term in group:
-            lines += _entry(report, term)
-    return lines
+def unknowns_of(formula: ModifiedFormula) -> list[str]:
+    """The names of positions and momenta."""
+    positions = list(formula.problem.variables)
+    return [*positions, *(f"p{name}" for name in positions)]
 
 
-def _row(tree: str, symmetry: str, coefficient: str, factor: str) -> str:
-    return f"    {tree:<{_TREE}} {symmetry:>6} {coefficient:>18} {factor:>18}"
+def _text(formula: Any) -> str:
+    """A formula as problem files write it."""
+    return str(formula).replace("**", "^")
 
 
-def _entry(report: ModifiedReport, term: TreeTerm) -> list[str]:
-    """One term: on a line, or a long tree above its numbers."""
-    has_colours = len(report.names) > 1
-    tree = format_tree(term.tree, has_colours)
-    symmetry = str(term.symmetry)
-    coefficient = _short(report, term.coefficient)
-    factor = _short(report, term.factor)
-    row = _row(tree, symmetry, coefficient, factor)
-    if len(row) < _WIDTH:
-        return [row]
-    above = folded(tree, _WIDTH - 4, "  ")
-    below = _row("", symmetry, coefficient, factor)
-    if len(below) >= _WIDTH:
-        numbers = f"{symmetry}   {coefficient}   {factor}"
-        below = numbers.rjust(_WIDTH - 1)
-    return [*indented(above, "    "), below]
+def _latex(formula: Any) -> str:
+    import sympy
+
+    return str(sympy.latex(formula))
 
 
-def _short(report: ModifiedReport, value: Number) -> str:
-    """A coefficient, in decimals where its exact form is long."""
-    if report.digits is not None:
-        return to_decimal(value, report.digits)
-    text = to_text(value)
-    if len(text) > MOST_CHARACTERS:
-        return f"~ {to_decimal(value, _DIGITS)}"
-    return text
+def _formula_rows(formula: ModifiedFormula, d: Plain) -> Iterator[tuple[str, str]]:
+    """What is added with each power of h; of an equation for each unknown."""
+    is_hamiltonian = formula.of == "hamiltonian"
+    unknowns = ["H"] if is_hamiltonian else [f"{x}'" for x in unknowns_of(formula)]
+    highest = d.formula(f"h^{{{formula.max_order - 1}}}", f"h^{formula.max_order - 1}")
+    yield "problem", d.prose(describe(formula.problem))
+    yield "modified Hamiltonian" if is_hamiltonian else "modified equation", f"up to {highest}"
+    for term in formula.terms:
+        power = d.formula(f"h^{{{term.power}}}", f"h^{term.power}") if term.power else ""
+        for unknown, x in zip(unknowns, term.formulas, strict=True):
+            label = f"{d.prose(unknown)} {power}".strip()
+            yield label, d.expression(_text(x), lambda x=x: _latex(x))  # type: ignore[misc]
 
 
-def _latex(report: ModifiedReport) -> Iterator[str]:
-    if report.formula is not None:
-        yield formula_latex(report.formula)
-        return
-    hamiltonian = report.hamiltonian
-    if hamiltonian is not None:
-        yield from _latex_table(report, hamiltonian, r"|\mathrm{Aut}|")
-    if hamiltonian is None or report.with_equation:
-        yield from _latex_table(report, report.equation, r"\sigma(u)")
+def formula_latex(formula: ModifiedFormula) -> str:
+    """The modified Hamiltonian or equation, multiplied out, as an ``align*``."""
+    terms = formula.expanded().terms
+    left_sides = [r"\tilde H"]
+    if formula.of != "hamiltonian":
+        left_sides = [rf"\dot{{{unknown}}}" for unknown in unknowns_of(formula)]
+    rows = (_row(left, terms, k) for k, left in enumerate(left_sides))
+    return "\\begin{{align*}}\n{}\n\\end{{align*}}\n".format(" \\\\\n".join(rows))
 
 
-def _latex_table(report: ModifiedReport, terms: Iterable[TreeTerm], symmetry: str) -> Iterator[str]:
-    head = ["", "$u$", r"$\rho(u)$", f"${symmetry}$", "$b(u)$", f"$b(u)/{symmetry}$"]
-    yield "\\begin{longtable}{clcccc}\n  \\hline\n"
-    yield f"  {' & '.join(head)} \\\\ \\hline\n"
-    has_colours = len(report.names) > 1
-    for term in terms:
-        cells = [
-            picture(term.tree, colours=has_colours),
-            f"${format_latex(term.tree, has_colours)}$",
-            str(term.tree.order),
-            str(term.symmetry),
-            f"${_latex_number(report, term.coefficient)}$",
-            f"${_latex_number(report, term.factor)}$",
-        ]
-        yield f"  {' & '.join(cells)} \\\\[4pt]\n"
-    yield "  \\hline\n\\end{longtable}\n"
+def _row(left: str, terms: Sequence[PowerTerm], component: int) -> str:
+    sides = ((term.power, _latex(term.formulas[component])) for term in terms)
+    parts_of = [rf"h^{{{n}}} \Bigl({x}\Bigr)" if n else x for n, x in sides if x != "0"]
+    joined = " \\\\\n    &\\quad + ".join(parts_of) or "0"
+    return f"  {left} &= {joined}"
 
 
-def _latex_number(report: ModifiedReport, value: Number) -> str:
-    if report.digits is None:
-        return to_latex(value)
-    return number(to_decimal(value, report.digits))
+POWER = Section(
+    Row("power", COUNT), Row("formulas", TEXTS, lambda x: [_text(y) for y in x.formulas])
+)
+FORMULA = Section(
+    Row("problem", TEXT, lambda x: x.problem.name),
+    Row("of", choice("hamiltonian", "equation")),
+    Row("unknowns", TEXTS, unknowns_of),
+    Row("max_power", COUNT, lambda x: x.max_order - 1),
+    Row("terms", parts(POWER)),
+)
+
+
+# the report
+
+
+REACHED = Kind(
+    S.COUNT,
+    words=lambda x, _: str(x),
+    beside=(
+        Beside(
+            "*order_is_lower_bound",
+            S.nullable(S.FLAG),
+            lambda a, _: a.status.at_least,
+            is_optional=False,
+        ),
+    ),
+)
+
+
+def _order(key: str, level: Level = HEADLINE, is_formless: bool = False) -> Row:
+    """An order, and whether it is a lower bound."""
+
+    def get(x: BackwardAnalysis) -> Answer:
+        reached = getattr(x, key.removesuffix("_order"))
+        if reached is not None:
+            within = x.tolerance if key == "order" else None
+            return Answer(reached.order, Status(within, reached.is_lower_bound))
+        if x.tolerance is not None or not is_formless:
+            return Answer(None, _ROUNDED, level=USUAL if level == HEADLINE else DATA)
+        return Answer(None, reason=_FORMLESS)
+
+    return Row(key, REACHED, get, level, has_null=True)
+
+
+def _symplectic(x: BackwardAnalysis) -> Answer:
+    is_formless = x.structure is None and x.tolerance is None
+    return Answer(x.is_symplectic, Status(x.tolerance), _FORMLESS if is_formless else NO_REASON)
+
+
+def _colours(report: ModifiedReport) -> Answer:
+    """Told where their names are not their numbers."""
+    numbers = tuple(str(l + 1) for l in range(len(report.names)))
+    legend = ", ".join(map(" ".join, zip(numbers, report.names, strict=True)))
+    return Answer(legend, level=DATA if report.names == numbers else USUAL)
+
+
+def _vertices(report: ModifiedReport) -> str:
+    count = report.found.equation.max_order
+    vertices = "1 vertex" if count == 1 else f"{count} vertices"
+    return f"of up to {vertices}, in {counted(len(report.names), 'colour')}"
+
+
+def _note(report: ModifiedReport) -> str:
+    is_rounded = report.found.tolerance is not None
+    return "coefficients of the digits as they are given" if is_rounded else ""
+
+
+MODIFIED = Section(
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, level=DATA),
+    Row("derivation", Kind(S.DERIVATION), level=DATA),
+    Row("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),
+    *via(
+        lambda x: x.found,
+        [
+            _order("order"),
+            Row("symplectic", TRUTH, _symplectic, HEADLINE),
+            _order("symplectic_order", USUAL, is_formless=True),
+            _order("energy_order", is_formless=True),
+            _order("effective_order"),
+        ],
+    ),
+    Row("trees", WORDS, _vertices),
+    Row("colours_in_words", WORDS, _colours, label="colours"),
+    Row("colours", TEXTS, lambda x: x.names, DATA),
+    Row("max_order", POSITION, lambda x: x.found.equation.max_order, DATA),
+    Row("note", WORDS, _note),
+    Row("formula_in_words", rows_of(lambda x, d: list(_formula_rows(x, d))), lambda x: x.formula),
+    Row(
+        "hamiltonian",
+        table(TERM, MOST_TERMS),
+        _hamiltonian,
+        has_null=True,
+        label="modified Hamiltonian: Σ h^(ρ−1) b(u)/|Aut| H(u)",
+    ),
+    Row(
+        "equation",
+        table(TERM, MOST_TERMS),
+        _equation,
+        label="modified equation: Σ h^(ρ−1) b(u)/σ F(u)",
+    ),
+    Row("formula", part(FORMULA), level=DATA, has_null=True),
+    title=lambda x, d: d.prose(x.name or x.file),
+)
+REPORT: Report[ModifiedReport] = Report.only(
+    "gark/modified/1",
+    "report of gark modified",
+    MODIFIED,
+    lambda x: {"places": x.digits, "colours": x.names},
+)
+
+
+def whole(found: BackwardAnalysis, name: str) -> ModifiedReport:
+    """What is told of the value that a call returns."""
+    return ModifiedReport(name, name, found)

@@ -11,7 +11,6 @@ from garkcli.page.paint import Paint
 from garkcli.tell.report import FORMATS, Report
 
 if TYPE_CHECKING:
-    from garkcli.backward.summary import BackwardAnalysis
     from garkcli.report.sweep import SweepReport
     from garkcli.tableau.garkmethod import GarkMethod
 
@@ -21,6 +20,7 @@ WIDTH = 80
 """Columns of texts."""
 _PLAIN = Paint()
 TOLD_BY = {
+    "backward.BackwardAnalysis": "modified",
     "backward.ModifiedRun": "modified_energy",
     "check.Analysis": "checked",
     "check.MethodProof": "certificate",
@@ -74,9 +74,7 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     kind, write, formats = _writer_of(one)
     if format not in formats:
         cure = did_you_mean(format, formats)
-        raise UsageProblem(
-            f"no format {format!r} of {kind.partition('.')[2]}", cure, code="unknown-word"
-        )
+        raise UsageProblem(f"no format {format!r} of {kind.partition('.')[2]}", cure)
     return write(value, format, name)
 
 
@@ -114,7 +112,6 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
         f"no command prints values of the kind {type(value).__name__}",
         "give a method, or what analyse, check_file or another call that"
         " help(garkcli.render) names returned",
-        code="arrays",
     )
 
 
@@ -132,13 +129,6 @@ def _outcomes(value: Any, format: str, _: str) -> str:
 
     outcomes = value if isinstance(value, (list, tuple)) else [value]
     return FORMATS[format](outcomes, _PLAIN, 0, None, WIDTH)
-
-
-def _backward(found: BackwardAnalysis, format: str, name: str) -> str:
-    from garkcli.report.modified import render as written
-    from garkcli.report.modified_data import ModifiedReport
-
-    return "".join(written(ModifiedReport(name, name, found), format, _PLAIN))
 
 
 def _sweep(report: SweepReport, format: str, _: str) -> str:
@@ -162,7 +152,6 @@ def _audited(value: Any, format: str, _: str) -> str:
 
 
 WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
-    "backward.BackwardAnalysis": (_backward, ("text", "json", "latex")),
     "bridges.Audited": (_audited, (*FORMATS, "github", "sarif")),
     "check.Meaning": (_meanings, ("text", "json")),
     "check.Outcome": (_outcomes, (*FORMATS, "sarif", "junit", "github")),

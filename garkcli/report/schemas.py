@@ -29,7 +29,7 @@ REPORTS = {
     "design": "garkcli.report.design:REPORT",
     "design-search": "garkcli.report.search:REPORT",
     "design-stability": "garkcli.report.stable_values:REPORT",
-    "modified": "garkcli.report.modified_data:modified_report_schema",
+    "modified": "garkcli.report.modified:REPORT",
     "modified-energy": "garkcli.report.modified_energy:REPORT",
     "converge": "garkcli.report.comparison:schema",
     "energy": "garkcli.report.energy:REPORT",
@@ -60,11 +60,7 @@ def report_schema(command: str) -> dict[str, Any]:
     'object'
     """
     if command not in REPORTS:
-        raise UsageProblem(
-            f"no schema of a report of {command!r}",
-            did_you_mean(command, REPORTS),
-            code="unknown-word",
-        )
+        raise UsageProblem(f"no schema of a report of {command!r}", did_you_mean(command, REPORTS))
     module, function = REPORTS[command].split(":")
     maker = getattr(import_module(module), function)
     schema: dict[str, Any] = maker.schema if isinstance(maker, Report) else maker()

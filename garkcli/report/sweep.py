@@ -216,9 +216,7 @@ def refuse_parquet(path: str) -> None:
 
     if find_spec("pyarrow") is None:
         raise UsageProblem(
-            "--parquet needs pyarrow",
-            "install garkcli[parquet], or take --format csv",
-            code="missing-package",
+            "--parquet needs pyarrow", "install garkcli[parquet], or take --format csv"
         )
     refuse_unwritable(path)
 

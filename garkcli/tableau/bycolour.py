@@ -42,9 +42,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
             *_, last = self._parts
             what = "pair of colours" if isinstance(last, tuple) else "colour"
             raise NoSuchColour(
-                f"{key!r} is no {what} of the method",
-                f"they count from 1, the last is {last!r}",
-                code="arrays",
+                f"{key!r} is no {what} of the method", f"they count from 1, the last is {last!r}"
             ) from None
 
     def __iter__(self) -> Iterator[K]:

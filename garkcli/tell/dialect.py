@@ -247,6 +247,10 @@ class Plain:
         """A tree in brackets; with one colour that is not named."""
         return format_tree(tree, len(self.colours) > 1 or bool({*tree.colours} - {0}))
 
+    def sketch(self, tree: Tree) -> str:
+        """A picture of a tree in a cell, where the output has such."""
+        return ""
+
     def failure(self, witness: Witness, is_rounded: bool = False) -> str:
         """The tree whose condition fails, and by how much; told once."""
         if witness in self.told:

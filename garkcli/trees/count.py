@@ -67,9 +67,7 @@ class Admissible:
             lengths = {len(edges), *map(len, edges)}
             if lengths != {colours}:
                 shape = f"a {colours} by {colours} matrix"
-                raise TreeError(
-                    f"edges must be {shape}, one row for each colour", code="pasted-tableau"
-                )
+                raise TreeError(f"edges must be {shape}, one row for each colour")
             rows = []
             for row in edges:
                 below = [m for m in everything if row[m]]
@@ -77,9 +75,7 @@ class Admissible:
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
-                raise TreeError(
-                    f"{what} is not one of the {colours} colours 0, 1, …", code="wrong-value"
-                )
+                raise TreeError(f"{what} is not one of the {colours} colours 0, 1, …")
         return cls(colours, tuple(rows), frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:

@@ -1,1 +1,1 @@
-"""The properties that files may claim: their definitions, and how they are decided."""
+"""One file a property: its definition, and how it is decided."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from garkcli.errors import Fault
+from garkcli.glossary.faults import code_of
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -24,7 +25,7 @@ def _shown(fault: Fault, lines: list[str]) -> Content:
         "line": fault.line,
         "column": fault.column,
         "text": line,
-        "code": fault.code,
+        "code": code_of(fault.message),
         "message": fault.message,
         "help": fault.help,
     }
