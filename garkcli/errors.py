@@ -25,6 +25,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+UNKNOWN = "fault"
+"""The code of an error that does not say of which kind it is."""
+
 
 class GarkError(Exception):
     """Base of all errors of the program; its text is both.
@@ -32,15 +35,19 @@ class GarkError(Exception):
     Attributes:
         message: what is wrong, and where.
         help: the cure; empty where there is none.
+        code: the kind of error, as ``gark explain`` knows it.
 
-    >>> print(GarkError("no order is given", "write 4"))
+    >>> print(GarkError("no order is given", "write 4", code="missing-key"))
     no order is given; write 4
     """
 
-    def __init__(self, message: str, help: str = "") -> None:
+    code = UNKNOWN
+
+    def __init__(self, message: str, help: str = "", *, code: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.help = help
+        self.code = code or type(self).code
 
     def __str__(self) -> str:
         if not self.help:
@@ -65,14 +72,18 @@ class ExpressionError(GarkError):
         end: the offset behind it.
     """
 
-    def __init__(self, message: str, help: str = "", start: int = 0, end: int = 0) -> None:
-        super().__init__(message, help)
+    def __init__(
+        self, message: str, help: str = "", start: int = 0, end: int = 0, *, code: str = ""
+    ) -> None:
+        super().__init__(message, help, code=code)
         self.start = start
         self.end = end
 
 
 class LimitExceeded(ExpressionError):
     """A text is longer, deeper or larger than any coefficient needs to be."""
+
+    code = "number-too-large"
 
 
 class UndefinedValue(ExpressionError):
@@ -86,25 +97,37 @@ class MethodError(GarkError):
 class ShapeMismatch(MethodError):
     """A matrix or a row does not have the size its place asks for."""
 
+    code = "wrong-size"
+
 
 class CoincidingNodes(MethodError):
     """Interpolation was asked for at nodes that are not distinct."""
+
+    code = "coinciding-nodes"
 
 
 class BlockTooLarge(MethodError):
     """Interpolation was asked for whose exact entries would take minutes, or all memory."""
 
+    code = "too-many"
+
 
 class TooManyTerms(MethodError):
     """Polynomials in free parameters would be multiplied out to more terms than fit."""
+
+    code = "number-too-large"
 
 
 class ZeroWeight(MethodError):
     """A symplectic conjugate was asked for where a weight is zero."""
 
+    code = "zero-weight"
+
 
 class VanishingDenominator(MethodError, ZeroDivisionError):
     """A coefficient has a pole at the values of the parameters."""
+
+    code = "division-by-zero"
 
 
 class UnknownFamily(MethodError):
@@ -114,15 +137,21 @@ class UnknownFamily(MethodError):
 class TreeError(GarkError, ValueError):
     """A text is no tree, or there are no trees of that order or of those colours."""
 
+    code = "no-such-tree"
+
     __str__ = GarkError.__str__
 
 
 class NoLegendreTransform(GarkError):
     """The momenta of a Lagrangian could not be solved for its velocities."""
 
+    code = "no-legendre-transform"
+
 
 class NotDecided(GarkError):
     """Work takes longer than the time that it has."""
+
+    code = "not-found"
 
     def __init__(self) -> None:
         super().__init__(
@@ -143,12 +172,14 @@ class Fault:
         help: the cure; empty where there is none.
         line: where, from 1; 0 where that is not known.
         column: likewise.
+        code: the kind of fault, as ``gark explain`` knows it.
     """
 
     message: str
     help: str = ""
     line: int = 0
     column: int = 0
+    code: str = UNKNOWN
 
 
 MANY_WORDS = 50
@@ -262,7 +293,8 @@ class MethodFileError(GarkError):
     """
 
     def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
-        super().__init__("; ".join(fault.message for fault in faults))
+        message = "; ".join(fault.message for fault in faults)
+        super().__init__(message, code=faults[0].code if faults else UNKNOWN)
         self.source = source
         self.faults = tuple(faults)
         self.text = text

@@ -60,9 +60,10 @@ def method_of(given: AnyMethod, tolerance: object = None) -> GarkMethod:
             raise MethodError(
                 f"{len(given)} arrays are no method",
                 "give (A, b), (A, b, c) or (A, b, c, embedded)",
+                code="arrays",
             )
         return from_arrays(*given, **_rounded(tolerance))
-    raise MethodError(f"a method is expected, not {type(given).__name__}", _CURE)
+    raise MethodError(f"a method is expected, not {type(given).__name__}", _CURE, code="arrays")
 
 
 def tableau_of(given: AnyMethod) -> Tableau:
@@ -87,7 +88,9 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
         return method.tolerance if isinstance(method, GarkMethod) else None
     value = rational_of(given, "tolerance", is_rounded=True)
     if not 0 <= value < 1:
-        raise MethodError("a tolerance lies between 0 and 1", "for instance '1e-13'")
+        raise MethodError(
+            "a tolerance lies between 0 and 1", "for instance '1e-13'", code="wrong-value"
+        )
     return value or None
 
 
@@ -106,6 +109,7 @@ def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
         raise MethodError(
             f"the coefficients are rounded, and those of the {derivation} by more",
             "give exact coefficients, without tolerance",
+            code="rounded",
         )
 
 
@@ -134,8 +138,8 @@ def _of_mapping(given: Mapping[str, Any]) -> GarkMethod:
     for key in given:
         if key not in known:
             names = ", ".join(known)
-            raise MethodError(f"no array {key!r}", f"one of: {names}")
+            raise MethodError(f"no array {key!r}", f"one of: {names}", code="unknown-word")
     missing = [key for key in ("A", "b") if key not in given]
     if missing:
-        raise MethodError(f"{missing[0]} is missing", "give A and b")
+        raise MethodError(f"{missing[0]} is missing", "give A and b", code="missing-key")
     return from_arrays(**given)

@@ -52,7 +52,7 @@ def from_arrays(
     ((1, 0),)
     """
     if b is None:
-        raise MethodError("b is missing", "give the weights: from_arrays(A, b)")
+        raise MethodError("b is missing", "give the weights: from_arrays(A, b)", code="missing-key")
     writer = _Writer(is_rounded=tolerance is not None)
     A = _triangle(_listed(_in_rows(A, "A")))
     entries: dict[str, str] = {}
@@ -122,14 +122,18 @@ def _in_rows(value: Any, where: str) -> Any:
             what = "pair of colours" if is_of_blocks else "colour"
             example = "{(1, 2): [[1]]}" if is_of_blocks else "{1: [1]}"
             raise MethodError(
-                f"{where}: {key!r} is no {what}", f"colours count from 1, as in {example}"
+                f"{where}: {key!r} is no {what}",
+                f"colours count from 1, as in {example}",
+                code="wrong-value",
             )
     if not is_of_blocks:
         colours = range(1, max(value, default=0) + 1)
         missing = [l for l in colours if l not in value]
         if missing:
             raise MethodError(
-                f"{where}: nothing for colour {missing[0]}", "give every colour a row"
+                f"{where}: nothing for colour {missing[0]}",
+                "give every colour a row",
+                code="pasted-tableau",
             )
         return [value[l] for l in colours]
     size = range(1, max(map(max, value), default=0) + 1)
@@ -149,10 +153,12 @@ def _listed(value: Any) -> Any:
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, Mapping):
-        raise MethodError("a mapping is no array", "give A, b and c as lists")
+        raise MethodError("a mapping is no array", "give A, b and c as lists", code="list-expected")
     if isinstance(value, Set):
         raise MethodError(
-            "a set is no array: it has no order, and no entry twice", "give A, b and c as lists"
+            "a set is no array: it has no order, and no entry twice",
+            "give A, b and c as lists",
+            code="unknown-word",
         )
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_listed(item) for item in value]

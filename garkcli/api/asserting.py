@@ -74,7 +74,7 @@ def assert_order(
     wanted = {"order": order, "embedded": embedded, "conjugate": conjugate, "pair": pair}
     asked = {key: value for key, value in wanted.items() if value is not None}
     if not asked:
-        raise MethodError("no order is given", "assert_order(method, 4)")
+        raise MethodError("no order is given", "assert_order(method, 4)", code="arrays")
     failures: list[str] = []
     for key, value in asked.items():
         failures += _failure(found, _PARTS[key], value, tolerance)
@@ -137,6 +137,7 @@ def _embedded(method: GarkMethod) -> GarkMethod:
         raise MethodError(
             f"{_called(method)} has no embedded weights",
             "from_arrays(A, b, c, embedded), or embedded: […] in its file",
+            code="arrays",
         )
     tableau = with_weights(method.tableau, method.embedded)
     return GarkMethod(tableau=tableau, name=method.name, tolerance=method.tolerance)
@@ -196,7 +197,7 @@ def _read(value: Any) -> int | AtLeast:
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if is_whole and 0 <= value <= _MAX_ORDER:
         return int(value)
-    raise MethodError(f"{value!r} is no order", 'write 4 or ">= 4"')
+    raise MethodError(f"{value!r} is no order", 'write 4 or ">= 4"', code="wrong-value")
 
 
 def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:

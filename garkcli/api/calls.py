@@ -44,7 +44,7 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
     for key in wanted:
         if key not in CLAIMS:
             cure = did_you_mean(key, CLAIMS)
-            raise UsageProblem(f"no claim {key!r}", cure)
+            raise UsageProblem(f"no claim {key!r}", cure, code="unknown-word")
     return true_claims(found, wanted or usual_keys(found))
 
 
@@ -69,7 +69,11 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
     """
     found = method_of(method)
     if not isinstance(found, MethodFile):
-        raise MethodError(f"{found!r} has no text", "give what load, loads or from_arrays return")
+        raise MethodError(
+            f"{found!r} has no text",
+            "give what load, loads or from_arrays return",
+            code="other-file",
+        )
     claims = claims_of(found, keys)
     return write_claims(found.source, found.text, claims)
 
@@ -98,9 +102,11 @@ def find_stability(
     refuse_rounded(method)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
-        raise MethodError("ratios are for exact methods of two colours", "leave them out")
+        raise MethodError(
+            "ratios are for exact methods of two colours", "leave them out", code="pasted-tableau"
+        )
     if any(ratio <= 0 for ratio in further):
-        raise MethodError("ratios are positive", "the axes are always there")
+        raise MethodError("ratios are positive", "the axes are always there", code="option-value")
     if near is None:
         return stability(method.tableau, ratios=further)
     return stability_of_rounded(method.tableau, near)
@@ -133,6 +139,7 @@ def two_springs(
         raise MethodError(
             "with rounded coefficients nothing is decided about two springs",
             "give exact coefficients, without tolerance",
+            code="rounded",
         )
     tableau = method.tableau
     colour = colour_of(fast, "fast", tableau.size)
@@ -141,14 +148,18 @@ def two_springs(
         return two_frequencies(tableau, split, _square(slow))
     low, high = map(_square, slow)
     if low >= high:
-        raise MethodError("slow: the ends are not in ascending order", "give (low, high)")
+        raise MethodError(
+            "slow: the ends are not in ascending order", "give (low, high)", code="option-value"
+        )
     return slow_interval(tableau, split, low, high)
 
 
 def _square(given: Number) -> fmpq:
     number = rational(given, "slow")
     if number < 0:
-        raise MethodError(f"slow: {number}: a square is not negative", "give 0 or more")
+        raise MethodError(
+            f"slow: {number}: a square is not negative", "give 0 or more", code="option-value"
+        )
     return number
 
 

@@ -57,13 +57,17 @@ def gark(
     {(1, 1): ((1/2,),), (1, 2): ((1,),), (2, 1): None, (2, 2): ((0,),)}
     """
     if isinstance(methods, str) or not methods:
-        raise MethodError("gark takes a list of methods", "give one a colour: ['gauss-2', …]")
+        raise MethodError(
+            "gark takes a list of methods", "give one a colour: ['gauss-2', …]", code="arrays"
+        )
     given = [method_of(method) for method in methods]
     diagonal = [_diagonal(method) for method in given]
     if not isinstance(transfer, str):
         return _with_blocks(given, transfer)
     if transfer not in RULES:
-        raise MethodError(f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES))
+        raise MethodError(
+            f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES), code="unknown-word"
+        )
     rule = RULES[transfer]
     numbered = list(enumerate(diagonal))
     blocks = {(l, m): rule(here, other) for l, here in numbered for m, other in numbered if l != m}
@@ -78,6 +82,7 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
             raise MethodError(
                 f"transfer: {key!r} is no block between two of the methods",
                 f"give pairs of different colours from 1 to {len(methods)}",
+                code="wrong-value",
             )
     A = {**blocks}
     for l, method in enumerate(methods, start=1):
@@ -92,5 +97,7 @@ def _diagonal(method: GarkMethod) -> Method:
     tableau = method.tableau
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
-        raise MethodError(f"{method!r} is no diagonal method", "give methods of one colour")
+        raise MethodError(
+            f"{method!r} is no diagonal method", "give methods of one colour", code="wrong-size"
+        )
     return Method(method.name, tableau.space(0), block, tableau.colours[0].b)

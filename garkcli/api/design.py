@@ -44,7 +44,9 @@ def family_of(given: AnyFamily) -> Family:
     if isinstance(given, Family):
         return given
     raise MethodError(
-        f"a family is expected, not {type(given).__name__}", "load a file with load_family(path)"
+        f"a family is expected, not {type(given).__name__}",
+        "load a file with load_family(path)",
+        code="arrays",
     )
 
 
@@ -101,7 +103,7 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     """
     if objective not in OBJECTIVES:
         message = f"no objective {objective!r}"
-        raise UsageProblem(message, did_you_mean(objective, OBJECTIVES))
+        raise UsageProblem(message, did_you_mean(objective, OBJECTIVES), code="unknown-word")
     if not isinstance(design, Design):
         design = find_parameters(design, seconds=seconds)
     return minimising.minimise(design, objective, seconds)
@@ -186,7 +188,7 @@ def stable_values(
     """
     if wanted not in STABILITIES:
         message = f"no stability {wanted!r}"
-        raise UsageProblem(message, did_you_mean(wanted, STABILITIES))
+        raise UsageProblem(message, did_you_mean(wanted, STABILITIES), code="unknown-word")
     read = family_of(family)
     springs = alone = None
     if slow is not None:
@@ -224,7 +226,9 @@ def found_methods(
     """
     if isinstance(found, Result):
         if family is None:
-            raise MethodError("a search does not know its family", "found_methods(result, family)")
+            raise MethodError(
+                "a search does not know its family", "found_methods(result, family)", code="arrays"
+            )
         return list(_searched(found, _file_of(family_of(family)), whose))
     if isinstance(found, Minimum):
         return list(_least(found, _file_of(found.design.family)))
@@ -232,6 +236,7 @@ def found_methods(
         raise MethodError(
             f"what was found is expected, not {type(found).__name__}",
             "give what find_parameters, minimise or search_methods returned",
+            code="arrays",
         )
     chosen = accepted_methods(found)
     read = _file_of(found.family)
@@ -262,7 +267,9 @@ def _file_of(family: Family) -> FamilyFile:
     """
     if isinstance(family, FamilyFile):
         return family
-    raise MethodError(f"{family!r} has no text", "give what load_family or loads_family return")
+    raise MethodError(
+        f"{family!r} has no text", "give what load_family or loads_family return", code="other-file"
+    )
 
 
 def _made(

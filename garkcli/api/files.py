@@ -227,4 +227,5 @@ def _text(given: object) -> str:
     raise MethodError(
         f"a text is expected, not {type(given).__name__}",
         "load(path) and its like read a file, from_arrays takes arrays",
+        code="arrays",
     )

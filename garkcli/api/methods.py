@@ -230,5 +230,7 @@ def symplectic_pair(
     V = colours_of(velocities, "velocities", count)
     F = colours_of(forces, "forces", count)
     if not V and not F:
-        raise MethodError("a pair of no colour", "give colours of velocities and of forces")
+        raise MethodError(
+            "a pair of no colour", "give colours of velocities and of forces", code="arrays"
+        )
     return method_of(forms.symplectic_pair(tableau, V, F))

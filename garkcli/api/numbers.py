@@ -48,7 +48,7 @@ def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
         MethodError: one is none, or they cannot be gone through.
     """
     if not _is_list(given):
-        raise MethodError(f"{where}: {given!r} is no list", "give a list")
+        raise MethodError(f"{where}: {given!r} is no list", "give a list", code="wrong-value")
     return [rational_of(x, f"{where}[{i}]") for i, x in enumerate(given)]
 
 
@@ -66,6 +66,7 @@ def whole(given: Any, where: str, least: int = 0) -> int:
         raise MethodError(
             f"{where}: {given} is no whole number from {least} on",
             f"give one, such as {max(least, 1)}",
+            code="wrong-value",
         )
     return int(value.p)
 
@@ -83,7 +84,7 @@ def colour_of(given: Any, where: str, count: int) -> int:
     if not 1 <= colour <= count:
         some = counted(count, "colour")
         message = f"{where}: there is no colour {colour}"
-        raise MethodError(message, f"the method has {some}, counted from 1")
+        raise MethodError(message, f"the method has {some}, counted from 1", code="no-such-tree")
     return colour - 1
 
 
@@ -98,7 +99,7 @@ def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
     """
     if not _is_list(given):
         cure = "give a list of colours, such as [1]"
-        raise MethodError(f"{where}: {given!r} is no list", cure)
+        raise MethodError(f"{where}: {given!r} is no list", cure, code="wrong-value")
     return [colour_of(x, where, count) for x in given]
 
 
@@ -110,7 +111,7 @@ def texts(given: Settings, where: str) -> dict[str, str]:
     """
     if not _is_mapping(given):
         cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"
-        raise MethodError(f"{where}: {given!r} is no mapping", cure)
+        raise MethodError(f"{where}: {given!r} is no mapping", cure, code="wrong-value")
     return {name: number_text(x, f"{where}[{name!r}]", False, EXACTLY) for name, x in given.items()}
 
 

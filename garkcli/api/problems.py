@@ -82,6 +82,7 @@ def problem_for(given: AnyProblem, tableau: Tableau) -> Problem | Oscillator:
         raise MethodError(
             f"a problem is expected, not {type(given).__name__}",
             "give the name of a built-in one, or what load_problem returns",
+            code="arrays",
         )
     text = os.fspath(given)
     terms = terms_of(with_joined_terms(tableau))
@@ -98,7 +99,11 @@ def to_step(given: AnyProblem, tableau: Tableau) -> Problem:
     found = problem_for(given, tableau)
     if isinstance(found, Problem):
         return found
-    raise UsageProblem("the oscillator has exact step maps", "take the problem split-oscillator")
+    raise UsageProblem(
+        "the oscillator has exact step maps",
+        "take the problem split-oscillator",
+        code="other-problem",
+    )
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau) -> Hamiltonian:
@@ -107,4 +112,4 @@ def hamiltonian_for(given: AnyProblem, tableau: Tableau) -> Hamiltonian:
     if isinstance(found, Hamiltonian):
         return found
     message = f"{found.name} is not Hamiltonian"
-    raise UsageProblem(message, "choose one that is")
+    raise UsageProblem(message, "choose one that is", code="other-problem")

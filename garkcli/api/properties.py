@@ -33,7 +33,7 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
     'R(∞) = 1'
     """
     if key not in KEYS:
-        raise UsageProblem(f"no property {key!r}", did_you_mean(key, KEYS))
+        raise UsageProblem(f"no property {key!r}", did_you_mean(key, KEYS), code="unknown-word")
     is_own = tolerance is None
     method, known_as = meant_of(method, tolerance)
     near = tolerance_of(known_as)

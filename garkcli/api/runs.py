@@ -174,7 +174,7 @@ def _some(steps: list[fmpq]) -> list[fmpq]:
         MethodError: there is none.
     """
     if not steps:
-        raise MethodError("steps: there is none", "give one or more")
+        raise MethodError("steps: there is none", "give one or more", code="arrays")
     return steps
 
 
@@ -261,6 +261,7 @@ def _start(integrator: Integrator, initial: Sequence[Any] | None) -> list[Any] |
         raise MethodError(
             f"initial: {counted(len(initial), 'number')} for {counted(wanted, 'unknown')}",
             "positions first, then momenta, as problem.initial has them",
+            code="pasted-tableau",
         )
     return [
         x if isinstance(x, (float, arb)) else rational(x, f"initial[{i}]")

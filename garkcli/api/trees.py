@@ -34,7 +34,9 @@ def tree_of(given: AnyTree) -> Tree:
     if isinstance(given, str):
         return parse_tree(given)
     raise MethodError(
-        f"a tree is expected, not {type(given).__name__}", "give its text, such as '[[],[]]'"
+        f"a tree is expected, not {type(given).__name__}",
+        "give its text, such as '[[],[]]'",
+        code="arrays",
     )
 
 
@@ -169,5 +171,5 @@ def _fitting(given: AnyTree, tableau: Tableau) -> Tree:
     if largest > tableau.size:
         message = f"the tree {tree} has colour {largest}"
         cure = f"the method has {counted(tableau.size, 'colour')}"
-        raise MethodError(message, cure)
+        raise MethodError(message, cure, code="no-such-tree")
     return tree

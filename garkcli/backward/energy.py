@@ -140,9 +140,12 @@ def modified_run(
         raise UsageProblem(
             "the method has no modified Hamiltonian: it is not symplectic by its coefficients",
             "gark modified shows its modified equation",
+            code="not-symplectic",
         )
     if not formula.is_consistent:
-        raise UsageProblem("the method is not consistent", "it approximates no solution")
+        raise UsageProblem(
+            "the method is not consistent", "it approximates no solution", code="not-consistent"
+        )
     powers, formulas = _changing(formula)
     following = [(power, False) for power in powers[1:]]
     following.append(_next_power(tableau, formula))
@@ -197,6 +200,7 @@ def _first_count(problem: Hamiltonian, t_end: fmpq, longest: fmpq | None) -> int
         raise UsageProblem(
             f"{count * 2 ** (ROWS - 1)} steps (limit {MAX_STEPS})",
             "choose a shorter time or a larger step",
+            code="too-many",
         )
     return max(count, 2)
 

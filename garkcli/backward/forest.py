@@ -168,7 +168,7 @@ def _check_size(admissible: Admissible, order: int) -> None:
         return
     n, total = too_many
     message = f"{total} trees of order up to {n} (limit {MAX_TREES})"
-    raise UsageProblem(message, f"ask for --order {n - 1} at most")
+    raise UsageProblem(message, f"ask for --order {n - 1} at most", code="too-many")
 
 
 def _first_beyond_limit(admissible: Admissible, order: int) -> tuple[int, int] | None:

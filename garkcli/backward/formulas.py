@@ -164,11 +164,15 @@ def _expanded(formula: Formula, power: int) -> Formula:
     size = int(expression.count_ops())
     if size > MAX_OPERATIONS:
         raise UsageProblem(
-            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})", cure
+            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})",
+            cure,
+            code="too-many",
         )
     if _summands(expression) > MAX_SUMMANDS:
         raise UsageProblem(
-            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})", cure
+            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})",
+            cure,
+            code="too-many",
         )
     return sympy.expand(expression)
 
@@ -221,5 +225,6 @@ def _radical(radical: Expression) -> Any:
         raise UsageProblem(
             "a formula is written in radicals, and a coefficient of the method is a root_of",
             "gark modified without a problem lists the coefficients",
+            code="no-radicals",
         )
     return Translator({}, {}).translate(radical)

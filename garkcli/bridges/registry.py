@@ -90,6 +90,7 @@ class Bridge:
             raise CannotExport(
                 f"{self.name} has no {_KINDS[payload.kind]}",
                 f"these have: {', '.join(_holding(payload.kind))}",
+                code="unknown-word",
             )
         if self.write is not None:
             return self.write(payload)
@@ -131,5 +132,7 @@ def bridge_named(name: str) -> Bridge:
     """
     known = bridges()
     if name not in known:
-        raise UsageProblem(f"no target {name!r}", did_you_mean(name, list(known)))
+        raise UsageProblem(
+            f"no target {name!r}", did_you_mean(name, list(known)), code="unknown-word"
+        )
     return known[name]

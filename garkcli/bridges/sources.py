@@ -84,12 +84,12 @@ def source_text(path: str) -> tuple[str, str]:
     except NotAFile as error:
         message = f"{name} cannot be read: {error.strerror}"
         cure = "name a file or a folder, or - for standard input"
-        raise UsageProblem(message, cure) from None
+        raise UsageProblem(message, cure, code="cannot-read") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "no file has such a name"
         message = f"{name} cannot be read: {reason}"
-        raise UsageProblem(message, "name a file or a folder") from None
+        raise UsageProblem(message, "name a file or a folder", code="cannot-read") from None
     if len(data) > MAX_CHARACTERS:
         message = f"{name} has more than {MAX_CHARACTERS} bytes"
-        raise UsageProblem(message, "give the part with the tables")
+        raise UsageProblem(message, "give the part with the tables", code="file-too-large")
     return data.decode("utf-8-sig", errors="replace"), name

@@ -97,7 +97,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
     """
     outcome = check_file(path)
     if outcome.analysis is None or not outcome.ok:
-        raise NoMethod(f"{path}: {_what_fails(outcome)}")
+        raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
     method = loads(text, path)
     return {**found_of(method, outcome.analysis, name, file), "digest": digest(text)}
 
@@ -200,9 +200,8 @@ def _error_constant(analysis: Analysis) -> str | None:
 
 def _properties(analysis: Analysis) -> Entry:
     """Every property by its name in JSON; null where it has no meaning or is not decided."""
-    sought: tuple[str, ...] = KEYS
-    if not _is_small(analysis.tableau):
-        sought = tuple(key for key in KEYS if key not in _SIZES)
+    is_small = _is_small(analysis.tableau)
+    sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
     found: Entry = {"symplectic": analysis.symplectic}
     open_ones = []

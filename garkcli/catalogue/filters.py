@@ -48,7 +48,7 @@ def read_range(text: str) -> Range:
     found = _RANGE.fullmatch(text.strip())
     if found is None:
         message = f"{text!r} is no number and no range"
-        raise UsageProblem(message, "write 4, '>=4', '<4' or 2..4")
+        raise UsageProblem(message, "write 4, '>=4', '<4' or 2..4", code="option-value")
     sign, number = found[1] or "=", int(found[2])
     ranges = {
         "=": Range(number, number),

@@ -28,10 +28,10 @@ def method_files(data: Path) -> list[tuple[str, Path]]:
         name = path.name.removesuffix(SUFFIX)
         if name != key_of(name):
             cure = f"{key_of(name)}{SUFFIX} would be its name"
-            raise NoMethod(f"{path} is not named as methods are", cure)
+            raise NoMethod(f"{path} is not named as methods are", cure, code="name-taken")
         if name in found:
             message = f"{found[name]} and {path} have one name"
-            raise NoMethod(message, "keep one of them, or rename it")
+            raise NoMethod(message, "keep one of them, or rename it", code="name-in-doubt")
         found[name] = path
     return sorted(found.items())
 

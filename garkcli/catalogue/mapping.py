@@ -136,7 +136,7 @@ def _wanted(
     for key, value in given.items():
         if key not in known:
             message = f"nothing is known by the name {key!r}"
-            raise UsageProblem(message, did_you_mean(key, known))
+            raise UsageProblem(message, did_you_mean(key, known), code="unknown-word")
         if isinstance(value, bool):
             truths[key] = value
         elif key in _WORDS:
@@ -162,15 +162,15 @@ def _found(name: object) -> Shelved:
     from garkcli.methodfile.naming import PREFIX, find_named
 
     if not isinstance(name, str):
-        raise NoSuchMethod(f"a name is text, not {type(name).__name__}")
+        raise NoSuchMethod(f"a name is text, not {type(name).__name__}", code="arrays")
     message = f"no method {name!r} in the catalogue"
     try:
         found = find_named(PREFIX + name.removeprefix(PREFIX))
     except MethodFileError as error:
         fault = error.faults[0]
         if fault.message.startswith("no such file"):
-            raise NoSuchMethod(message, fault.help) from None
-        raise NoSuchMethod(fault.message, fault.help) from None
+            raise NoSuchMethod(message, fault.help, code="unknown-word") from None
+        raise NoSuchMethod(fault.message, fault.help, code=fault.code) from None
     if found is None:
-        raise NoSuchMethod(message, "load(path) reads a file")
+        raise NoSuchMethod(message, "load(path) reads a file", code="unknown-word")
     return found

@@ -83,7 +83,7 @@ def _text(path: str) -> str:
 
 
 def _refused(path: str, why: str) -> UsageProblem:
-    return UsageProblem(f"--baseline {path}: {why}", _CURE)
+    return UsageProblem(f"--baseline {path}: {why}", _CURE, code="option-value")
 
 
 def _is_whole(file: object) -> bool:

@@ -275,6 +275,7 @@ def every_family(family: Family) -> EveryFamily:
         raise MethodError(
             "what the file asks of its parameters leaves none of them free",
             "gark design finds their values",
+            code="no-value-left",
         )
     names = [*left, *(radical.name for radical in family.radicals)]
     ring = Parameters(names)

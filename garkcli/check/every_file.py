@@ -34,24 +34,24 @@ def check_every(
         if count > MOST_PARAMETERS:
             message = f"{count} free parameters (limit {MOST_PARAMETERS})"
             cure = "give values to some by --set; gark design asks for one order"
-            return _refused(file, message, cure)
+            return _refused(file, message, cure, "too-many")
         of_dense = [x for x in family.claims if x.key.startswith("dense")]
         if of_dense:
             name = family.parameters[0]
             message = f"{of_dense[0].key} is claimed, and {name} is free"
             cure = f"dense output is judged for values: --set {name}=1/2"
-            return _refused(file, message, cure)
+            return _refused(file, message, cure, "free-parameters")
         reach = max(limit, highest_order(family.claims) + 1)
         found = every_value(family, reach)
     except MethodFileError as error:
         faults = error.faults
         return Outcome(file.source, file.source, faults=faults, text=file.text)
     except GarkError as error:
-        return _refused(file, error.message, error.help)
+        return _refused(file, error.message, error.help, error.code)
     if want_constants:
         name = found.parameters[0]
         message = "error constants are numbers, and a parameter is free"
-        return _refused(file, message, f"choose a value: --set {name}=1/2")
+        return _refused(file, message, f"choose a value: --set {name}=1/2", "free-parameters")
     return Outcome(
         file=family.source,
         name=family.name,
@@ -63,7 +63,7 @@ def check_every(
     )
 
 
-def _refused(file: HasFreeParameters, message: str, cure: str) -> Outcome:
+def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
     """What is not said for every value."""
-    faults = (Fault(message, cure),)
+    faults = (Fault(message, cure, code=code),)
     return Outcome(file.source, file.source, faults=faults, text=file.text)

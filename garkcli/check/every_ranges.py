@@ -191,6 +191,7 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
         raise MethodError(
             f"{name} has a range, and its value {text} follows from others",
             "give the range to one of these, or values with --set",
+            code="no-value-left",
         )
     line = _in_one_of(p, index)
     slope, rest = line[1], line[0]
@@ -208,6 +209,7 @@ def _fail_outside(name: str, value: object, shifted: Range) -> None:
         raise MethodError(
             f"{name} = {value} follows, which is outside of its range",
             "change the range, or what fixes the value",
+            code="no-value-left",
         )
 
 
@@ -220,6 +222,8 @@ def _common(name: str, one: Range, other: Range) -> Range:
     greatest = min(ends, default=None)
     if least is not None and greatest is not None and greatest < least:
         raise MethodError(
-            f"the ranges leave no value of {name}", "change one of them, or what fixes the others"
+            f"the ranges leave no value of {name}",
+            "change one of them, or what fixes the others",
+            code="no-value-left",
         )
     return least, greatest

@@ -35,6 +35,7 @@ def solved(
             raise MethodError(
                 f"{p} = 0 is asked of the parameters, which is no value of one of them",
                 "give values with --set, or ask gark design",
+                code="no-value-left",
             )
         x = ring.context.gen(ring.names.index(name))
         slope = p.derivative(ring.names.index(name)).leading_coefficient()
@@ -77,6 +78,7 @@ def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly
             raise MethodError(
                 f"the file divides by {family.ring.text(p)}, which is zero by what it asks",
                 "change what it asks of the parameters, such as given nodes",
+                code="division-by-zero",
             )
         if isinstance(value, Parametric):
             found.append(value.numerator)
@@ -93,11 +95,14 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
             raise MethodError(
                 f"{radical.text} depends on a free parameter",
                 "give values with --set: gark check, with a parameter for the root in its place",
+                code="no-value-left",
             )
         degree = int(radical.relation.degrees()[index])
         if not _is_new(family.radicals[:number], radical):
             raise MethodError(
-                f"{radical.text} is a number of the roots before it", "write it by these"
+                f"{radical.text} is a number of the roots before it",
+                "write it by these",
+                code="no-value-left",
             )
         yield Rule(
             ring.names.index(radical.name),

@@ -12,7 +12,6 @@ from pathlib import PurePath
 
 from garkcli.check.explained import claim_hint, claim_witness
 from garkcli.check.outcome import Outcome
-from garkcli.glossary.faults import code_of
 
 CLAIM = "write what holds under expect: gark claims FILE --write"
 """The cure of a file that lacks a claim."""
@@ -71,14 +70,7 @@ def _unreadable(outcome: Outcome) -> Iterator[Part]:
     for fault in outcome.faults:
         key = f"{fault.message}\0{seen[fault.message]}"
         seen[fault.message] += 1
-        yield Part(
-            fault.message,
-            fault.help,
-            key,
-            fault.line or 1,
-            fault.column or 1,
-            code_of(fault.message),
-        )
+        yield Part(fault.message, fault.help, key, fault.line or 1, fault.column or 1, fault.code)
 
 
 def _failed_claims(outcome: Outcome) -> Iterator[Part]:

@@ -78,7 +78,7 @@ def _of_message(text: str) -> Meaning:
     """
     code = code_of(text, _SURELY)
     if code == UNKNOWN:
-        raise UsageProblem(f"no word {text!r}", _near(text))
+        raise UsageProblem(f"no word {text!r}", _near(text), code="unknown-word")
     return fault_meaning(code)
 
 

@@ -57,6 +57,7 @@ def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
         raise MethodError(
             "the coefficients are rounded: an order within a tolerance has no exact proof",
             "give them exactly, without a tolerance",
+            code="rounded",
         )
     conjugated, both, obstacle = conjugate_and_pair(method.tableau)
     return MethodProof(

@@ -57,7 +57,7 @@ def _no_table(paths: Sequence[str], files: Sequence[str]) -> UsageProblem:
     first = next(unlike(files), "")
     if first:
         message += f"; {first}"
-    return UsageProblem(message, "docs/import.md says what is read")
+    return UsageProblem(message, "docs/import.md says what is read", code="cannot-import")
 
 
 def _format(output: Output) -> str:

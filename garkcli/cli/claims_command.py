@@ -32,7 +32,7 @@ def command(
 
     _refuse_unknown(keys)
     if is_written and "-" in files:
-        raise UsageProblem("--write needs a file", "name one in place of -")
+        raise UsageProblem("--write needs a file", "name one in place of -", code="option-alone")
     paths = files_meant(files, output)
     if is_written:
         _refuse_names(paths)
@@ -55,7 +55,7 @@ def _refuse_names(paths: list[str]) -> None:
     for path in paths:
         if find_named(path) is not None:
             message = f"--write needs a file, and {path} is a name of the catalogue"
-            raise UsageProblem(message, "give the path of the file")
+            raise UsageProblem(message, "give the path of the file", code="option-alone")
 
 
 def _refuse_unknown(keys: tuple[str, ...]) -> None:
@@ -64,7 +64,7 @@ def _refuse_unknown(keys: tuple[str, ...]) -> None:
     for key in keys:
         if key not in CLAIMS:
             cure = did_you_mean(key, CLAIMS)
-            raise UsageProblem(f"no claim {key!r}", cure)
+            raise UsageProblem(f"no claim {key!r}", cure, code="unknown-word")
 
 
 def _claims(outcome: Outcome, wants_all: bool, keys: tuple[str, ...]) -> TrueClaims:
@@ -82,6 +82,7 @@ def _claims(outcome: Outcome, wants_all: bool, keys: tuple[str, ...]) -> TrueCla
         raise UsageProblem(
             f"{outcome.file} has free parameters, and claims are of one method",
             "gark check says what holds for every value",
+            code="free-parameters",
         )
     wanted = _wanted(outcome, outcome.analysis, wants_all, keys)
     found = true_claims(outcome.analysis, wanted)

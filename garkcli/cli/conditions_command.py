@@ -39,7 +39,9 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
     _check(wanted, asked)
     if settings and wanted.file is None:
-        raise UsageProblem("--set is for the parameters of FILE", "name a file")
+        raise UsageProblem(
+            "--set is for the parameters of FILE", "name a file", code="option-alone"
+        )
     valued = None
     if wanted.file is not None:
         valued = _chosen(wanted.file, settings, wanted)
@@ -118,10 +120,10 @@ def _check(wanted: Wanted, asked: Kind | None) -> None:
         )
     elif wanted.colours is not None or wanted.coloured is not None:
         cure = "leave out --colours, --coloured, --shapes"
-        raise UsageProblem("the colours are those of FILE", cure)
+        raise UsageProblem("the colours are those of FILE", cure, code="options-clash")
     if asked is not None and wanted.coloured is not None:
         cure = "leave out --coloured and --shapes"
-        raise UsageProblem("free trees have colours", cure)
+        raise UsageProblem("free trees have colours", cure, code="options-clash")
 
 
 def _refuse(given: Mapping[str, object]) -> None:
@@ -132,7 +134,9 @@ def _refuse(given: Mapping[str, object]) -> None:
     """
     for option, value in given.items():
         if value:
-            raise UsageProblem(f"{option}: values are those of a method", "give a FILE")
+            raise UsageProblem(
+                f"{option}: values are those of a method", "give a FILE", code="option-alone"
+            )
 
 
 def _arranged(
@@ -181,7 +185,7 @@ def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
         return subject_of_kind(asked, wanted.colours, wanted.orders)
     if wanted.kind is not None:
         cure = "leave out --kind; --pair asks for the pair"
-        raise UsageProblem("the kind is that of FILE", cure)
+        raise UsageProblem("the kind is that of FILE", cure, code="options-clash")
     return subject_of_method(valued.method, wanted.orders)
 
 

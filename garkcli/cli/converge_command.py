@@ -91,13 +91,14 @@ def _check(asked: Asked) -> None:
         raise UsageProblem(
             "--stiffness is for a problem that has one",
             "name it with --problem, such as --problem van-der-pol",
+            code="other-problem",
         )
     if asked.omega:
         positive("--omega", asked.omega)
     if asked.against not in (None, "h") and not asked.work:
         option = f"--against {asked.against}"
         message = f"{option} is not known without measuring it"
-        raise UsageProblem(message, "add --work")
+        raise UsageProblem(message, "add --work", code="other-problem")
     check_plot(asked.plot)
 
 

@@ -99,7 +99,7 @@ def _asked(family: FamilyFile, wanted: Wanted) -> Asked | None:
     size = family.tableau.size
     if wanted.colour > size:
         message = f"--colour: no colour {wanted.colour}"
-        raise UsageProblem(message, f"the method has {counted(size, 'colour')}")
+        raise UsageProblem(message, f"the method has {counted(size, 'colour')}", code="wrong-value")
     return Stability(wanted.stability, wanted.colour - 1)
 
 
@@ -112,7 +112,7 @@ def _refuse_unsettled(family: FamilyFile) -> None:
     for key in family.unsettled:
         message = f"what {key} under design asks was not worked out "
         message += "in the time of --seconds"
-        raise UsageProblem(message, "give it more, or want less")
+        raise UsageProblem(message, "give it more, or want less", code="not-found")
 
 
 def _prepare_places(wanted: Wanted) -> None:
@@ -141,10 +141,10 @@ def _refuse_other_wishes(family: FamilyFile, asked: Asked, is_of_springs: bool) 
     message = f"under design the file wants {wishes[0]}, "
     if is_of_springs:
         message += "which is not looked at on two springs"
-        raise UsageProblem(message, "leave it out of the file")
+        raise UsageProblem(message, "leave it out of the file", code="options-clash")
     message += f"and --{asked.kind} gives the values of one kind"
     cure = "add --order P: solutions of an order have all that is wanted"
-    raise UsageProblem(message, cure)
+    raise UsageProblem(message, cure, code="options-clash")
 
 
 def _as_stable(family: FamilyFile, asked: Asked | None) -> FamilyFile:
@@ -217,18 +217,18 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
     for name, text in choices.items():
         if name not in unknowns:
             cure = did_you_mean(name, list(unknowns))
-            raise UsageProblem(f"--choose: no unknown {name!r}", cure)
+            raise UsageProblem(f"--choose: no unknown {name!r}", cure, code="option-value")
         values[name] = text, _chosen_value(name, text)
     if len(values) == len(unknowns):
         message = "--choose leaves no unknown"
         cure = "gark check with --set judges one method"
-        raise UsageProblem(message, cure)
+        raise UsageProblem(message, cure, code="options-clash")
     try:
         return walk_down(known, values)
     except NotDecided:
         message = "--choose: what is left is not decided "
         message += "in the time of --seconds"
-        raise UsageProblem(message, "choose with --set") from None
+        raise UsageProblem(message, "choose with --set", code="not-found") from None
 
 
 def _chosen_value(name: str, text: str) -> fmpq:
@@ -242,10 +242,10 @@ def _chosen_value(name: str, text: str) -> fmpq:
         value = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
         message = f"--choose {name}: {error.message}"
-        raise UsageProblem(message, error.help) from None
+        raise UsageProblem(message, error.help, code="option-value") from None
     if isinstance(value, Algebraic):
         message = f"--choose {name}: a rational number is expected"
-        raise UsageProblem(message, "--set takes radicals")
+        raise UsageProblem(message, "--set takes radicals", code="option-value")
     return value
 
 

@@ -82,33 +82,35 @@ class Wanted:
         for option, value in of_search.items():
             if self.starts is None and value is not None:
                 message = f"{option} goes with --search"
-                raise UsageProblem(message, "add --search N")
+                raise UsageProblem(message, "add --search N", code="option-alone")
         self._check_springs()
         if self.colour is not None and self.stability not in {"a-stable", "l-stable"}:
             message = "--colour goes with --a-stable and --l-stable"
-            raise UsageProblem(message, "add one of them")
+            raise UsageProblem(message, "add one of them", code="option-alone")
         if self.starts is not None and self.objective is not None:
             message = "--minimise compares all methods, --search finds some"
-            raise UsageProblem(message, "leave one of them out")
+            raise UsageProblem(message, "leave one of them out", code="options-clash")
         if self.emit_all is not None and self.objective is not None:
             message = "--minimise finds one method, --emit-all writes several"
-            raise UsageProblem(message, "--emit FILE writes the one")
+            raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
         if self.is_pair and self.is_conjugate:
             message = "--pair and --conjugate are two methods"
-            raise UsageProblem(message, "ask for one")
+            raise UsageProblem(message, "ask for one", code="options-clash")
 
     def _check_springs(self) -> None:
         if (self.slow is None) != (self.fast is None):
-            raise UsageProblem("--slow and --fast belong together", "give both")
+            raise UsageProblem(
+                "--slow and --fast belong together", "give both", code="option-alone"
+            )
         if self.up_to is not None and self.slow is None:
             message = "--up-to is a bound for the fast one of two springs"
-            raise UsageProblem(message, "give --slow and --fast too")
+            raise UsageProblem(message, "give --slow and --fast too", code="option-alone")
         if self.slow is not None and self.stability != "p-stable":
             message = "--slow and --fast say on which springs"
-            raise UsageProblem(message, "add --p-stable")
+            raise UsageProblem(message, "add --p-stable", code="option-alone")
         if self.slow is not None and self.order is not None:
             message = "two springs give a set of values, --order does not"
-            raise UsageProblem(message, "ask for one")
+            raise UsageProblem(message, "ask for one", code="options-clash")
 
     def check_one_by_one(self, stable: Sequence[str]) -> None:
         """Refuse what does not look at stability, where that is wanted too.
@@ -121,7 +123,7 @@ class Wanted:
             if stable and value is not None:
                 message = f"{stable[0]} is decided for exact solutions, {option} has others"
                 cure = "leave it out, and ask gark check of what is found"
-                raise UsageProblem(message, cure)
+                raise UsageProblem(message, cure, code="wanted-without-meaning")
 
     def check_stability(self) -> None:
         """Refuse what a set of values does not have.
@@ -135,4 +137,4 @@ class Wanted:
         message = f"--{self.stability} gives a set of values, "
         message += "--emit, --search, --minimise do not"
         cure = "ask for one; with --order solutions of that order are looked at"
-        raise UsageProblem(message, cure)
+        raise UsageProblem(message, cure, code="options-clash")

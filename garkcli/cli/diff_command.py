@@ -55,6 +55,6 @@ def _loaded(first: str, second: str, settings: dict[str, str]) -> tuple[MethodFi
     for name in settings:
         if name not in known:
             message = f"--set {name}: neither file has such a parameter"
-            raise UsageProblem(message, did_you_mean(name, sorted(known)))
+            raise UsageProblem(message, did_you_mean(name, sorted(known)), code="option-value")
     one, other = methods
     return one, other

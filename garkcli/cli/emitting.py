@@ -23,12 +23,12 @@ def make_folder(path: str) -> None:
         UsageProblem: its name is empty, or it cannot be made.
     """
     if not path:
-        raise UsageProblem("the name of the folder is empty", "name a folder")
+        raise UsageProblem("the name of the folder is empty", "name a folder", code="cannot-write")
     try:
         Path(path).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         message = f"cannot make the folder {path}: {error.strerror}"
-        raise UsageProblem(message, "choose another place") from None
+        raise UsageProblem(message, "choose another place", code="cannot-write") from None
 
 
 def file_names(folder: str, source: str) -> Iterator[str]:
@@ -80,7 +80,7 @@ def _none() -> UsageProblem:
     message = "there is no single method to be written: "
     message += "no order has finitely many"
     cure = "choose values with --set, or ask for a higher order"
-    return UsageProblem(message, cure)
+    return UsageProblem(message, cure, code="not-found")
 
 
 def _text(family: FamilyFile, found: Design, chosen: Chosen) -> str:

@@ -26,7 +26,7 @@ def read_family(
     try:
         return file, every_family(file)
     except MethodError as refusal:
-        raise UsageProblem(refusal.message, refusal.help) from None
+        raise UsageProblem(refusal.message, refusal.help, code=refusal.code) from None
 
 
 def refuse_numbers(family: EveryFamily, options: Mapping[str, object]) -> None:
@@ -43,7 +43,7 @@ def refuse_numbers(family: EveryFamily, options: Mapping[str, object]) -> None:
     for option, value in options.items():
         if value:
             message = f"{option} needs numbers, and {name} is free"
-            raise UsageProblem(message, f"choose a value: --set {name}=1/2")
+            raise UsageProblem(message, f"choose a value: --set {name}=1/2", code="free-parameters")
 
 
 def write_family(
@@ -74,6 +74,7 @@ def write_family(
         raise UsageProblem(
             "the nodes have no simple radicals beside free parameters",
             f"choose a value: --set {file.parameters[0]}=1/2",
+            code="no-radicals",
         )
     if file.further:
         name_of_one = file.parameters[0]

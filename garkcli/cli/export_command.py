@@ -59,6 +59,10 @@ def _check_test(bridge: Bridge, output: str | None) -> None:
         UsageProblem: the target runs nothing, or there is no place for it.
     """
     if bridge.test_driver is None:
-        raise UsageProblem(f"{bridge.name} is data, which nothing runs", "leave out --test")
+        raise UsageProblem(
+            f"{bridge.name} is data, which nothing runs", "leave out --test", code="cannot-export"
+        )
     if output is None:
-        raise UsageProblem("--test writes further files beside the first", "name it: -o FILE")
+        raise UsageProblem(
+            "--test writes further files beside the first", "name it: -o FILE", code="option-alone"
+        )

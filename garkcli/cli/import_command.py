@@ -94,14 +94,14 @@ def _nothing(
         message = f"{place}: no method: {result.trouble}"
         if name:
             message = f"{place}: {name} is no method: {result.trouble}"
-        return UsageProblem(message, "see docs/import.md for what is read")
+        return UsageProblem(message, "see docs/import.md for what is read", code="cannot-import")
     for table in left_out:
-        return UsageProblem(_other(table), _take_it(table))
+        return UsageProblem(_other(table), _take_it(table), code="cannot-import")
     looked_at = counted(len(paths), "file")
     where = ", ".join(sources[:3])
     known = ", ".join(all_readers())
     message = f"no table is found in {where} ({looked_at})"
-    return UsageProblem(message, f"--from FORMAT says what it is: {known}")
+    return UsageProblem(message, f"--from FORMAT says what it is: {known}", code="cannot-import")
 
 
 def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:

@@ -84,10 +84,10 @@ def refuse_filters(given: Mapping[str, object], format: str) -> None:
         if value not in (None, ()):
             name = "words" if key == "words" else f"--{key.replace('_', '-')}"
             message = f"{name}: chosen are methods alone"
-            raise UsageProblem(message, "write gark list methods")
+            raise UsageProblem(message, "write gark list methods", code="options-clash")
     if format == "csv":
         message = f"--format {format} is for methods"
-        raise UsageProblem(message, "write gark list methods")
+        raise UsageProblem(message, "write gark list methods", code="options-clash")
 
 
 def list_methods(given: Mapping[str, Any], output: Output) -> int:

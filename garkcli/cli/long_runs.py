@@ -69,7 +69,7 @@ def check_wanted(wanted: Wanted) -> None:
     refuse_misplaced(wanted.problem, wanted.seed, wanted.stiffness, of_oscillator)
     if wanted.problem == "oscillator" and wanted.digits is not None:
         message = "--digits is not for the oscillator: its steps are exact"
-        raise UsageProblem(message, "leave it out")
+        raise UsageProblem(message, "leave it out", code="other-problem")
     check_plot(wanted.plot)
 
 
@@ -104,11 +104,13 @@ def _check_quantities(problem: Problem, wanted: Wanted) -> None:
         raise UsageProblem(
             f"{problem.name} has no energy and no invariants to follow",
             "give invariants in a problem file, or choose a Hamiltonian problem",
+            code="other-problem",
         )
     if wanted.symplecticity and not isinstance(problem, Hamiltonian):
         raise UsageProblem(
             f"--symplecticity is for Hamiltonian problems, and {problem.name} is none",
             "leave it out",
+            code="other-problem",
         )
 
 

@@ -201,7 +201,7 @@ def _help_for(arguments: list[str]) -> list[str]:
     names = [x for x in arguments if not x.startswith("-")]
     if len(names) > 1:
         message = f"gark help is for one command, not for {counted(len(names), 'word')}"
-        raise UsageProblem(message, f"gark help {names[0]}")
+        raise UsageProblem(message, f"gark help {names[0]}", code="wrong-value")
     return [*arguments, "--help"]
 
 

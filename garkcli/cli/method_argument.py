@@ -91,10 +91,10 @@ def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[st
     for folder in folders:
         if not os.path.isdir(folder):
             message = f"--catalogue: {folder!r} is no folder"
-            raise UsageProblem(message, "name a folder with method files")
+            raise UsageProblem(message, "name a folder with method files", code="option-value")
         if os.pathsep in folder:
             message = f"--catalogue: {folder!r} has {os.pathsep!r} in it, which is between folders"
-            raise UsageProblem(message, "rename it")
+            raise UsageProblem(message, "rename it", code="option-value")
     before = os.environ.get(_VARIABLE)
     rest = [before] if before else []
     os.environ[_VARIABLE] = os.pathsep.join([*folders, *rest])

@@ -31,6 +31,7 @@ def least(design: Design, name: str) -> Minimum | None:
         problem = UsageProblem(
             f"--minimise {name}: not decided, the solution set is too large or curved",
             "choose values for some unknowns with --choose",
+            code="not-found",
         )
         say_problem(problem)
         return None
@@ -43,6 +44,7 @@ def emit(family: FamilyFile, minimum: Minimum, path: str) -> None:
         raise UsageProblem(
             f"--emit: no method has the infimum of {name}",
             "a range for the parameter, closed at its ends, has a minimum",
+            code="not-found",
         )
     candidate = minimum.minimisers[0]
     found = candidate.found

@@ -54,7 +54,7 @@ def command(
         refuse_misplaced(problem, seed, None, {})
         formula = _formula(method, problem, seed, order)
     elif seed is not None:
-        raise UsageProblem("--seed is for the problem", "give --problem too")
+        raise UsageProblem("--seed is for the problem", "give --problem too", code="option-alone")
     if formula is not None:
         # the problem sees fewer trees than the tableau has
         order = possible_order(tableau, order)
@@ -81,6 +81,7 @@ def _formula(method: GarkMethod, problem: str, seed: int | None, order: int) -> 
         raise UsageProblem(
             "--problem: a formula has exact coefficients, and those of the file are rounded",
             "give exact coefficients, without tolerance",
+            code="rounded",
         )
     solved = find_hamiltonian(problem, method.tableau, seed)
     return modified_formula(method.tableau, solved, order).expanded()

@@ -39,13 +39,16 @@ def measure_modified(
 
     for option, value in others.items():
         if value:
-            raise UsageProblem(f"{option} does not go with --modified", "leave it out")
+            raise UsageProblem(
+                f"{option} does not go with --modified", "leave it out", code="options-clash"
+            )
     t_end = given_positive("--t-end", times[0])
     longest = given_positive("--step", times[1])
     if method.tolerance is not None:
         raise UsageProblem(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
             "give exact coefficients, without tolerance",
+            code="rounded",
         )
     try:
         solved = find_hamiltonian(problem, method.tableau, seed)

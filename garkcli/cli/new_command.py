@@ -37,13 +37,13 @@ def command(
     """
     place = _place(file, force, output)
     if tableau is not None and families:
-        raise UsageProblem("--tableau and --family at once", "give one")
+        raise UsageProblem("--tableau and --family at once", "give one", code="options-clash")
     if tableau is None and not families:
         tableau, families, transfer, name = _asked(name)
     name = name or _title(file)
     if tableau is not None:
         if transfer is not None:
-            raise UsageProblem("--transfer goes with --family", "leave it out")
+            raise UsageProblem("--transfer goes with --family", "leave it out", code="option-alone")
         text = of_tableau_text(name, tableau)
     else:
         text = _of_families(name, families, transfer or "collocation")
@@ -65,7 +65,7 @@ def _place(file: str | None, force: bool, output: Output) -> str | None:
         UsageProblem: it is there already, or two places are named.
     """
     if file is not None and output.path is not None:
-        raise UsageProblem("FILE and -o at once", "name one place")
+        raise UsageProblem("FILE and -o at once", "name one place", code="options-clash")
     place = file if file is not None else output.path
     if place is None:
         return None
@@ -73,7 +73,9 @@ def _place(file: str | None, force: bool, output: Output) -> str | None:
 
     refuse_unwritable(place)
     if os.path.exists(place) and not force:
-        raise UsageProblem(f"{place} is there already", "--force writes over it")
+        raise UsageProblem(
+            f"{place} is there already", "--force writes over it", code="cannot-write"
+        )
     return place
 
 
@@ -124,6 +126,7 @@ def _member(text: str) -> Member:
         raise UsageProblem(
             f"--family {text}: a name and stages are expected",
             "for instance --family gauss:2; gark list has the names",
+            code="option-value",
         )
     return Member(family.strip(), int(stages))
 
@@ -155,7 +158,7 @@ def _asked(name: str | None) -> Answers:
         UsageProblem: nobody is there to answer.
     """
     if not is_terminal(sys.stdin):
-        raise UsageProblem("a new method needs --tableau or --family", EXAMPLE)
+        raise UsageProblem("a new method needs --tableau or --family", EXAMPLE, code="option-alone")
     hush()
     if name is None:
         name = click.prompt("name", default="a new method")

@@ -181,7 +181,9 @@ def _with_companion(function: Callable[..., Any]) -> Callable[..., Any]:
 
     def run(is_conjugate: bool, is_pair: bool, **rest: Any) -> Any:
         if is_conjugate and is_pair:
-            raise UsageProblem("--pair and --conjugate are two methods", "ask for one")
+            raise UsageProblem(
+                "--pair and --conjugate are two methods", "ask for one", code="options-clash"
+            )
         which = "conjugate" if is_conjugate else "pair" if is_pair else None
         return function(which=which, **rest)
 
@@ -209,7 +211,9 @@ def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> Non
         UsageProblem: it is given with several.
     """
     if settings and len(paths) > 1:
-        raise UsageProblem("--set is for one FILE", "give the files one by one")
+        raise UsageProblem(
+            "--set is for one FILE", "give the files one by one", code="options-clash"
+        )
 
 
 def check_document(is_document: bool, format: str) -> None:
@@ -220,7 +224,7 @@ def check_document(is_document: bool, format: str) -> None:
     """
     if is_document and format != "latex":
         message = "--document goes with --format latex"
-        raise UsageProblem(message, "add --format latex")
+        raise UsageProblem(message, "add --format latex", code="option-alone")
 
 
 class Output:

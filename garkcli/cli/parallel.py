@@ -49,14 +49,16 @@ def _checked(check: Work, path: str) -> Outcome:
         if "--debug" in sys.argv:
             raise
         what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
-        return _crashed(path, f"internal fault: {what}", "please report it, with the file")
+        return _crashed(
+            path, f"internal fault: {what}", "please report it, with the file", "internal-fault"
+        )
 
 
-def _crashed(path: str, what: str, cure: str) -> Outcome:
-    return Outcome(path, path, faults=(Fault(what, cure),), is_crash=True)
+def _crashed(path: str, what: str, cure: str, code: str) -> Outcome:
+    return Outcome(path, path, faults=(Fault(what, cure, code=code),), is_crash=True)
 
 
 def _ended(path: str, why: str) -> Outcome:
     """The outcome of a file that ended its worker."""
     cure = "check it alone; where memory is short use fewer --jobs"
-    return _crashed(path, f"its check was ended {why}", cure)
+    return _crashed(path, f"its check was ended {why}", cure, "worker-lost")

@@ -124,7 +124,7 @@ def find_hamiltonian(name_or_path: str, tableau: Tableau, seed: int | None = Non
     found = find_problem(name_or_path, tableau, seed)
     if not isinstance(found, Hamiltonian):
         message = f"--problem: {found.name} is not Hamiltonian"
-        raise UsageProblem(message, "choose one that is")
+        raise UsageProblem(message, "choose one that is", code="other-problem")
     return found
 
 

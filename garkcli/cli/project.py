@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.files import is_inside
-from garkcli.glossary.key import Files, Key
 from garkcli.page.plain import printable
+
+if TYPE_CHECKING:
+    from garkcli.glossary.key import Files, Key
 
 OWN = ".gark.toml"
 SHARED = "pyproject.toml"
@@ -81,11 +83,17 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
         if name == SHARED and b"gark" not in data:
             return None
         if len(data) > MOST_BYTES:
-            raise UsageProblem(f"{printable(path)}: more than {MOST_BYTES} bytes", "split it")
+            raise UsageProblem(
+                f"{printable(path)}: more than {MOST_BYTES} bytes",
+                "split it",
+                code="file-too-large",
+            )
         whole = tomllib.loads(data.decode("utf-8"))
     except (OSError, ValueError) as error:
         message = f"{printable(os.path.relpath(path))}: {error}"
-        raise UsageProblem(message, "mend the file, TOML is expected") from None
+        raise UsageProblem(
+            message, "mend the file, TOML is expected", code="project-file"
+        ) from None
     if name == OWN:
         return whole
     tools = whole.get("tool")
@@ -95,6 +103,7 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
     raise UsageProblem(
         f"{printable(os.path.relpath(path))}: tool.gark is no table",
         "write its keys below [tool.gark]",
+        code="project-file",
     )
 
 
@@ -108,10 +117,12 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
     for key, value in table.items():
         if key not in KEYS:
             cure = did_you_mean(key, list(KEYS))
-            raise UsageProblem(f"{shown}: no key {key!r}", cure)
+            raise UsageProblem(f"{shown}: no key {key!r}", cure, code="unknown-key")
         if not KEYS[key].is_right(value):
             cure = f"write {key} = {KEYS[key].example}"
-            raise UsageProblem(f"{shown}: {key} is not {KEYS[key].wanted}", cure)
+            raise UsageProblem(
+                f"{shown}: {key} is not {KEYS[key].wanted}", cure, code="wrong-value"
+            )
     from garkcli.methodfile.finding import fixed_part
 
     required = table.get("require-claims", False)
@@ -119,7 +130,7 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
     for path, given in zip(paths, table.get("paths", ()), strict=True):
         if not is_inside(fixed_part(path), folder):
             message = f"{shown}: paths: {printable(given)} leads out of the project"
-            raise UsageProblem(message, "name files and folders of the project")
+            raise UsageProblem(message, "name files and folders of the project", code="elsewhere")
     names = {"format": "format", "max-order": "max_order", "jobs": "jobs"}
     defaults = {names[key]: table[key] for key in names if key in table}
     return Project(
@@ -224,5 +235,7 @@ KEYS = {
 
 def told(files: Files) -> Iterator[Key]:
     """What is told of the keys."""
+    from garkcli.glossary.key import Key  # only pages and explanations tell of keys
+
     for name, key in KEYS.items():
         yield Key(name, key.text, f"{name} = {key.example}", key.default, files.page)

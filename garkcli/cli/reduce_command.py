@@ -55,6 +55,7 @@ def smallest_of(file: str, method: MethodFile) -> tuple[Tableau, Further]:
         raise UsageProblem(
             f"{file}: the nodes have no simple radicals, so equal stages are not looked for",
             "spell the method out",
+            code="no-radicals",
         )
     return found
 
@@ -69,6 +70,7 @@ def _file(file: str, method: MethodFile, smaller: Tableau, further: Further) -> 
         raise UsageProblem(
             f"{file}: a method of this structure cannot be spelled out in a file",
             "--format json has the entries of the smaller method",
+            code="cannot-convert",
         )
     name = _name(method, smaller)
     return write_method(smaller, name, method.tolerance, further)

@@ -78,6 +78,7 @@ def refuse_partitioned(tableau: Tableau) -> None:
         raise UsageProblem(
             "a method file spells out a GARK tableau or one pair (q, p), not this partitioned one",
             "--format json has all of its blocks",
+            code="cannot-convert",
         )
 
 
@@ -95,5 +96,6 @@ def _method_file(
         raise UsageProblem(
             "the nodes have no simple radicals, so the tableau cannot be spelled out exactly",
             f"--digits {DEFAULT_DIGITS} writes decimals",
+            code="no-radicals",
         )
     return write_tableau_file(exact, name, tolerance, further=further)

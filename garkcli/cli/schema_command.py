@@ -20,7 +20,9 @@ def command(problem: bool, sweep: bool, report: str | None, output: Output) -> i
     named = [name for name, is_asked in asked.items() if is_asked]
     if len(named) > 1:
         raise UsageProblem(
-            f"{' and '.join(named)} are {len(named)} schemas", "ask for one at a time"
+            f"{' and '.join(named)} are {len(named)} schemas",
+            "ask for one at a time",
+            code="options-clash",
         )
     schema = _sweep_schema() if sweep else _schema(problem, report)
     output.write(json.dumps(schema, indent=2, ensure_ascii=False) + "\n")

@@ -47,7 +47,7 @@ def search(family: FamilyFile, wanted: Wanted, starts: int, output: Output) -> i
     order = wanted.order or family.order
     if order is None:
         cure = "say which by --order P, or in the file by design: {order: P}"
-        raise UsageProblem("a search is for an order", cure)
+        raise UsageProblem("a search is for an order", cure, code="option-alone")
     asked = FileSearch.of(family, order, wanted.whose)
     looking = asked.search
     result, ended = _searched(asked, wanted, starts)

@@ -78,9 +78,11 @@ def _check_options(slow: str | None, fast: str | None, plot: str | None, order_s
         UsageProblem: one of them is missing, or there can be no such picture.
     """
     if (slow is None) != (fast is None):
-        raise UsageProblem("--slow and --fast belong together", "give both")
+        raise UsageProblem("--slow and --fast belong together", "give both", code="option-alone")
     if order_star and plot is None:
-        raise UsageProblem("--order-star is for the picture", "give --plot FILE too")
+        raise UsageProblem(
+            "--order-star is for the picture", "give --plot FILE too", code="option-alone"
+        )
     if plot is not None:
         _check_plot(plot)
 
@@ -106,7 +108,11 @@ def _check_plot(plot: str) -> None:
     """Refuse a picture that could not be written, before the work."""
     check_plot(plot)
     if not Path(plot).parent.is_dir():
-        raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
+        raise UsageProblem(
+            f"cannot write {plot}: there is no such folder",
+            "choose another place",
+            code="cannot-write",
+        )
 
 
 def _ratio(text: str) -> fmpq:
@@ -115,7 +121,9 @@ def _ratio(text: str) -> fmpq:
 
     ratio = rational("--ratio", text)
     if ratio <= 0:
-        raise UsageProblem(f"--ratio {text}: radii are positive", "the axes are always there")
+        raise UsageProblem(
+            f"--ratio {text}: radii are positive", "the axes are always there", code="option-value"
+        )
     return ratio
 
 
@@ -127,7 +135,11 @@ def _whole_report(
 
     if method.tolerance is None:
         if ratios and method.tableau.size != 2:
-            raise UsageProblem(f"{file}: --ratio is for methods of two colours", "leave it out")
+            raise UsageProblem(
+                f"{file}: --ratio is for methods of two colours",
+                "leave it out",
+                code="options-clash",
+            )
         found = stability(method.tableau, ratios=ratios)
     else:
         found = stability_of_rounded(method.tableau, method.tolerance)
@@ -148,6 +160,7 @@ def _springs_report(
         raise UsageProblem(
             f"{file}: with rounded coefficients nothing is decided about two springs",
             "give exact coefficients, without tolerance",
+            code="rounded",
         )
     tableau = method.tableau
     split = springs(tableau, term_of(tableau, fast))
@@ -179,6 +192,8 @@ def _strengths(slow: str) -> tuple[fmpq, fmpq]:
     high = rational("--slow", last) if dots else low
     if dots and not low < high:
         raise UsageProblem(
-            f"--slow {slow}: the ends are not in ascending order", "give --slow A..B"
+            f"--slow {slow}: the ends are not in ascending order",
+            "give --slow A..B",
+            code="option-value",
         )
     return low, high

@@ -44,7 +44,7 @@ def faults_of(error: GarkError) -> tuple[Fault, ...]:
     """What is wrong: the faults of a file, or one fault."""
     if isinstance(error, MethodFileError):
         return error.faults
-    return (Fault(error.message, error.help),)
+    return (Fault(error.message, error.help, code=error.code),)
 
 
 def failure_code(error: GarkError) -> int:
@@ -73,7 +73,7 @@ def refuse_misplaced(
     given = [option for option, value in of_oscillator.items() if value]
     if problem != "oscillator" and given:
         message = f"{given[0]} is for the oscillator, not for {problem}"
-        raise UsageProblem(message, "leave it out")
+        raise UsageProblem(message, "leave it out", code="other-problem")
     check_seed(problem, seed)
     if stiffness is not None and problem in PROBLEMS:
         check_stiffness(problem)
@@ -109,10 +109,11 @@ def positive(option: str, text: str | None) -> fmpq:
 
     number = rational(option, text or "")
     if number <= 0:
-        raise UsageProblem(f"{option} {text}: a positive number is expected")
+        raise UsageProblem(f"{option} {text}: a positive number is expected", code="option-value")
     if not fmpq(1, 10**DECADES) <= number <= 10**DECADES:
         raise UsageProblem(
-            f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected"
+            f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected",
+            code="option-value",
         )
     return number
 
@@ -132,9 +133,13 @@ def rational(option: str, text: str) -> fmpq:
         expression = parse(text)
         number = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
-        raise UsageProblem(f"{option} {text}: {error.message}", error.help) from None
+        raise UsageProblem(
+            f"{option} {text}: {error.message}", error.help, code=error.code
+        ) from None
     if isinstance(number, Algebraic):
-        raise UsageProblem(f"{option} {text}: a rational number is expected", "such as 1/2")
+        raise UsageProblem(
+            f"{option} {text}: a rational number is expected", "such as 1/2", code="option-value"
+        )
     return number
 
 
@@ -146,7 +151,9 @@ def square(option: str, text: str) -> fmpq:
     """
     number = rational(option, text)
     if number < 0:
-        raise UsageProblem(f"{option} {text}: a square is not negative", "give 0 or more")
+        raise UsageProblem(
+            f"{option} {text}: a square is not negative", "give 0 or more", code="option-value"
+        )
     return number
 
 
@@ -158,5 +165,7 @@ def term_of(tableau: Tableau, colour: str) -> int:
     """
     names = [x.name for x in tableau.colours]
     if colour not in names:
-        raise UsageProblem(f"--fast: no colour {colour!r}", did_you_mean(colour, names))
+        raise UsageProblem(
+            f"--fast: no colour {colour!r}", did_you_mean(colour, names), code="wrong-value"
+        )
     return tableau.colours[names.index(colour)].term

@@ -73,7 +73,9 @@ def _refuse_plot(plan: Plan, path: str) -> None:
 
     if len(plan.pareto) < 2:
         raise UsageProblem(
-            "--plot needs two columns", "write pareto: [error, stages] into the spec"
+            "--plot needs two columns",
+            "write pareto: [error, stages] into the spec",
+            code="option-alone",
         )
     check_suffix(Path(path))
 

@@ -95,6 +95,7 @@ def _write_derived(method: MethodFile, made: GarkMethod, output: Output) -> None
         raise UsageProblem(
             "the nodes have no simple radicals, so the pair cannot be spelled out exactly",
             "gark check reports on the pair; --format json gives decimals",
+            code="no-radicals",
         )
     else:
         output.note(

@@ -63,7 +63,7 @@ def draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Out
     trees = list(islice(listed, MAX_PICTURES + 1))
     if len(trees) > MAX_PICTURES:
         message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
-        raise UsageProblem(message, "draw one order or one root")
+        raise UsageProblem(message, "draw one order or one root", code="too-many")
     labels = [format_tree(tree, has_colours) for tree in trees]
     write_whole(path, [draw_svg_sheet(trees, labels)])
     output.note(f"wrote {path}")

@@ -16,10 +16,10 @@ def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -
     """
     if members and format == "latex":
         message = "--members do not fit into a LaTeX table"
-        raise UsageProblem(message, "choose another --format")
+        raise UsageProblem(message, "choose another --format", code="options-clash")
     if symplectic:
         return cast("Kind", kind or "pair")
     if kind is not None or members:
         option = "--members" if kind is None else "--kind"
-        raise UsageProblem(f"{option} is about free trees", "add --symplectic")
+        raise UsageProblem(f"{option} is about free trees", "add --symplectic", code="option-alone")
     return None

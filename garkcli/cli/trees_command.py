@@ -80,7 +80,9 @@ class Wanted:
             UsageProblem: none is.
         """
         if self.order is None:
-            raise UsageProblem("which order?", "give --order n, or --tree for one tree")
+            raise UsageProblem(
+                "which order?", "give --order n, or --tree for one tree", code="option-alone"
+            )
         first = 1 if self.upto else self.order
         return range(first, self.order + 1)
 
@@ -93,7 +95,7 @@ def _rooted_trees(wanted: Wanted, output: Output) -> None:
     used = _colours(wanted.colours_used, colours)
     if wanted.root is not None and wanted.root > colours:
         message = f"there is no colour {wanted.root}"
-        raise UsageProblem(message, f"--colours {colours} numbers them from 1")
+        raise UsageProblem(message, f"--colours {colours} numbers them from 1", code="no-such-tree")
     if wanted.one is not None:
         _single(wanted.one, wanted.svg, wanted.document, output)
         return
@@ -115,7 +117,9 @@ def _count(query: Query, output: Output) -> None:
     from garkcli.report import trees as report
 
     if query.used:
-        raise UsageProblem("--count knows no --colours-used", "leave one of them out")
+        raise UsageProblem(
+            "--count knows no --colours-used", "leave one of them out", code="options-clash"
+        )
     counts = counts_of(query)
     format, paint = output.format, output.paint
     with _any_digits():
@@ -151,7 +155,9 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
         hush()
         if sys.stdin.readline().strip().lower() in {"y", "yes"}:
             return
-    raise UsageProblem(f"{lines} trees", "--yes lists them, --count counts them")
+    raise UsageProblem(
+        f"{lines} trees", "--yes lists them, --count counts them", code="option-value"
+    )
 
 
 def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
@@ -162,7 +168,7 @@ def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     of_rooted = (wanted.root, wanted.colours_used, wanted.one)
     if any(option is not None for option in of_rooted):
         cure = "leave out --root, --colours-used and --tree"
-        raise UsageProblem("free trees have no root", cure)
+        raise UsageProblem("free trees have no root", cure, code="options-clash")
     subject = subject_of_kind(kind, wanted.colours, wanted.orders)
     format, paint = output.format, output.paint
     if wanted.count:
@@ -190,7 +196,7 @@ def _single(text: str, svg: str | None, is_document: bool, output: Output) -> No
         tree = parse_tree(text)
     except NotationError as error:
         message = f"--tree, column {error.offset + 1}: {error.message}"
-        raise UsageProblem(message, error.help) from None
+        raise UsageProblem(message, error.help, code="no-such-tree") from None
     colours = 1 + max(tree.colours)
     written = format_tree(tree, colours > 1)
     if svg is not None:
@@ -226,6 +232,6 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
         is_number = number.isascii() and number.isdigit()
         if not is_number or not 1 <= int(number[:6]) <= colours:
             wanted = f"colours are numbers from 1 to {colours}"
-            raise UsageProblem(f"--colours-used {text}: {wanted}", "write 1,2")
+            raise UsageProblem(f"--colours-used {text}: {wanted}", "write 1,2", code="option-value")
         used.add(int(number) - 1)
     return tuple(sorted(used))

@@ -91,7 +91,9 @@ class _Search:
             self.trials += 1
             if self.trials > MAX_TRIALS:
                 raise LimitExceeded(
-                    f"more than {MAX_TRIALS} renumberings of stages", "compare the canonical forms"
+                    f"more than {MAX_TRIALS} renumberings of stages",
+                    "compare the canonical forms",
+                    code="too-many",
                 )
             if not self._fits(stage, j, stage, j):
                 continue

@@ -89,10 +89,10 @@ def _check_alike(tableaus: Sequence[Tableau]) -> None:
             of_first = counted(first.size, "colour")
             of_other = counted(other.size, "colour")
             message = f"substep {number} has {of_other}, the first {of_first}"
-            raise MethodError(message, _CURE)
+            raise MethodError(message, _CURE, code="wrong-size")
         if _fields(other) != _fields(first):
             message = f"substep {number} is for other vector fields than the first"
-            raise MethodError(message, _CURE)
+            raise MethodError(message, _CURE, code="wrong-size")
 
 
 _CURE = "compose methods of the same form and structure"

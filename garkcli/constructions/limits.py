@@ -16,4 +16,4 @@ def refuse_large(stages: int, cure: str) -> None:
     """
     if stages > MAX_STAGES:
         message = f"a method of {stages} stages (limit {MAX_STAGES})"
-        raise MethodError(message, cure)
+        raise MethodError(message, cure, code="too-many")

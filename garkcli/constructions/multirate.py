@@ -73,10 +73,10 @@ def mri(coupling: Coupling, fast: Method, steps: int) -> Tableau:
     first, last = coupling.nodes[0], coupling.nodes[-1]
     if first:
         message = f"the slow stages begin at {first}, not at 0"
-        raise MethodError(message, "take a slow method with c_1 = 0")
+        raise MethodError(message, "take a slow method with c_1 = 0", code="cannot-construct")
     if last != ONE:
         message = f"the slow stages end at {last}, not at 1"
-        raise MethodError(message, "give the end of the step as last node")
+        raise MethodError(message, "give the end of the step as last node", code="cannot-construct")
     apart = len(coupling.nodes) - 1
     refuse_large(apart * (steps * fast.stages + 2), _SMALLER)
     return merged(_Infinitesimal(coupling, fast, steps).tableau())

@@ -197,7 +197,7 @@ def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq
         count = whole_steps(t_end, h)
         if count > limit:
             message = f"{count} steps (limit {limit})"
-            raise UsageProblem(message, "choose a shorter time or larger steps")
+            raise UsageProblem(message, "choose a shorter time or larger steps", code="too-many")
 
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:

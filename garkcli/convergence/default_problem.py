@@ -49,6 +49,7 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
         raise UsageProblem(
             "no problem with random coefficients is of the form that the structure is for",
             "name one with --problem",
+            code="other-problem",
         )
     return most
 

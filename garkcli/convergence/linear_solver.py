@@ -103,7 +103,7 @@ class LinearSolver:
         try:
             R = self.step.at(h)
         except UsageProblem as pole:
-            raise NoUniqueStep(pole.message, pole.help) from None
+            raise NoUniqueStep(pole.message, pole.help, code=pole.code) from None
         error, energy_error = _errors(R, steps, self.problem.omega, self.t_end)
         return Row(h, error, slope_between(before, h, error), energy_error)
 

@@ -152,6 +152,7 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
                 f"{fewer} and {steps} steps end far from each other",
                 "choose an earlier final time: it comes near a singularity, "
                 "or depends on its start too much",
+                code="step-fails",
             )
         changes.append((fewer, change))
         if fewer > enough and _needed(changes) > log10(MAX_STEPS):
@@ -160,6 +161,7 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
                 "shorter steps hardly reduce its error",
                 "the problem is not smooth on the way, as sqrt(t) is not at t = 0: "
                 "start or end elsewhere",
+                code="step-fails",
             )
         before, fewer = y, steps
         steps = ceil(steps * change.factor)
@@ -234,6 +236,7 @@ class _Runs:
                 f"the solution at t = {self.t_end} is not found to "
                 f"{self.digits} digits in {MAX_STEPS} steps",
                 "choose an earlier final time",
+                code="step-fails",
             )
         h = self.t_end / steps
         what = f"reference solution, {self.digits} digits"
@@ -279,6 +282,7 @@ def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
         f"no solution is found at t = {t_end}: steps of {failure.h} fail at t = {start:.4g}, "
         "and so do longer ones",
         f"choose a final time before {end:.4g}",
+        code="step-fails",
     )
 
 

@@ -63,7 +63,7 @@ def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = No
     ((0, 0, 0), (0, 0, 0), (0, 1, 0))
     """
     if to not in TARGETS:
-        raise UsageProblem(f"no form {to!r}", did_you_mean(to, TARGETS))
+        raise UsageProblem(f"no form {to!r}", did_you_mean(to, TARGETS), code="unknown-word")
     goal = target(to)
     sheet = goal.convert(method)
     if stages is not None:

@@ -22,6 +22,7 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
             raise CannotConvert(
                 f"a colour has {space.stages} stages, more than {stages}",
                 "--to canonical leaves out those without influence",
+                code="too-many",
             )
         places: list[Place] = [None] * missing
         places += [(k, i) for i in range(space.stages)]

@@ -25,6 +25,8 @@ Place: TypeAlias = tuple[int, int] | None
 class CannotConvert(MethodError):
     """A method that has no such form; the message says why."""
 
+    code = "cannot-convert"
+
 
 @dataclass(frozen=True)
 class Sheet:
@@ -74,6 +76,7 @@ def sheet_of(method: GarkMethod) -> Sheet:
         raise CannotConvert(
             "the nodes have no simple radicals, so the method cannot be spelled out exactly",
             "gark tableau --format yaml --digits 17 writes decimals",
+            code="no-radicals",
         )
     has_embedded = method.embedded is not None
     sheet = Sheet(exact, _further(method), has_embedded)
@@ -103,7 +106,9 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
         field = OneField(all_numbers(rows))
     except LimitExceeded as error:
         raise CannotConvert(
-            f"the numbers have no common field: {error.message}", "compare decimals"
+            f"the numbers have no common field: {error.message}",
+            "compare decimals",
+            code="no-radicals",
         ) from None
     return [_mapped(sheet, field) for sheet in sheets]
 
@@ -270,7 +275,7 @@ def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> She
             colours.append(replace(colour, b=row))
     changed = change(replace(old, colours=tuple(colours)))
     if changed is None:
-        raise CannotConvert("equal stages are not looked for", "spell it out")
+        raise CannotConvert("equal stages are not looked for", "spell it out", code="no-radicals")
     weights = [colour.b for colour in changed.colours]
     starts = range(old.size, len(weights), old.size)
     further = [tuple(weights[k : k + old.size]) for k in starts]

@@ -57,7 +57,9 @@ class Cluster(Generic[Item, Outcome]):
         try:
             from dask.distributed import Client
         except ImportError:
-            raise UsageProblem("--scheduler needs Dask", "install garkcli[cluster]") from None
+            raise UsageProblem(
+                "--scheduler needs Dask", "install garkcli[cluster]", code="missing-package"
+            ) from None
         register()
         self._quiet.enter_context(_without_logs())
         try:
@@ -69,6 +71,7 @@ class Cluster(Generic[Item, Outcome]):
             raise UsageProblem(
                 f"no Dask scheduler answers at {self.scheduler}: {what}",
                 "dask scheduler starts one",
+                code="worker-lost",
             ) from None
         return self
 
@@ -121,6 +124,7 @@ class Cluster(Generic[Item, Outcome]):
             raise UsageProblem(
                 f"a worker of {self.scheduler} cannot do the work: {fault}",
                 f"install garkcli {__version__} on all workers",
+                code="worker-lost",
             )
         version: str
         outcome: Outcome
@@ -129,6 +133,7 @@ class Cluster(Generic[Item, Outcome]):
             raise UsageProblem(
                 f"a worker of {self.scheduler} has garkcli {version}",
                 f"install garkcli {__version__} on all workers",
+                code="worker-lost",
             )
         return outcome
 

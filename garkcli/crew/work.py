@@ -16,6 +16,8 @@ Made = TypeVar("Made", covariant=True)
 class WorkerLost(UsageProblem):
     """A process or machine that worked was ended from outside."""
 
+    code = "worker-lost"
+
 
 class Workers(Protocol[Given, Made]):
     """Who does the work: this process, several, or a cluster.

@@ -46,6 +46,7 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
         raise MethodError(
             "--choose: no order is known that methods of the file have",
             "choose with --set, which makes the system smaller",
+            code="not-found",
         )
     ideal = decided[-1].ideal
     assert ideal is not None

@@ -96,6 +96,7 @@ def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
         raise MethodError(
             f"the values are numbers of degree {field.degree} without simple radicals",
             f"method files hold roots of polynomials up to degree {MAX_DEGREE}",
+            code="number-too-large",
         )
     generator = min(candidates, key=lambda x: len(str(value_at(x, root).polynomial)))
     number = value_at(generator, root)

@@ -93,7 +93,7 @@ class AStability:
             colours, spaces = [colour], [tableau.colours[colour].space]
         is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
         if tableau.is_partitioned or not is_complete:
-            raise UsageProblem(_RIGHT, "ask for --p-stable")
+            raise UsageProblem(_RIGHT, "ask for --p-stable", code="wanted-without-meaning")
         self.members = members
         self.shares = shares_of(tableau, colour)
         fields: list[Matrix] = [((share,),) for share in self.shares]

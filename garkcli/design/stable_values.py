@@ -213,11 +213,13 @@ def _refuse_others(family: Family) -> None:
         raise UsageProblem(
             f"there are {1 + len(others)} free parameters, and the set of one is found",
             f"give values to all but one, such as --set {others[-1]}=1/2",
+            code="free-parameters",
         )
     if family.radicals:
         raise UsageProblem(
             f"there are roots among the coefficients, beside {name}",
             "write the method as a family by name, whose nodes are not needed",
+            code="no-radicals",
         )
 
 

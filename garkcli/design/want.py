@@ -46,6 +46,7 @@ class Asked:
             raise MethodError(
                 f"design: {key} is for tableaus without empty blocks",
                 f"name the colour: {key}: {{2: …}}",
+                code="wanted-without-meaning",
             )
         return found
 
@@ -62,6 +63,7 @@ class Asked:
             raise MethodError(
                 f"design: {key} is for tableaus with a block of their own stages",
                 f"name the colour: {key}: {{2: …}}, or spell the tableau out",
+                code="wanted-without-meaning",
             )
         return block, own.b
 

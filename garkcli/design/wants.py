@@ -38,7 +38,11 @@ def _symplectic(asked: Asked) -> Meaning:
     tableau = asked.tableau
     zeros: list[object] = []
     if tableau.is_partitioned:
-        raise MethodError("design: symplectic is for methods without parts", "ask for the pair")
+        raise MethodError(
+            "design: symplectic is for methods without parts",
+            "ask for the pair",
+            code="wanted-without-meaning",
+        )
     for l in asked.colours:
         for m in asked.colours:
             asked.diagonal(l, "symplectic")
@@ -73,6 +77,7 @@ def _r_infinity(asked: Asked) -> Meaning:
             raise MethodError(
                 "design: R-infinity: R(z) is a polynomial for every value",
                 "leave it out: explicit methods have no value at infinity",
+                code="wanted-without-meaning",
             )
         value: Any = asked.value
         zeros.append(above[degree] - value * below[degree])
@@ -137,7 +142,11 @@ def _nodes_in_unit_interval(asked: Asked) -> Meaning:
 def _p_stable(asked: Asked) -> Meaning:
     """Decided at each solution, in its number field."""
     if len(asked.colours) < asked.tableau.size:
-        raise MethodError("design: p-stable is meant of the whole method", "write p-stable: true")
+        raise MethodError(
+            "design: p-stable is meant of the whole method",
+            "write p-stable: true",
+            code="wanted-without-meaning",
+        )
     return Meaning(stable=(Stability("p-stable"),))
 
 

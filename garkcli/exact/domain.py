@@ -121,21 +121,25 @@ class Domain:
                 return self._values[expression]
             case Name(name=name):
                 message = f"{name!r} has no value"
-                raise UndefinedValue(message, "", expression.start, expression.end)
+                raise UndefinedValue(
+                    message, "", expression.start, expression.end, code="missing-key"
+                )
         raise TypeError(f"no expression: {expression!r}")
 
     def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
         """A sum, a difference, a product or a quotient."""
         if sign == "/" and not right:
             cure = "the divisor is exactly zero"
-            raise UndefinedValue("division by zero", cure, at.start, at.end)
+            raise UndefinedValue(
+                "division by zero", cure, at.start, at.end, code="division-by-zero"
+            )
         result: Number = OPERATIONS[sign](left, right)
         return result
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
         """A power, refused before it is computed where it would be too long."""
         if not number and exponent < 0:
-            raise UndefinedValue("division by zero", "", at.start, at.end)
+            raise UndefinedValue("division by zero", "", at.start, at.end, code="division-by-zero")
         if _bits(number) * abs(exponent) > MAX_BITS:
             raise too_many_bits(at)
         return number**exponent

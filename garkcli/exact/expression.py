@@ -115,7 +115,7 @@ class Parser:
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
                 message = f"the sign {sign!r} has no place in a {self.value_noun}"
-                raise ExpressionError(message, cure, offset, offset + 1)
+                raise ExpressionError(message, cure, offset, offset + 1, code="not-a-number")
             kind = match.lastgroup or "end"
             start, end = match.span(kind)
             yield kind, match.group(kind), start, end
@@ -129,7 +129,7 @@ class Parser:
 
     def _fail(self, message: str, cure: str = "") -> NoReturn:
         end = max(self.end, self.start + 1)
-        raise ExpressionError(message, cure, self.start, end)
+        raise ExpressionError(message, cure, self.start, end, code="not-a-number")
 
     def _expect(self, sign: str, opened: int) -> None:
         if self.value != sign:
@@ -177,7 +177,9 @@ class Parser:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep"
-            raise LimitExceeded(message, "write it flatter", self.start, self.start + 1)
+            raise LimitExceeded(
+                message, "write it flatter", self.start, self.start + 1, code="file-too-large"
+            )
         try:
             if self.kind == "op" and self.value in {"+", "-"}:
                 return self._signed()
@@ -251,7 +253,11 @@ class Parser:
     def _function(self, name: str, start: int) -> Expression:
         if name not in FUNCTIONS:
             raise ExpressionError(
-                f"{name!r} is not a function of {self.noun}s", self.functions, start, self.last_end
+                f"{name!r} is not a function of {self.noun}s",
+                self.functions,
+                start,
+                self.last_end,
+                code="unknown-function",
             )
         opened = self.start
         self._advance()

@@ -84,12 +84,16 @@ class _FormulaParser(Parser):
     def _function(self, name: str, start: int) -> Expression:
         if name == "root_of":
             message = "root_of is for coefficients of methods, not for formulas"
-            raise ExpressionError(message, "write radicals", start, self.last_end)
+            raise ExpressionError(
+                message, "write radicals", start, self.last_end, code="unknown-function"
+            )
         if name in ROOTS:
             return super()._function(name, start)
         if name not in FUNCTIONS:
             message = f"{name!r} is not a function of formulas"
-            raise ExpressionError(message, _cure_of(name), start, self.last_end)
+            raise ExpressionError(
+                message, _cure_of(name), start, self.last_end, code="unknown-function"
+            )
         opened = self.start
         self._advance()
         argument = self._sum()

@@ -51,7 +51,7 @@ def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) ->
         return x
     kind = type(x)
     if isinstance(x, bool) or kind.__name__ == "bool_":
-        raise MethodError(f"{where}: {x} is no number", "write 0 or 1")
+        raise MethodError(f"{where}: {x} is no number", "write 0 or 1", code="not-a-number")
     if isinstance(x, (fmpz, fmpq)):
         return str(x)
     if isinstance(x, Algebraic):
@@ -61,7 +61,7 @@ def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) ->
         p, q = int(x.numerator), int(x.denominator)
         if max(abs(p), q).bit_length() > MAX_BITS:
             message = f"{where}: a number of more than 1000 digits"
-            raise MethodError(message, "no coefficient needs so many")
+            raise MethodError(message, "no coefficient needs so many", code="number-too-large")
         return _fraction_text(p, q)
     if isinstance(x, Decimal) and x.is_finite():
         return str(x)
@@ -71,7 +71,7 @@ def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) ->
     if package == "sympy":
         return _sympy_text(x, where)
     message = f"{where}: {_shown(x)} is no exact real number"
-    raise MethodError(message, _CURE)
+    raise MethodError(message, _CURE, code="not-a-number")
 
 
 _CURE = "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
@@ -103,10 +103,10 @@ def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
     value = float(x)
     if not isfinite(value):
         message = f"{where}: {value} is no number"
-        raise MethodError(message, "coefficients are finite")
+        raise MethodError(message, "coefficients are finite", code="not-a-number")
     if value != x:
         message = f"{where}: {x} has more digits than a float"
-        raise MethodError(message, "give its text, or a Fraction")
+        raise MethodError(message, "give its text, or a Fraction", code="number-too-large")
     text = repr(value)
     mantissa, *_ = text.lower().partition("e")
     significant = mantissa.replace(".", "").lstrip("-0").rstrip("0")
@@ -115,7 +115,7 @@ def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
     is_subnormal = 0 < abs(value) < float_info.min
     if (is_long or is_subnormal) and not is_rounded:
         message = f"{where}: {text} is a rounded number"
-        raise MethodError(message, cure)
+        raise MethodError(message, cure, code="arrays")
     return text
 
 
@@ -146,10 +146,10 @@ def _unreadable(x: Any, where: str) -> MethodError:
     if getattr(x, "is_Float", False):
         cure = "give it exactly, as a Rational or a text"
         message = f"{where}: {_shown(x)} is a rounded number"
-        return MethodError(message, cure)
+        return MethodError(message, cure, code="arrays")
     made_of = "more than rationals and real roots"
     message = f"{where}: {_shown(x)} is made of {made_of}"
-    return MethodError(message, _CURE)
+    return MethodError(message, _CURE, code="not-a-number")
 
 
 def _sympy_power(x: Any, where: str) -> str:
@@ -162,7 +162,7 @@ def _sympy_power(x: Any, where: str) -> str:
     if not x.base.is_nonnegative:
         # SymPy's roots of negative numbers are complex, ours are real
         message = f"{where}: {_shown(x)} is a root of a negative number"
-        raise MethodError(message, _CURE)
+        raise MethodError(message, _CURE, code="not-real")
     inner = _sympy_text(x.base, where)
     root = f"root({inner}, {q})"
     if q in _ROOTS:
@@ -202,8 +202,8 @@ def rational_of(x: Any, where: str, is_rounded: bool = False) -> fmpq:
         place = f"character {error.start + 1} of {text!r}"
         message = f"{where}: {error.message}, {place}"
         cure = error.help or "write a rational number, such as 1/4"
-        raise MethodError(message, cure) from None
+        raise MethodError(message, cure, code="not-a-number") from None
     if isinstance(number, Algebraic):
         cure = "give a rational number, such as '1/4'"
-        raise MethodError(f"{where}: {text} is irrational", cure)
+        raise MethodError(f"{where}: {text} is irrational", cure, code="arrays")
     return number

@@ -66,7 +66,7 @@ def even_root_fault(root: Root) -> UndefinedValue:
     """What is said of an even root of a negative number."""
     message = "an even root of a negative number"
     cure = "coefficients are real numbers"
-    return UndefinedValue(message, cure, root.start, root.end)
+    return UndefinedValue(message, cure, root.start, root.end, code="not-real")
 
 
 def rational_square_root(number: fmpq) -> fmpq | None:

@@ -87,7 +87,9 @@ def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValu
     cure = did_you_mean(name.name, values) if values else ""
     if not cure.startswith("did"):
         cure = f"define it, before its use: parameters: {{{name.name}: 1/2}}"
-    return UndefinedValue(f"{name.name!r} is not a parameter", cure, name.start, name.end)
+    return UndefinedValue(
+        f"{name.name!r} is not a parameter", cure, name.start, name.end, code="unknown-name"
+    )
 
 
 def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:

@@ -64,7 +64,9 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
                 found += [(abs(x - target), factor, k) for k, x in enumerate(roots)]
             if not found:
                 message = "the polynomial has no real root"
-                raise UndefinedValue(message, "coefficients are real numbers", at.start, at.end)
+                raise UndefinedValue(
+                    message, "coefficients are real numbers", at.start, at.end, code="not-real"
+                )
             found.sort(key=lambda entry: entry[0].mid())
             if len(found) == 1 or found[0][0] < found[1][0]:
                 _, factor, number = found[0]
@@ -72,7 +74,9 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
                 return (factor if is_positive else -factor), number
         bits *= 2
     message = "two roots are equally near to this number"
-    raise UndefinedValue(message, "write more digits of the root", near.start, near.end)
+    raise UndefinedValue(
+        message, "write more digits of the root", near.start, near.end, code="root-in-doubt"
+    )
 
 
 def _in_radicals(coefficients: tuple[int, ...], number: int, start: int, end: int) -> Expression:
@@ -114,7 +118,7 @@ def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmp
     if right.degree() > 0:
         raise _error("a polynomial is not divided by x", at)
     if right.degree() < 0:
-        raise UndefinedValue("division by zero", "", at.start, at.end)
+        raise UndefinedValue("division by zero", "", at.start, at.end, code="division-by-zero")
     return left / right[0]
 
 
@@ -124,7 +128,7 @@ def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
         if base.degree() > 0:
             raise _error("a polynomial is not divided by x", at)
         if base.degree() < 0:
-            raise UndefinedValue("division by zero", "", at.start, at.end)
+            raise UndefinedValue("division by zero", "", at.start, at.end, code="division-by-zero")
         base = fmpq_poly([1 / base[0]])
     size = abs(exponent)
     if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (MAX_COEFFICIENT_BITS):
@@ -149,7 +153,7 @@ def _too_large(at: Expression) -> LimitExceeded:
 
 def _error(message: str, at: Expression) -> ExpressionError:
     cure = "write root_of(p, r): p a polynomial in x, r a decimal near the root"
-    return ExpressionError(message, cure, at.start, max(at.end, at.start + 1))
+    return ExpressionError(message, cure, at.start, max(at.end, at.start + 1), code="not-a-number")
 
 
 def approximate(root: AlgebraicRoot) -> str:

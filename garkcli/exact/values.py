@@ -86,7 +86,7 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
     if isinstance(value, arb):
         message = f"the exponent {format_expression(expression)} is no rational number"
         cure = "write a fraction or a decimal, such as 3/2"
-        raise UndefinedValue(message, cure, start, end)
+        raise UndefinedValue(message, cure, start, end, code="not-real")
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
         fault = f"is beyond {MAX_EXPONENT} or has more than four decimals"
         message = f"the exponent {shown(value)} {fault}"
@@ -125,7 +125,7 @@ def _check_divisor(number: Value, at: Expression) -> None:
     if not isinstance(at, Literal):
         divisor = _cut(format_expression(at))
         what = f"{divisor} is 0 here"
-    raise UndefinedValue("division by zero", what, at.start, at.end)
+    raise UndefinedValue("division by zero", what, at.start, at.end, code="division-by-zero")
 
 
 def _cut(text: str) -> str:
@@ -152,7 +152,7 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
     if not arb(base) > 0:
         message = f"a power with the exponent {exponent} of {shown(base)}"
         cure = "such powers are of positive numbers"
-        raise UndefinedValue(message, cure, at.start, at.end)
+        raise UndefinedValue(message, cure, at.start, at.end, code="not-real")
     return _bounded(arb(base) ** arb(exponent), at)
 
 
@@ -178,7 +178,7 @@ def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value
         if what != str(x):
             what = f"{what} = {shown(x)}"
         message = f"{function} of {what} is no real number"
-        raise UndefinedValue(message, "", at.start, at.end)
+        raise UndefinedValue(message, "", at.start, at.end, code="not-real")
     return _bounded(result, at)
 
 

@@ -87,7 +87,7 @@ def _nodes(word: str, points: int) -> tuple[Expression, ...]:
     """The nodes in ascending order."""
     if word in {"equidistant", "lobatto"} and points < 2:
         cure = "it has 2 points or more"
-        raise UnknownFamily(f"no {word} nodes with 1 point", cure)
+        raise UnknownFamily(f"no {word} nodes with 1 point", cure, code="wrong-value")
     if word == "equidistant":
         last = points - 1
         return tuple(Literal(fmpq(k, last)) for k in range(points))
@@ -96,7 +96,7 @@ def _nodes(word: str, points: int) -> tuple[Expression, ...]:
     found = simple_nodes(space)
     if found is None:
         message = f"the {points} {word} nodes have no simple radicals"
-        raise UnknownFamily(message, "take fewer points, or equidistant ones")
+        raise UnknownFamily(message, "take fewer points, or equidistant ones", code="no-radicals")
     return found
 
 

@@ -136,7 +136,7 @@ def midpoint(order: int, options: Options) -> Recipe:
     """
     if order % 2:
         message = f"extrapolated-midpoint with order {order} does not exist"
-        raise UnknownFamily(message, "it has even orders")
+        raise UnknownFamily(message, "it has even orders", code="cannot-construct")
     half = sequence(str(options["sequence"]), order // 2)
     parts = [2 * n for n in half]
     name = f"extrapolated midpoint {order}"

@@ -86,7 +86,7 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
     if recipe.stages > MAX_STAGES:
         stages = counted(recipe.stages, "stage")
         message = f"{name} with {family.size}: {size} has {stages}"
-        raise UnknownFamily(message, f"at most {MAX_STAGES} are made")
+        raise UnknownFamily(message, f"at most {MAX_STAGES} are made", code="wrong-value")
     return recipe
 
 
@@ -97,7 +97,7 @@ def _unknown(name: str) -> UnknownFamily:
     cure = did_you_mean(name, FAMILIES)
     if other:
         cure = f"it is called {other} here"
-    return UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure)
+    return UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure, code="unknown-word")
 
 
 def _size_of(family: Family, size: int | None) -> int:
@@ -108,7 +108,7 @@ def _size_of(family: Family, size: int | None) -> int:
         what = "number of stages" if family.size == "stages" else family.size
         example = f"write for instance {family.size}: {max(2, family.smallest)}"
         message = f"the family {family.name} needs its {what}"
-        raise UnknownFamily(message, example)
+        raise UnknownFamily(message, example, code="missing-key")
     if family.smallest <= size <= family.largest:
         return size
     have = str(family.smallest)
@@ -120,7 +120,7 @@ def _size_of(family: Family, size: int | None) -> int:
     if family.size == "stages":
         of_size = counted(size, "stage")
     message = f"{family.name} with {of_size} does not exist"
-    raise UnknownFamily(message, f"it has {have}")
+    raise UnknownFamily(message, f"it has {have}", code="wrong-value")
 
 
 def _complete(family: Family, options: Options) -> Options:
@@ -128,14 +128,14 @@ def _complete(family: Family, options: Options) -> Options:
     for name in options:
         if name not in family.keys:
             message = f"the family {family.name} has no option {name[:MAX_NAME]!r}"
-            raise UnknownFamily(message, did_you_mean(name, family.keys))
+            raise UnknownFamily(message, did_you_mean(name, family.keys), code="unknown-key")
     complete: dict[str, Given] = {}
     for option in family.options:
         value = options.get(option.name, option.default)
         if value == "":
             example = f"write for instance {option.name}: {option.example}"
             message = f"the family {family.name} needs its {option.name}"
-            raise UnknownFamily(message, example)
+            raise UnknownFamily(message, example, code="missing-key")
         complete[option.name] = value
     return complete
 
@@ -187,21 +187,21 @@ def _given(option: Option | None, value: object, key: str) -> Given:
         if number >= option.smallest:
             return number
         cure = f"give {option.smallest} or more"
-        raise UnknownFamily(f"{key}: {number} is too small", cure)
+        raise UnknownFamily(f"{key}: {number} is too small", cure, code="wrong-value")
     text = str(value)
     if option.words:
         if text in option.words:
             return text
         cure = did_you_mean(text, option.words)
-        raise UnknownFamily(f"{key}: {text[:MAX_NAME]} is not known", cure)
+        raise UnknownFamily(f"{key}: {text[:MAX_NAME]} is not known", cure, code="unknown-word")
     try:
         return parse(text)
     except ExpressionError as error:
-        raise UnknownFamily(f"{key}: {error.message}", error.help) from None
+        raise UnknownFamily(f"{key}: {error.message}", error.help, code=error.code) from None
 
 
 def _whole(value: object, key: str) -> int:
     if isinstance(value, int) and not isinstance(value, bool):
         return value
     message = f"{key}: a whole number is expected, not {str(value)[:MAX_NAME]}"
-    raise UnknownFamily(message)
+    raise UnknownFamily(message, code="wrong-value")

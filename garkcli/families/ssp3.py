@@ -25,7 +25,7 @@ def ssp3(s: int, _: Options) -> Recipe:
     n = isqrt(s)
     if n * n != s:
         message = f"ssp3 with {s} stages does not exist"
-        raise UnknownFamily(message, "it has 4, 9, 16, … stages")
+        raise UnknownFamily(message, "it has 4, 9, 16, … stages", code="wrong-value")
     return Recipe(s, lambda _: _method(n))
 
 

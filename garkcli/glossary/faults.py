@@ -1,8 +1,8 @@
-"""What errors mean: each kind of fault has a code, and the messages it is told by.
+"""What errors mean: each kind of fault has a code, which an error says where it is raised, and the
+messages that it has, so that ``gark explain`` knows a message that is pasted.
 
-A message is made where the fault is found, with what it is filled with. Its kind is told by the
-words that stay the same, which ``data/faults-*.toml`` has; so one cause has one code wherever it
-shows, in whatever sentence.
+The words of a message that stay the same are in ``data/faults-*.toml``; so one cause has one code
+wherever it shows, in whatever sentence.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
+from garkcli.errors import UNKNOWN as UNKNOWN
 from garkcli.glossary.data import read
 
 TOPICS = {
@@ -21,8 +22,6 @@ TOPICS = {
     "usage": "Options",
 }
 """The files of faults in the order of the documentation, with what they are about."""
-UNKNOWN = "fault"
-"""The code of a message that no kind has."""
 HOLE = "{}"
 _REST = r"(?: \(also at .*\)|; .*|, and \d+ more.*)?"
 """What is added to a message: other places, or the cure."""

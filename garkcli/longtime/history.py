@@ -161,7 +161,7 @@ def count_steps(t_end: fmpq, step: fmpq) -> int:
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:
         message = f"{count} steps (limit {MAX_STEPS})"
-        raise UsageProblem(message, "choose a shorter time or a larger step")
+        raise UsageProblem(message, "choose a shorter time or a larger step", code="too-many")
     return count
 
 

@@ -101,6 +101,7 @@ class Measure:
         return UsageProblem(
             f"the energy or an invariant of {problem.name} has no value at the start",
             "give other initial values",
+            code="no-formula",
         )
 
     def _differences(self, y: Sequence[Any]) -> list[Any]:

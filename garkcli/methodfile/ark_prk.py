@@ -99,7 +99,7 @@ class ArkReader:
             wanted = counted(colours, "colour")
             message = f"b has {found} for {wanted}"
             cure = "give a row a colour, or a single shared row"
-            source.fault(entries["b"], message, cure)
+            source.fault(entries["b"], message, cure, code="wrong-size")
             return None
         if not matrices or not all(matrices) or not all(b):
             return None
@@ -117,11 +117,11 @@ class ArkReader:
         if are_too_many(source, items, node):
             return None
         if isinstance(node, SequenceNode) and not items:
-            source.fault(node, "A is empty", "give a matrix a colour")
+            source.fault(node, "A is empty", "give a matrix a colour", code="empty")
         if items and depth_of_lists(node) == 2:
             message = "A is one matrix, and an ark has one a colour"
             cure = "write A: [AE, AI]; or tableau: for one colour"
-            source.fault(node, message, cure)
+            source.fault(node, message, cure, code="wrong-size")
             return None
         matrices: list[Rows] = []
         for m, item in enumerate(items):
@@ -158,12 +158,12 @@ class ArkReader:
                 found = entries_in(len(row))
                 message = f"{name} has {found} for {wanted}"
                 cure = "give a weight a stage"
-                self.source.fault(entries["b"], message, cure)
+                self.source.fault(entries["b"], message, cure, code="wrong-size")
         if c is not None and len(c) != stages:
             found = entries_in(len(c))
             message = f"c has {found} for {wanted}"
             cure = "give a node a stage, or leave c out"
-            self.source.fault(entries["c"], message, cure)
+            self.source.fault(entries["c"], message, cure, code="wrong-size")
 
 
 def _rows_of_weights(b: Weights) -> Iterator[tuple[str, Row]]:
@@ -200,7 +200,7 @@ class PrkReader:
             found = counted(s_v, "weight")
             message = f"prk: q has {found} and p has {s_f}"
             cure = "a general problem needs one set of stages; or structure: separable"
-            source.fault(node, message, cure)
+            source.fault(node, message, cure, code="wrong-size")
             return None
         why = f"q.b has {entries_in(s_v)} and p.b has {s_f}"
         both = (q.further, p.further)
@@ -238,5 +238,5 @@ class PrkReader:
             found = entries_in(len(text.c))
             message = f"{part}.c has {found} for {counted(rows, 'node')}"
             place = keys.get("c", text.node)
-            self.source.fault(place, message, "give one of each")
+            self.source.fault(place, message, "give one of each", code="wrong-size")
         return replace(text, A=A)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 from yaml.nodes import MappingNode, Node, SequenceNode
@@ -28,7 +28,7 @@ def _year(at: Any, node: Node, where: str) -> str:
     text = _text(at, node, where)
     if not _YEAR.fullmatch(text):
         message = f"{where}: a year is expected, not {shortened(text)}"
-        at.source.fault(node, message, "for instance 1980")
+        at.source.fault(node, message, "for instance 1980", code="wrong-value")
     return text
 
 
@@ -137,7 +137,8 @@ def _aliases(at: Any, node: Node, where: str) -> tuple[str, ...]:
         alias = one_line(text)
         fault = _what_is_wrong(alias, aliases)
         if fault:
-            source.fault(item, *fault)
+            message, cure, code = fault
+            source.fault(item, message, cure, code=code)
         else:
             aliases.append(alias)
     return tuple(aliases)
@@ -155,19 +156,19 @@ ALIASES = Kind(
 """What else a method is called."""
 
 
-def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str] | None:
-    """Why a text is no alias, and the cure; None where it is one."""
+def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str, str] | None:
+    """Why a text is no alias, the cure, and the kind of fault; None where it is one."""
     shown = shortened(alias)
     if not alias:
-        return "aliases: an empty name", "leave it out"
+        return "aliases: an empty name", "leave it out", "name-taken"
     if len(alias) > MAX_WORD:
         message = f"aliases: {shown} has more than {MAX_WORD} characters"
-        return message, "shorten it"
+        return message, "shorten it", "name-taken"
     if "/" in alias or "\\" in alias:
         message = f"aliases: {shown} has a separator of paths in it"
-        return message, "a name with one would mean a file: write a hyphen"
+        return message, "a name with one would mean a file: write a hyphen", "name-taken"
     if alias in before:
-        return f"aliases: {shown} stands here twice", "keep one of them"
+        return f"aliases: {shown} stands here twice", "keep one of them", "doubled"
     return None
 
 
@@ -208,13 +209,6 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
     return found or ("", None)
 
 
-@dataclass(frozen=True)
-class _Reading:
-    """A file of which one key is read."""
-
-    source: Source
-
-
 def _value_of(source: Source, name: str, kind: Kind) -> Any:
     """The value of a key of the file; None where there is none."""
     root = source.compose()
@@ -222,5 +216,5 @@ def _value_of(source: Source, name: str, kind: Kind) -> Any:
         raise source.error()
     for key, value in root.value:
         if key.value == name:
-            return kind.read(_Reading(source), value, name)
+            return kind.read(SimpleNamespace(source=source), value, name)
     return None

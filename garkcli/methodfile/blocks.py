@@ -56,7 +56,7 @@ class BlockBuilder:
             except GarkError as error:
                 place = self.text.methods[0] if text is None else text
                 message = f"{block_name(l, m)}: {error.message}"
-                self.source.fault(place.node, message, error.help)
+                self.source.fault(place.node, message, error.help, code=error.code)
         self.source.close()
         return blocks
 
@@ -77,7 +77,7 @@ class BlockBuilder:
     def _block(self, text: MatrixText | RuleText | None, l: int, m: int) -> Matrix:
         if text is None:
             cure = "give it one, or a default, under transfer"
-            raise MethodError("it has no rule", cure)
+            raise MethodError("it has no rule", cure, code="missing-key")
         if isinstance(text, MatrixText):
             return self._matrix(text, l, m)
         return self._by_rule(text, l, m)
@@ -129,6 +129,7 @@ class BlockBuilder:
             raise MethodError(
                 f"the weights of the combination sum to {total}, not to 1",
                 "weights that sum to 1 keep the block consistent",
+                code="weights-of-combination",
             )
         return combination(terms, self.methods[l], self.methods[m])
 

@@ -174,7 +174,7 @@ class Builder:
         except MethodFileError:
             raise
         except GarkError as error:
-            self.source.fault(node, error.message, error.help)
+            self.source.fault(node, error.message, error.help, code=error.code)
             raise self.source.error() from None
 
     def _vector(self, row: Row | None) -> Vector | None:
@@ -316,7 +316,7 @@ def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers, why: st
             message = f"{text.name} with {text.stages} stages has nodes without simple radicals"
             message += f", so {why}"
             cure = "take fewer stages, or spell the method out"
-        numbers.source.fault(text.node, message, cure)
+        numbers.source.fault(text.node, message, cure, code="no-radicals")
         return None
     entries: list[Entry] = []
     for i, node in enumerate(nodes, start=1):

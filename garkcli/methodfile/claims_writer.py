@@ -64,6 +64,7 @@ def _with_block(
         fault = Fault(
             "the claims have no place in this file",
             "write keys below one another, without braces, and no expect: {}",
+            code="no-place-for-claims",
         )
         raise MethodFileError(source, [fault], text)
     if not claims:

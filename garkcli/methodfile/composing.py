@@ -97,7 +97,7 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
         bracket = f"the bracket at {line}:{column} is open"
         cure = f"{bracket}: close it, and put commas between its values"
     message = printable(f"this is not YAML: {problem}")
-    return Fault(message, printable(cure), *position(mark))
+    return Fault(message, printable(cure), *position(mark), code="not-yaml")
 
 
 def composed(text: str) -> Node | Fault | None:
@@ -105,7 +105,7 @@ def composed(text: str) -> Node | Fault | None:
     try:
         return compose(text)
     except TooLargeError as error:
-        return Fault(error.message, error.cure, error.line, error.column)
+        return Fault(error.message, error.cure, error.line, error.column, code="file-too-large")
     except yaml.MarkedYAMLError as error:
         return yaml_fault(error)
     except yaml.YAMLError as error:
@@ -117,11 +117,11 @@ def _fault_of_sign(text: str, error: yaml.YAMLError) -> Fault:
     sign = getattr(error, "character", "")
     if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
         message = "half a sign, which no text has"
-        cure = "write the text as Unicode"
+        cure, code = "write the text as Unicode", "not-utf8"
     else:
         message = f"this is not YAML: {str(error).splitlines()[0]}"
-        cure = "leave the control character out"
-    return Fault(message, cure, *place_of_sign(text, sign))
+        cure, code = "leave the control character out", "not-yaml"
+    return Fault(message, cure, *place_of_sign(text, sign), code=code)
 
 
 def compose(text: str) -> Node | None:

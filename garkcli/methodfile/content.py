@@ -109,7 +109,7 @@ class ContentReader:
         if "parameters" in entries:
             message = "parameters do not go with unknown: its unknowns have their names"
             cure = "leave them out, or spell the tableau out with them"
-            self.source.fault(entries["parameters"], message, cure)
+            self.source.fault(entries["parameters"], message, cure, code="not-together")
         content = entries["unknown"]
         # the key as it stands there, misspelt perhaps
         key = key_of(root, content)
@@ -126,11 +126,11 @@ class ContentReader:
         for key in present[1:]:
             message = f"{key}: the coefficients are given by "
             message += f"{present[0]} already"
-            self.source.fault(entries[key], message, cure)
+            self.source.fault(entries[key], message, cure, code="given-twice")
         if not present:
             # a key that belongs elsewhere was noted with its cure, which is where to begin
             if not keys_of(root) & set(CURES):
-                self.source.fault(root, "no coefficients", _START)
+                self.source.fault(root, "no coefficients", _START, code="missing-key")
             return None
         if len(present) > 1:
             return None
@@ -141,7 +141,7 @@ class ContentReader:
             lacking, given = " and ".join(missing), ", ".join(plain)
             message = f"{lacking} missing beside {given}"
             cure = "give A, b and perhaps c"
-            self.source.fault(entries[plain[0]], message, cure)
+            self.source.fault(entries[plain[0]], message, cure, code="missing-key")
             return None
         return "tableau"
 
@@ -157,18 +157,18 @@ class ContentReader:
             cure = "use methods, tableau or prk"
             if form == "tableau":
                 cure = "write absent blocks as null"
-            self.source.fault(node, f"structure does not go with {form}", cure)
+            self.source.fault(node, f"structure does not go with {form}", cure, code="not-together")
         is_split = self._is_of_flows(form, entries)
         is_split = is_split and word in {"separable", "nystrom"}
         if form in CONSTRUCTIONS and word != "general" and not is_split:
             cure = "give it beside the coefficients of the methods inside"
             if form == "splitting":
                 cure = "a splitting without of is separable or nystrom"
-            self.source.fault(node, f"structure does not go with {form}", cure)
+            self.source.fault(node, f"structure does not go with {form}", cure, code="not-together")
         if form == "prk" and word == "semi-separable":
             message = "a prk cannot be semi-separable: "
             message += "that takes two Hamiltonians"
-            self.source.fault(node, message, "use methods")
+            self.source.fault(node, message, "use methods", code="not-together")
         return cast("Structure", word or "general")
 
     def _value(self, key: str, entries: Entries) -> Any:
@@ -207,7 +207,7 @@ class ContentReader:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
             if key in entries and form != home:
                 message = f"{key} goes with {home}, not with {form}"
-                self.source.fault(entries[key], message, "leave it out")
+                self.source.fault(entries[key], message, "leave it out", code="not-together")
 
         if form in entries or self.shaped is not None:
             self._refuse_apart_from_b(form, entries)
@@ -224,7 +224,7 @@ class ContentReader:
         for key in BESIDE:
             if key in entries:
                 message = f"{key} stands beside b, and here is none"
-                self.source.fault(entries[key], message, cure)
+                self.source.fault(entries[key], message, cure, code="missing-key")
 
     def _refuse_beside_conjugate(self, content: Content) -> None:
         """Note further weights where the method is the conjugate of what has them."""
@@ -232,7 +232,7 @@ class ContentReader:
             if text.node is not None:
                 message = "conjugate: the symplectic conjugate has no "
                 message += "embedded weights and no dense output"
-                self.source.fault(text.node, message, "leave them out")
+                self.source.fault(text.node, message, "leave them out", code="not-together")
                 return
 
     def _content(self, form: Form, structure: Structure, entries: Entries) -> Content | None:

@@ -53,10 +53,10 @@ class DiagonalReader:
                 methods.append(method)
         if not items and isinstance(node, SequenceNode):
             cure = "list at least one diagonal method"
-            source.fault(node, "methods is empty", cure)
+            source.fault(node, "methods is empty", cure, code="empty")
         if structure != "general" and len(items) != 2:
             wanted = f"structure: {structure} is for two colours"
-            source.fault(node, f"{wanted}, not {len(items)}")
+            source.fault(node, f"{wanted}, not {len(items)}", code="not-together")
         rules = self._rules(node, len(items), transfer)
         if not methods or len(methods) < len(items):
             return None
@@ -73,7 +73,7 @@ class DiagonalReader:
             if colours > 1:
                 message = "two colours or more need a transfer rule"
                 cure = "write transfer: collocation (or interpolation)"
-                self.source.fault(node, message, cure)
+                self.source.fault(node, message, cure, code="missing-key")
             return TransferText(None, {})
         from garkcli.methodfile.transfers import TransferReader
 
@@ -89,7 +89,7 @@ class DiagonalReader:
             return False
         where = "in the blocks between the methods"
         message = f"{entries} entries {where} (limit {MAX_ENTRIES})"
-        self.source.fault(node, message, "use fewer methods, or fewer stages")
+        self.source.fault(node, message, "use fewer methods, or fewer stages", code="too-many")
         return True
 
     def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
@@ -97,12 +97,12 @@ class DiagonalReader:
         keys, where = keys_of(node), f"method {l}"
         if isinstance(node, ScalarNode):
             message = f"{where}: a mapping is expected here"
-            self.source.fault(node, message, _written_out(node))
+            self.source.fault(node, message, _written_out(node), code="mapping-expected")
             return None
         # of anything but a mapping there are no keys
         if "stages" in keys and not keys & {"family", "A", "b"}:
             cure = "write for instance family: gauss"
-            self.source.fault(node, f"{where}: family missing", cure)
+            self.source.fault(node, f"{where}: family missing", cure, code="missing-key")
             return None
         if "family" not in keys and isinstance(node, MappingNode):
             k = l - 1

@@ -61,7 +61,9 @@ def _number(at: Any, node: Node, where: str) -> Wanted:
         return int(text)
     if isinstance(node, ScalarNode):
         message = f'{where}: a number or ">= n" is expected, not {shortened(text)}'
-        at.source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
+        at.source.fault(
+            node, message, 'for instance order: 4, or order: ">= 4"', code="wrong-value"
+        )
     return None
 
 
@@ -78,7 +80,7 @@ def _table(item: Kind) -> Kind:
         if isinstance(node, SequenceNode):
             return [item.read(at, x, where) for x in node.value]
         cure = "one number a colour, for C and D a row a colour"
-        at.source.fault(node, f"{where}: a list is expected", cure)
+        at.source.fault(node, f"{where}: a list is expected", cure, code="list-expected")
         return None
 
     return Kind(lambda: {"type": "array", "items": item.schema()}, read)

@@ -72,11 +72,11 @@ def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
     """A method where a family is expected."""
     if settings:
         message = f"{source} has no free parameter left"
-        return MethodError(message, "gark check --set judges one method")
+        return MethodError(message, "gark check --set judges one method", code="free-parameters")
     message = f"{source} has no free parameter"
     cure = "write parameters: {tau: free} in place of a value, "
     cure += 'or "?" for an entry'
-    return MethodError(message, cure)
+    return MethodError(message, cure, code="free-parameters")
 
 
 def loads_family(

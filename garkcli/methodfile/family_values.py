@@ -63,7 +63,7 @@ class FamilyValues(Values):
             if smallest > largest:
                 message = f"{ends[1].where}: no number is in [{smallest}, {largest}]"
                 cure = f"the smaller end stands first: [{largest}, {smallest}]"
-                self.numbers.source.fault(ends[1].node, message, cure)
+                self.numbers.source.fault(ends[1].node, message, cure, code="wrong-value")
                 continue
             before = f"[{least}, {greatest}]"
             least = smallest if least is None else max(least, smallest)
@@ -73,7 +73,7 @@ class FamilyValues(Values):
                     f"{ends[1].where}: no number is in [{smallest}, {largest}] and in {before}"
                 )
                 cure = "change one of the two ranges of the parameter"
-                self.numbers.source.fault(ends[1].node, message, cure)
+                self.numbers.source.fault(ends[1].node, message, cure, code="wrong-value")
                 return None, None
         return least, greatest
 
@@ -81,7 +81,7 @@ class FamilyValues(Values):
         value = self._plain(entry.expression)
         if value is None:
             message = f"{entry.where}: a rational number is expected"
-            self.numbers.source.fault(entry.node, message, "write [1/4, 1]")
+            self.numbers.source.fault(entry.node, message, "write [1/4, 1]", code="wrong-value")
         return value
 
     def _plain(self, expression: Expression) -> fmpq | None:

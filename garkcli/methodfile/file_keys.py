@@ -8,16 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
-from garkcli.glossary.key import Files
-from garkcli.glossary.key import Key as Entry
-from garkcli.methodfile.ark_prk import ARK, PRK
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.coefficients import DEFINITIONS, NUMBER
 from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, STRUCTURES
@@ -40,8 +37,11 @@ from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.members import FAMILY
 from garkcli.methodfile.parameters import PARAMETERS
 from garkcli.methodfile.spelled_out import BUTCHER, TABLEAU, TABLEAU_KEYS, rows_of
-from garkcli.methodfile.transfers import RULE, TRANSFER
 from garkcli.methodfile.words import shortened
+
+if TYPE_CHECKING:
+    from garkcli.glossary.key import Files
+    from garkcli.glossary.key import Key as Entry
 
 _PAGE = "docs/method-file.md#"
 _MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
@@ -61,7 +61,7 @@ def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
     if value is not None and 0 < value < 1:
         return value
     message = f"{where}: a decimal number between 0 and 1 is expected, not {shortened(text)}"
-    at.source.fault(node, message, "for instance 1e-13")
+    at.source.fault(node, message, "for instance 1e-13", code="wrong-value")
     return None
 
 
@@ -109,7 +109,7 @@ KEYS = {
         *TABLEAU_KEYS,
         Key(
             "transfer: collocation",
-            TRANSFER,
+            later("transfers", "TRANSFER"),
             "How the off-diagonal blocks between the methods are made: one rule for all of them, "
             "weights of several rules with the sum 1, or a default with exceptions.",
             page=_PAPER,
@@ -122,13 +122,13 @@ KEYS = {
         ),
         Key(
             "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}",
-            ARK,
+            later("ark_prk", "ARK"),
             "An additive method: colours that share their stage values, such as an IMEX pair.",
             page=f"{_PAGE}ark-additive-rungekutta-shared-stages",
         ),
         Key(
             "prk: {q: {A: [[0], [1]], b: [1]}, p: {A: [[1/2, 0]], b: [1/2, 1/2]}}",
-            PRK,
+            later("ark_prk", "PRK"),
             "A partitioned method: one tableau for the positions q, one for the momenta p.",
             page=f"{_PAGE}prk-partitioned-rungekutta-written-as-the-paper-prints-the-rectangular-"
             "method",
@@ -253,7 +253,7 @@ def method_file_schema() -> Schema:
             "butcher": BUTCHER.schema(),
             "method": {"oneOf": [FAMILY.schema(), defined("butcher").schema()]},
             "part": {"anyOf": [name, FAMILY.schema(), written()]},
-            "rule": RULE.schema(),
+            "rule": later("transfers", "RULE").schema(),
         },
     }
 

@@ -62,7 +62,7 @@ class Formulas:
             return None
         if is_null(node):
             message = f"{where}: nothing is here"
-            self.source.fault(node, message, "write a formula")
+            self.source.fault(node, message, "write a formula", code="empty")
             return None
         if is_misread(self.source, node, text, where):
             return None
@@ -92,7 +92,7 @@ class Formulas:
         for name, place in strangers.items():
             message = f"{where}: {shortened(name)} is no {noun}"
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
-            self.source.fault(node, message, cure, place.start)
+            self.source.fault(node, message, cure, place.start, code="wrong-value")
         return not strangers
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
@@ -133,7 +133,7 @@ class Formulas:
             message = bad_name(name)
             if message:
                 cure = "choose another name"
-                self.source.fault(value_node, f"{where} {message}", cure)
+                self.source.fault(value_node, f"{where} {message}", cure, code="name-taken")
             found = self.constant(value_node, where)
             if name in self.given:
                 found = (Literal(self.given[name]), self.given[name])

@@ -162,7 +162,7 @@ class FurtherReader:
         elif isinstance(node, SequenceNode):
             found = f"one {rows}" if is_one else counted(len(items), rows)
             wanted = counted(colours, "colour")
-            self.source.fault(node, f"{where} has {found} for {wanted}", cure)
+            self.source.fault(node, f"{where} has {found} for {wanted}", cure, code="wrong-size")
 
     def _is_of_several(self, node: Node, where: str, depth: int) -> bool:
         """Note what is written as for several colours, ``depth`` lists deep."""
@@ -174,7 +174,7 @@ class FurtherReader:
         cure = f"write it as one {rows}, without the outer brackets"
         if len(node.value) > 1:
             cure = "a method has one of them; make another file for the other"
-        self.source.fault(node, message, cure)
+        self.source.fault(node, message, cure, code="wrong-size")
         return True
 
     def _row(self, node: Node, where: str, stages: int) -> Row | None:
@@ -187,7 +187,7 @@ class FurtherReader:
             wanted = counted(stages, "stage")
             message = f"{where} has {found} for {wanted}"
             cure = "give a weight a stage, as in b"
-            self.source.fault(node, message, cure)
+            self.source.fault(node, message, cure, code="wrong-size")
         return row
 
     def _parts(self, node: Node, where: str) -> tuple[int, Node] | None:
@@ -206,7 +206,7 @@ class FurtherReader:
             found, wanted = counted(len(rows), "row"), counted(stages, "stage")
             message = f"{where} has {found} for {wanted}"
             cure = "give a row a stage: the coefficients of θ, θ², …"
-            self.source.fault(node, message, cure)
+            self.source.fault(node, message, cure, code="wrong-size")
             return None
         for i, row in enumerate(rows):
             if len(row) == degree:
@@ -217,7 +217,7 @@ class FurtherReader:
             place = node
             if isinstance(node, SequenceNode):
                 place = node.value[i]
-            self.source.fault(place, message, cure)
+            self.source.fault(place, message, cure, code="wrong-size")
             return None
         return rows
 
@@ -235,7 +235,7 @@ class FurtherReader:
                 group.append(name)
             if having and lacking:
                 message = f"{key}: {having[0]} has it and {lacking[0]} does not"
-                self.source.fault(node, message, cure)
+                self.source.fault(node, message, cure, code="missing-key")
 
 
 def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> FurtherText:

@@ -11,12 +11,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.glossary.key import Key as Entry
 from garkcli.methodfile.source import Entries, Source
+
+if TYPE_CHECKING:
+    from garkcli.glossary.key import Key as Entry
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
@@ -91,6 +93,8 @@ class Key:
 
     def entries(self, above: str, page: str) -> Iterator[Entry]:
         """What is told of it and of the keys inside of it, as those of a page."""
+        from garkcli.glossary.key import Key as Entry  # only pages and explanations tell of keys
+
         path, own = above + self.name, self.page or page
         if self.is_listed:
             yield Entry(path, self.text, self.line, self.default, own, self.is_word)
@@ -117,7 +121,9 @@ class Found(dict[str, Any]):
         given = [key for key in ways if key in self.nodes]
         for key in given[1:2]:
             message = f"{where}: {what} given by {given[0]} already"
-            source.fault(self.nodes[key], message, f"keep one of {', '.join(given)}")
+            source.fault(
+                self.nodes[key], message, f"keep one of {', '.join(given)}", code="given-twice"
+            )
         return given[0] if len(given) == 1 else None
 
 
@@ -161,7 +167,7 @@ def mapping(
         missing = [x.name for x in every().values() if x.is_needed and x.name not in found.nodes]
         if missing:
             place = "" if where == FILE else f"{where}: "
-            source.fault(node, f"{place}{' and '.join(missing)} missing", form)
+            source.fault(node, f"{place}{' and '.join(missing)} missing", form, code="missing-key")
         found.is_right = len(source.faults) == before
         return found
 
@@ -243,10 +249,12 @@ def list_of(
     def read(at: Any, node: Node, where: str) -> list[Any] | None:
         items: list[Node] = at.source.items(node, where, form)
         if most is not None and len(items) > most:
-            at.source.fault(node, f"{len(items)} {noun} (limit {most})", "use fewer")
+            at.source.fault(
+                node, f"{len(items)} {noun} (limit {most})", "use fewer", code="too-many"
+            )
             return None
         if not items and isinstance(node, SequenceNode):
-            at.source.fault(node, f"{where} is empty", form)
+            at.source.fault(node, f"{where} is empty", form, code="empty")
             return None
         places = [each.format(i) or where for i in range(1, len(items) + 1)]
         values = [item.read(at, x, place) for x, place in zip(items, places, strict=True)]

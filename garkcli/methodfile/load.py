@@ -60,11 +60,19 @@ def _of_folder(path: str) -> Fault:
     try:
         os.scandir(path).close()
     except OSError as error:
-        return Fault(f"this folder cannot be read: {error.strerror}", "name the files")
+        return Fault(
+            f"this folder cannot be read: {error.strerror}", "name the files", code="cannot-read"
+        )
     first = next(find_files([path]))
     if first == path:
-        return Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
-    return Fault("a directory, where one method file is expected", f"name one, such as {first}")
+        return Fault(
+            f"no {SUFFIX} files in this directory", "name the files, or rename them", code="folder"
+        )
+    return Fault(
+        "a directory, where one method file is expected",
+        f"name one, such as {first}",
+        code="folder",
+    )
 
 
 def loads(

@@ -77,7 +77,7 @@ def read_measure(source: Source, node: Node, where: str) -> Measure | None:
         number = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
         cure = error.help or "write a number such as 2*sqrt(2) or 2.785, or infinity"
-        source.fault(node, f"{where}: {error.message}", cure)
+        source.fault(node, f"{where}: {error.message}", cure, code=error.code)
         return None
     return Measure(text, number, _half_unit(body), least is not None)
 

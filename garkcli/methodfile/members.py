@@ -112,7 +112,7 @@ class FamilyReader:
             place = entries["family"]
             if name in FAMILIES:  # it lacks members of such a size
                 place = entries.get(FAMILIES[name].size, place)
-            self.source.fault(place, error.message, error.help)
+            self.source.fault(place, error.message, error.help, code=error.code)
             return None
         numbers = self._entries(recipe, node, name)
         chosen = _text_of(entries, FAMILIES[name])

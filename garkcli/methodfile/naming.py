@@ -146,14 +146,14 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
     names = dict.fromkeys(method.name for method in methods)
     several = list(names) if len(names) > 1 else [x.place for x in methods]
     message = f"{printable(name)!r} means {len(several)} methods: {_first(several)}"
-    raise MethodFileError(name, [Fault(message, "name one of them")])
+    raise MethodFileError(name, [Fault(message, "name one of them", code="name-in-doubt")])
 
 
 def _both(argument: str, method: Shelved) -> Fault:
     """What exists here and is a name of the catalogue too."""
     message = f"there is a file of this name here, and the method {method.name} in the catalogue"
     cure = f"write .{os.sep}{argument} for the file, {PREFIX}{argument} for the method"
-    return Fault(message, cure)
+    return Fault(message, cure, code="name-in-doubt")
 
 
 def _unknown(name: str) -> Fault:
@@ -161,11 +161,11 @@ def _unknown(name: str) -> Fault:
     message = "no such file, and no method of this name in the catalogue"
     near = nearest(name, _names())
     if near:
-        return Fault(message, f"did you mean {near!r}?")
+        return Fault(message, f"did you mean {near!r}?", code="no-such-file")
     begun = names_beginning(name)
     if begun:
-        return Fault(message, f"names that begin so: {_first(begun)}")
-    return Fault(message, "gark list methods shows the names")
+        return Fault(message, f"names that begin so: {_first(begun)}", code="no-such-file")
+    return Fault(message, "gark list methods shows the names", code="no-such-file")
 
 
 def _first(names: Sequence[str]) -> str:

@@ -102,7 +102,7 @@ class Numbers:
         if is_bare_unknown(node):
             message = f"YAML reads a bare {UNKNOWN} as a key"
             cure = f'quote it: "{UNKNOWN}"'
-            self.source.fault(node, message, cure, where=where)
+            self.source.fault(node, message, cure, where=where, code="yaml-word")
             return Literal(ZERO)
         text = self.source.scalar(node, where)
         if text == UNKNOWN:
@@ -122,11 +122,11 @@ class Numbers:
         if name is None:
             message = f"{UNKNOWN} stands for an entry of A, b or c"
             cure = "write parameters: {tau: free} for any other unknown"
-            self.source.fault(node, message, cure, where=where)
+            self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)
         if name in self.parameters:
             message = f"{where}: its name {name} is that of a parameter"
-            self.source.fault(node, message, "call the parameter something else")
+            self.source.fault(node, message, "call the parameter something else", code="name-taken")
             return Literal(ZERO)
         self.places[name] = node
         if name in self.settings:
@@ -144,7 +144,7 @@ class Numbers:
             value = parse(text)
         except ExpressionError as error:
             message = f"{where} is set to {shortened(text)}: {error.message}"
-            self.source.fault(node, message, error.help)
+            self.source.fault(node, message, error.help, code="no-value-left")
             return Literal(ZERO)
         self.of_parameters.append(Entry(value, node, where))
         return value
@@ -190,7 +190,7 @@ class Numbers:
             return (self.entry(node, where),)
         items = self.source.items(node, where)
         if not items and not self.source.faults:
-            self.source.fault(node, f"{where} is empty", "every method has a stage")
+            self.source.fault(node, f"{where} is empty", "every method has a stage", code="empty")
         return self._entries(items, where)
 
     def _entries(self, items: Sequence[Node], where: str) -> Row:
@@ -205,7 +205,9 @@ class Numbers:
             place = f"{where}, entry {len(row) + 1}"
             if is_open:
                 message = "a comma ends the value inside brackets"
-                self.source.fault(item, message, 'quote it: "root(x, n)"', where=place)
+                self.source.fault(
+                    item, message, 'quote it: "root(x, n)"', where=place, code="not-a-number"
+                )
                 row.append(Entry(Literal(ZERO), item, place))
             else:
                 row.append(self.entry(item, place))
@@ -222,7 +224,7 @@ class Numbers:
         if deep is not None:
             message = f"{where}: a list stands where a coefficient is expected"
             cure = "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
-            self.source.fault(deep, message, cure)
+            self.source.fault(deep, message, cure, code="value-expected")
             return ()
         rows: list[Row] = []
         for i, item in enumerate(items, start=1):
@@ -234,7 +236,7 @@ class Numbers:
         if any(rows):
             return tuple(rows)
         if not self.source.faults:
-            self.source.fault(node, f"{where} is empty", "every method has a stage")
+            self.source.fault(node, f"{where} is empty", "every method has a stage", code="empty")
         return ()
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
@@ -246,7 +248,7 @@ class Numbers:
         first, text, as_list = found
         message = f"{what} is a list, not the text {shortened(text)}"
         cure = f"put it in brackets, with commas: {as_list}"
-        self.source.fault(first, message, cure, where=where)
+        self.source.fault(first, message, cure, where=where, code="list-expected")
         return True
 
     def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
@@ -276,7 +278,7 @@ class Numbers:
             found = f"{count} by {lengths[0]}"
             wanted = f"{stages} by {columns}"
             message = f"{where} is {found} and should be {wanted}"
-            self.source.fault(node, message, why)
+            self.source.fault(node, message, why, code="wrong-size")
             return rows
         lacks_a_row = is_square and count + 1 == stages
         if lacks_a_row and is_triangle([0, *lengths]):
@@ -284,7 +286,7 @@ class Numbers:
             message = f"{where} has {found} for {wanted}"
             cure = "begin with the empty row of the first stage: "
             cure += "[[], [1/2], …]"
-            self.source.fault(node, message, cure)
+            self.source.fault(node, message, cure, code="wrong-size")
             return rows
         self._uneven(lengths, node, where, columns)
         return rows
@@ -312,7 +314,7 @@ class Numbers:
         cure = "give every row the same number, or end each at the diagonal"
         if lengths[first - 1] > columns:
             cure += "; decimals have a point: 0.5"
-        self.source.fault(place, message, cure)
+        self.source.fault(place, message, cure, code="wrong-size")
 
     def _completed(self, rows: Rows, node: Node, where: str) -> Rows:
         """A triangle of rows, with the zeros above it."""

@@ -23,7 +23,7 @@ def _range(at: Any, node: Node, where: str) -> tuple[tuple[Entry, Entry], ...]:
     ends = numbers.source.items(node, where)
     if len(ends) != 2:
         message = f"{where}: a range has two ends"
-        numbers.source.fault(node, message, "write [1/4, 1]")
+        numbers.source.fault(node, message, "write [1/4, 1]", code="list-expected")
         return ()
     smallest, largest = (numbers.entry(end, where) for end in ends)
     del numbers.entries[-2:]  # they are no coefficients
@@ -70,10 +70,10 @@ def _read(at: Any, node: Node, _: str) -> None:
         value: Expression = Literal(ZERO)
         if name in FUNCTIONS:
             message = f"{where} is a function already"
-            source.fault(key, message, "choose another name")
+            source.fault(key, message, "choose another name", code="name-taken")
         elif not name.isidentifier() or not name.isascii():
             message = f"{where} cannot be the name of a parameter"
-            source.fault(key, message, "use letters, digits and _")
+            source.fault(key, message, "use letters, digits and _", code="name-taken")
         elif name in numbers.settings:
             value = numbers.given(name, value_node, where)
         elif _is_free(value_node):
@@ -99,7 +99,12 @@ def _free(at: Any, node: Node, where: str) -> Free:
         return Free(node)
     found: Found = _FREE.read(at, node, where)
     if "free" in found.nodes and "free" not in found:
-        at.source.fault(node, f"{where} is a mapping that does not say free: true", _FREE_FORM)
+        at.source.fault(
+            node,
+            f"{where} is a mapping that does not say free: true",
+            _FREE_FORM,
+            code="mapping-expected",
+        )
     return Free(node, found.get("range", ()))
 
 
@@ -123,14 +128,14 @@ def refuse_free(numbers: Numbers) -> None:
             of_entries.append(name)
             continue
         message = f"parameters: {name} is free: {family}"
-        numbers.source.fault(free.node, message, _value_for(name))
+        numbers.source.fault(free.node, message, _value_for(name), code="free-parameters")
     if not of_entries:
         return
     first, *others = of_entries
     free = numbers.free[first]
     more = f", and {len(others)} more" if others else ""
     message = f"{free.where} is unknown{more}: {family}"
-    numbers.source.fault(free.node, message, _value_for(first))
+    numbers.source.fault(free.node, message, _value_for(first), code="free-parameters")
 
 
 def _value_for(name: str) -> str:
@@ -147,4 +152,4 @@ def refuse_unknown_settings(numbers: Numbers) -> None:
             if known:
                 cure = did_you_mean(name, known)
             message = f"no parameter {shortened(name)} to be set"
-            numbers.source.fault(None, message, cure)
+            numbers.source.fault(None, message, cure, code="unknown-word")

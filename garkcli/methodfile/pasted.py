@@ -74,11 +74,12 @@ def read_pasted(text: str) -> Pasted:
     sign = _between_cells(text)
     lines = [_line(x, sign) for x in text.splitlines() if not _is_rule(x)]
     if len(lines) > MOST_LINES:
-        raise MethodError("the tableau has too many lines", "paste one")
+        raise MethodError("the tableau has too many lines", "paste one", code="too-many")
     if len(lines) < 2:
         raise MethodError(
             "no tableau: a line a stage and a line of weights are expected",
             _IN_BRACKETS if "[" in text else _EXAMPLE,
+            code="pasted-tableau",
         )
     if sign in _OF_TABLES and lines[-1].node:
         lines = _without_nodes(lines)
@@ -167,6 +168,7 @@ def _without_bars(lines: list[_Line]) -> Pasted:
         raise MethodError(
             "rows of 1, 2, … numbers: nodes may come first, or the diagonal last",
             "part nodes from their rows by |, or write the zeros",
+            code="pasted-tableau",
         )
     if longest == stages + 1 == len(rows[-1]):
         nodes = tuple(row[0] for row in rows)
@@ -181,11 +183,13 @@ def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> 
         raise MethodError(
             "the tableau has no line of weights",
             "a line below the stages, with nothing before the bar",
+            code="pasted-tableau",
         )
     if len(weights) > 2:
         raise MethodError(
             f"{len(weights)} lines stand below the stages",
             "one of weights, and another of embedded ones",
+            code="pasted-tableau",
         )
     of_stages = counted(stages, "stage")
     for i, row in enumerate(rows, start=1):
@@ -193,11 +197,14 @@ def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> 
             raise MethodError(
                 f"row {i} has {len(row)} entries, for {of_stages}",
                 "a line a stage, and a line of weights below",
+                code="pasted-tableau",
             )
     for row in weights:
         if len(row) != stages:
             raise MethodError(
-                f"{counted(len(row), 'weight')} for {of_stages}", "a weight a stage, zeros too"
+                f"{counted(len(row), 'weight')} for {of_stages}",
+                "a weight a stage, zeros too",
+                code="pasted-tableau",
             )
     filled = tuple(_filled(row, stages) for row in rows)
     embedded = weights[1] if len(weights) == 2 else None

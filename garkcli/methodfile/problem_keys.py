@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from garkcli.exact.formula import RESERVED
-from garkcli.glossary.key import Files
-from garkcli.glossary.key import Key as Entry
 from garkcli.methodfile.grammar import (
     TEXT,
     VERSION,
@@ -25,6 +24,10 @@ from garkcli.methodfile.grammar import (
 )
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.problems.vectorfield import TIME
+
+if TYPE_CHECKING:
+    from garkcli.glossary.key import Files
+    from garkcli.glossary.key import Key as Entry
 
 FORMS = ("hamiltonian", "lagrangian", "rhs")
 """The keys of which a file has one."""

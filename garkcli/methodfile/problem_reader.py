@@ -90,7 +90,7 @@ class ProblemReader:
         if not keys & set(METHOD_FORMS) or keys & set(FORMS):
             return False
         message = "this is a method file, not a problem file"
-        self.source.fault(root, message, "see docs/problem-file.md")
+        self.source.fault(root, message, "see docs/problem-file.md", code="other-file")
         return True
 
     def _form(self, root: Node, entries: Entries) -> str | None:
@@ -100,11 +100,11 @@ class ProblemReader:
             message = "no hamiltonian, no lagrangian and no rhs"
             cure = "write one of them, "
             cure += "a formula or a list with one for each colour"
-            self.source.fault(root, message, cure)
+            self.source.fault(root, message, cure, code="missing-key")
             return None
         if len(present) > 1:
             message = " and ".join(_WITH_ARTICLE[key] for key in present)
-            self.source.fault(entries[present[1]], message, "keep one of them")
+            self.source.fault(entries[present[1]], message, "keep one of them", code="given-twice")
         return present[0]
 
     def _check_start(
@@ -114,10 +114,10 @@ class ProblemReader:
         is_rhs = form == "rhs"
         if "initial" not in entries and not (is_rhs and "exact" in entries):
             cure = f"write {variables.example_start(form)}"
-            self.source.fault(root, "initial missing", cure)
+            self.source.fault(root, "initial missing", cure, code="missing-key")
         if "exact" in entries and not is_rhs and form is not None:
             message = f"exact is for rhs, and this is a {form}"
-            self.source.fault(entries["exact"], message, "leave it out")
+            self.source.fault(entries["exact"], message, "leave it out", code="not-together")
 
     def _check_stiffness(self, root: Node, form: str | None) -> None:
         """Refuse a stiffness that would change nothing."""
@@ -125,11 +125,11 @@ class ProblemReader:
             return
         if form is not None and form != "rhs":
             message = f"--stiffness is for rhs, and this is a {form}"
-            self.source.fault(root, message, "leave it out")
+            self.source.fault(root, message, "leave it out", code="other-problem")
         elif STIFFNESS not in self.formulas.values:
             cure = f"write parameters: {{{STIFFNESS}: 1}} and use it in rhs"
             message = f"--stiffness, but no parameter called {STIFFNESS}"
-            self.source.fault(root, message, cure)
+            self.source.fault(root, message, cure, code="other-problem")
 
     def _name(self, node: Node | None) -> str:
         text = None if node is None else self.source.scalar(node, "name")
@@ -148,7 +148,7 @@ class ProblemReader:
         _, value = found
         if not isinstance(value, fmpq) or value <= 0:
             message = "t_end: a positive rational number is expected"
-            self.source.fault(node, message, "such as 2 or 5/2")
+            self.source.fault(node, message, "such as 2 or 5/2", code="wrong-value")
             return DEFAULT_T_END
         return value
 
@@ -160,12 +160,12 @@ class ProblemReader:
         formulas = self.source.mapping(node, "invariants", ())
         if len(formulas) > MAX_INVARIANTS:
             message = f"{len(formulas)} invariants (limit {MAX_INVARIANTS})"
-            self.source.fault(node, message, "use fewer")
+            self.source.fault(node, message, "use fewer", code="too-many")
             return []
         for name, formula in formulas.items():
             if form != "rhs" and name.lower() in {"energy", "h"}:
                 message = f"invariants: {name} is reported always"
-                self.source.fault(formula, message, "leave it out")
+                self.source.fault(formula, message, "leave it out", code="not-together")
         return [(shown_name(name), x) for name, x in formulas.items()]
 
 

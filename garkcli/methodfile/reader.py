@@ -107,7 +107,7 @@ class Reader:
         text, found = read_argument(f"catalogue:{name}")
         source = Source(found, text)
         if found in self._inside:
-            source.fault(None, f"{found} is made from itself")
+            source.fault(None, f"{found} is made from itself", code="made-from-itself")
             raise source.error()
         reader = Reader(source, {}, (*self._inside, found))
         description = reader.read()
@@ -123,7 +123,7 @@ class Reader:
         message = "this is a problem file, not a method file"
         cure = "give it beside a method file: "
         cure += "gark converge METHOD --problem FILE"
-        self.source.fault(root, message, cure)
+        self.source.fault(root, message, cure, code="other-file")
         return True
 
     def design_place(self) -> Extent | None:

@@ -27,16 +27,20 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     try:
         data = read_bytes(path, MAX_BYTES)
     except FileNotFoundError:
-        fault = Fault("no such file", _cure_of_missing(path))
+        fault = Fault("no such file", _cure_of_missing(path), code="no-such-file")
         raise MethodFileError(path, [fault]) from None
     except ValueError:
-        fault = Fault("no file has such a name", "leave out what is no text")
+        fault = Fault("no file has such a name", "leave out what is no text", code="no-such-file")
         raise MethodFileError(path, [fault]) from None
     except NotAFile:
-        fault = Fault("not a regular file", f"give a {kind.name}, or - for standard input")
+        fault = Fault(
+            "not a regular file", f"give a {kind.name}, or - for standard input", code="cannot-read"
+        )
         raise MethodFileError(path, [fault]) from None
     except OSError as error:  # among them names that are too long, and links in a circle
-        raise MethodFileError(name, [Fault(f"cannot be read: {error.strerror}")]) from None
+        raise MethodFileError(
+            name, [Fault(f"cannot be read: {error.strerror}", code="cannot-read")]
+        ) from None
     text = decoded(name, data)
     if not is_stream(path) and not _may_be_quoted(path, text, kind):
         raise MethodFileError(path, [_not_quoted(path, kind)])
@@ -47,9 +51,9 @@ def _not_quoted(path: str, kind: FileKind) -> Fault:
     """What is said of a file that may hold anything."""
     if is_elsewhere(path):
         message = f"a link to a file elsewhere, which has no key of a {kind.name}"
-        return Fault(message, "name the file that is meant")
+        return Fault(message, "name the file that is meant", code="elsewhere")
     message = f"no key of a {kind.name} is in this file, and its name has no ending"
-    return Fault(message, f"{kind.start} or call it something.yaml")
+    return Fault(message, f"{kind.start} or call it something.yaml", code="elsewhere")
 
 
 def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
@@ -101,12 +105,21 @@ def decoded(name: str, data: bytes) -> str:
     """
     if len(data) > MAX_BYTES:
         raise MethodFileError(
-            name, [Fault(f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1)]
+            name,
+            [
+                Fault(
+                    f"a file of more than {MAX_BYTES} bytes",
+                    "split it",
+                    1,
+                    1,
+                    code="file-too-large",
+                )
+            ],
         )
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise MethodFileError(
-            name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1)]
+            name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")]
         ) from None

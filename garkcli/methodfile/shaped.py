@@ -35,7 +35,12 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     name: str | None = at.source.scalar(node, where)
     if name is None or name in SHAPES:
         return name
-    at.source.fault(node, f"{where}: {shortened(name)} is no shape", did_you_mean(name, SHAPES))
+    at.source.fault(
+        node,
+        f"{where}: {shortened(name)} is no shape",
+        did_you_mean(name, SHAPES),
+        code="unknown-word",
+    )
     return None
 
 
@@ -95,12 +100,12 @@ class ShapeReader:
             return None
         if found["stages"] > MAX_STAGES:
             message = f"{found['stages']} stages of unknowns (limit {MAX_STAGES})"
-            self.source.fault(found.nodes["stages"], message, "use fewer stages")
+            self.source.fault(found.nodes["stages"], message, "use fewer stages", code="too-many")
             return None
         try:
             layout = layout_of(found["stages"], found["shape"])
         except MethodError as error:
-            self.source.fault(found.nodes["shape"], error.message, error.help)
+            self.source.fault(found.nodes["shape"], error.message, error.help, code=error.code)
             return None
         for name in layout.unknowns:
             self._define(name, node)

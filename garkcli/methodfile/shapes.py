@@ -174,12 +174,17 @@ def _splitting(layout: Layout) -> Layout:
 
 def _stiffly_accurate(layout: Layout) -> Layout:
     if layout.kind == "prk":
-        raise MethodError("a partitioned shape is not stiffly accurate", "leave one of them out")
+        raise MethodError(
+            "a partitioned shape is not stiffly accurate",
+            "leave one of them out",
+            code="not-together",
+        )
     last = layout.A[-1][-1]
     if last[-1] == ZERO:
         raise MethodError(
             "no explicit shape is stiffly accurate: its last weight would be zero",
             "take dirk, sdirk, esdirk or full before it",
+            code="not-together",
         )
     bottom = layout.stages - 1
     # names of weights stay; what the shapes before it fixed in the last row fixes weights
@@ -200,7 +205,9 @@ def _palindromic(layout: Layout) -> Layout:
     """
     if layout.kind != "tableau" or "gamma" in layout.unknowns:
         raise MethodError(
-            "palindromic goes with full, dirk and symplectic-dirk", "leave one of them out"
+            "palindromic goes with full, dirk and symplectic-dirk",
+            "leave one of them out",
+            code="not-together",
         )
     s = layout.stages
     (weights,) = layout.b
@@ -231,7 +238,11 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
     k, l = last - i, last - j
     entry, opposite = rows[i][j], rows[k][l]
     if entry == ZERO and opposite == ZERO:
-        raise MethodError("no explicit shape is palindromic", "take full, dirk or symplectic-dirk")
+        raise MethodError(
+            "no explicit shape is palindromic",
+            "take full, dirk or symplectic-dirk",
+            code="not-together",
+        )
     if not opposite.startswith("a"):
         return
     weight = b[j]
@@ -299,6 +310,8 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
     for place, name in enumerate(names):
         shape = SHAPES[name]
         if shape.begins and place:
-            raise MethodError(f"{name} stands after {names[0]}", f"begin with {name}")
+            raise MethodError(
+                f"{name} stands after {names[0]}", f"begin with {name}", code="not-together"
+            )
         layout = shape.applied(layout)
     return with_nodes(layout)

@@ -225,7 +225,7 @@ def others() -> list[Shelf]:
             what = f"{type(error).__name__}: {error}".splitlines()[0]
             message = f"{point.value} cannot be imported: {what}"
             cure = f"it has an entry point of the group {GROUP}: mend it, or remove it"
-            fault = Fault(message, cure)
+            fault = Fault(message, cure, code="missing-package")
             raise MethodFileError(point.name, [fault]) from None
         shelves.append(OtherPackage(point.name, root))
     return shelves

@@ -169,7 +169,7 @@ class SidesMaker:
                 message = f"{term.where} starts at {_decimal(own)}, "
                 message += f"but initial has {_decimal(given)}"
                 cure = "leave initial out, or correct one of them"
-                self.source.fault(term.node, message, cure)
+                self.source.fault(term.node, message, cure, code="no-solution")
 
     def _start_of(self, exact: ByName) -> Start | None:
         """The exact solution at t = 0; None where it has no value there, which is noted."""
@@ -189,7 +189,7 @@ class SidesMaker:
             names = ", ".join(missing[:_SHOWN])
             message = f"{where}: no value for {names}{more}"
             example = cure.format(missing[0])
-            self.source.fault(node, message, f"give each {example}")
+            self.source.fault(node, message, f"give each {example}", code="missing-key")
 
     def _check_jacobians(self, terms: Sequence[Term], start: Start) -> None:
         """Note right-hand sides that have no derivative at the start: Newton's method needs it."""
@@ -203,7 +203,7 @@ class SidesMaker:
             if missing is not None:
                 what, cure = missing
                 message = f"{term.where} at the initial values: {what}"
-                self.source.fault(term.node, message, cure)
+                self.source.fault(term.node, message, cure, code="no-formula")
 
     def _refuse_constants(
         self, all_terms: Sequence[Term], terms: Sequence[ByName], invariants: Sequence[Term]
@@ -218,14 +218,14 @@ class SidesMaker:
         if not moves:
             message = "nothing moves: the right-hand sides sum to 0"
             cure = "write the derivative of a variable"
-            self.source.fault(all_terms[0].node, message, cure)
+            self.source.fault(all_terms[0].node, message, cure, code="nothing-moves")
         for invariant in invariants:
             if is_constant(invariant.made):
                 why = "it depends on no variable"
                 message = f"{invariant.where} is constant: {why}"
                 cure = "write a first integral in the variables, "
                 cure += "or leave it out"
-                self.source.fault(invariant.node, message, cure)
+                self.source.fault(invariant.node, message, cure, code="nothing-moves")
 
     def _check_solution(self, problem: RightHandSide, exact: ByName) -> None:
         """Note a solution whose derivative differs from the right-hand sides at a later time, with
@@ -247,14 +247,14 @@ class SidesMaker:
                 if not (has.is_finite() and needs.is_finite()):
                     message = f"{term.where} has no value at t = {time}"
                     cure = "give an earlier t_end"
-                    self.source.fault(term.node, message, cure)
+                    self.source.fault(term.node, message, cure, code="no-formula")
                     return
                 if not has.overlaps(needs):
                     message = f"{term.where} is no solution: at t = {time} "
                     message += f"its derivative is {_decimal(has)}, "
                     message += f"the right-hand sides give {_decimal(needs)}"
                     cure = "correct it, or leave exact out"
-                    self.source.fault(term.node, message, cure)
+                    self.source.fault(term.node, message, cure, code="no-solution")
                     return
 
 

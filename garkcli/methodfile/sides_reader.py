@@ -36,7 +36,7 @@ def _side(source: Source, node: Node, where: str, names: tuple[str, ...]) -> Sid
         example = ", ".join(shown)
         wanted = "right-hand sides by the names of variables are expected"
         message = f"{where}: {wanted}"
-        source.fault(node, message, f"write {{{example}}}")
+        source.fault(node, message, f"write {{{example}}}", code="mapping-expected")
         return ()
     side: list[tuple[str, Node, str]] = []
     for name, formula in source.mapping(node, where, names).items():

@@ -55,6 +55,8 @@ class Source:
         offset: int = 0,
         where: str = "",
         cause: str = "",
+        *,
+        code: str,
     ) -> None:
         """Note a fault at ``node``, ``offset`` characters into its text.
 
@@ -67,6 +69,7 @@ class Source:
                 the file, with another ``where``, has the same cause and is told once, with its
                 other places; so is any other message that occurs often.
             cause: what has the same cause though the message is another one.
+            code: the kind of fault.
 
         Raises:
             MethodFileError: there are ``MAX_FAULTS_READ`` of them; no file is read further.
@@ -77,7 +80,7 @@ class Source:
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
-        fault = Fault(printable(text), printable(cure), line, column)
+        fault = Fault(printable(text), printable(cure), line, column, code=code)
         self._note(fault, cause, is_one)
 
     def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
@@ -100,7 +103,7 @@ class Source:
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
     ) -> None:
         """Note what is wrong with the text of a number."""
-        self.fault(node, error.message, error.help, error.start, where, cause)
+        self.fault(node, error.message, error.help, error.start, where, cause, code=error.code)
 
     def close(self) -> None:
         """Raise what has been found.
@@ -117,13 +120,13 @@ class Source:
         """
         if not self._found:
             message = f"this is not a {self.kind.name}"
-            self.fault(None, message, f"see {self.kind.page}")
+            self.fault(None, message, f"see {self.kind.page}", code="other-file")
         once = dict.fromkeys(self._found)
         faults = told_once(sorted(once, key=place_of))
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
-            rest = Fault(more, "mend these first", last.line, last.column)
+            rest = Fault(more, "mend these first", last.line, last.column, code="more-faults")
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
 
@@ -139,18 +142,18 @@ class Source:
         """The root of the file; None, with faults noted, where there is no mapping."""
         if len(self.text) > MAX_BYTES:
             message = f"a file of more than {MAX_BYTES} characters"
-            self.fault(None, message, "split it")
+            self.fault(None, message, "split it", code="file-too-large")
             return None
         root = composed(self.text)
         if isinstance(root, Fault):
             self._note(self._cured(root))
             return None
         if root is None:
-            self.fault(None, "the file is empty", self.kind.smallest)
+            self.fault(None, "the file is empty", self.kind.smallest, code="empty-file")
             return None
         if not isinstance(root, MappingNode):
             message = f"a {self.kind.name} is a mapping of keys to values"
-            self.fault(root, message, self._foreign(True) or self.kind.start)
+            self.fault(root, message, self._foreign(True) or self.kind.start, code="other-file")
             return None
         return root
 
@@ -187,7 +190,7 @@ class Source:
         """
         if not isinstance(node, MappingNode):
             message = f"{where}: a mapping of keys to values is expected here"
-            self.fault(node, message, form)
+            self.fault(node, message, form, code="mapping-expected")
             return {}
         known = list(allowed)
         given = keys_of(node)
@@ -195,12 +198,12 @@ class Source:
         unknown: list[ScalarNode] = []
         for key_node, value in node.value:
             if not isinstance(key_node, ScalarNode):
-                self.fault(key_node, f"{where}: a key is a plain word")
+                self.fault(key_node, f"{where}: a key is a plain word", code="no-key")
                 continue
             key = key_node.value
             if key in entries:
                 twice = f"the key {shortened(key)} stands here twice"
-                self.fault(key_node, f"{where}: {twice}", "keep one of them")
+                self.fault(key_node, f"{where}: {twice}", "keep one of them", code="doubled")
             elif not known or key in known:
                 entries[key] = value
             else:
@@ -237,35 +240,35 @@ class Source:
                 meant = meant_key(first, known)
                 if meant:
                     cure = f"did you mean {meant!r}?"
-            self.fault(nodes[0], message, cure)
+            self.fault(nodes[0], message, cure, code="unknown-key")
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
             message = f"{where}: and {count} more unknown keys"
-            self.fault(unknown[MAX_FAULTS], message, "mend these first")
+            self.fault(unknown[MAX_FAULTS], message, "mend these first", code="more-faults")
 
     def check_version(self, node: Node | None) -> None:
         """Note a version of the format that is not read; a file need not say which it is."""
         if node is not None and self.scalar(node, "gark") != "1":
             message = "gark: this program reads version 1 of the format"
-            self.fault(node, message, "write gark: 1")
+            self.fault(node, message, "write gark: 1", code="wrong-version")
 
     def items(self, node: Node, where: str, cure: str = "") -> list[Node]:
         """The items of a list."""
         if not isinstance(node, SequenceNode):
             cure = cure or "write it in brackets: [ , ]"
-            self.fault(node, "a list is expected here", cure, where=where)
+            self.fault(node, "a list is expected here", cure, where=where, code="list-expected")
             return []
         return list(node.value)
 
     def scalar(self, node: Node, where: str) -> str | None:
         """The text of a single value, as written."""
         if not isinstance(node, ScalarNode):
-            self.fault(node, "a single value is expected here", where=where)
+            self.fault(node, "a single value is expected here", where=where, code="value-expected")
             return None
         tag = str(node.tag)
         if not tag.startswith("tag:yaml.org,2002:") or tag.startswith(_PYTHON):
             message = f"the tag {shortened(tag)} has no place here"
-            self.fault(node, message, "leave it out", where=where)
+            self.fault(node, message, "leave it out", where=where, code="tag")
             return None
         return str(node.value)
 
@@ -285,12 +288,12 @@ class Source:
             if is_long:
                 wanted = f"a whole number of at most {_MOST_DIGITS} digits is expected"
             message = f"{where}: {wanted}, not {shortened(text)}"
-            self.fault(node, message)
+            self.fault(node, message, code="wrong-value")
             return None
         number = int(text)
         if largest is not None and number > largest:
             wanted = f"a whole number of at most {largest} is expected"
-            self.fault(node, f"{where}: {wanted}, not {number}")
+            self.fault(node, f"{where}: {wanted}, not {number}", code="wrong-value")
             return None
         return number
 
@@ -301,5 +304,5 @@ class Source:
         if text is None or text in words:
             return text
         message = f"{where}: {shortened(text)} is not known"
-        self.fault(node, message, did_you_mean(text, words))
+        self.fault(node, message, did_you_mean(text, words), code="unknown-word")
         return None

@@ -163,7 +163,7 @@ def are_too_many(source: Source, colours: Sequence[Node], node: Node) -> bool:
     if count <= MAX_COLOURS:
         return False
     message = f"{count} colours (limit {MAX_COLOURS})"
-    source.fault(node, message, "no method needs that many")
+    source.fault(node, message, "no method needs that many", code="too-many")
     return True
 
 
@@ -205,7 +205,7 @@ class SpelledOutReader:
             # A and c agree with each other, so the mistake is in b
             message = f"{name_of_b} has {entries_in(stages)}, "
             message += f"{name_of_A} is {rows} by {rows}"
-            self.source.fault(entries["b"], message, "both have one a stage")
+            self.source.fault(entries["b"], message, "both have one a stage", code="wrong-size")
             return None
         shape = (stages, stages)
         why = f"{name_of_b} has {entries_in(stages)}"
@@ -214,7 +214,7 @@ class SpelledOutReader:
             wanted = counted(stages, "stage")
             message = f"{name_of_c} has {entries_in(len(c))} for {wanted}"
             cure = "give a node a stage, or leave c out"
-            self.source.fault(entries["c"], message, cure)
+            self.source.fault(entries["c"], message, cure, code="wrong-size")
         return A, b, c
 
     def tableau(self, node: Node, linear: Node | None) -> TableauText | None:
@@ -240,16 +240,16 @@ class SpelledOutReader:
                 cure = "write b as one row: b: [0, 1]"
             elif all(isinstance(x, SequenceNode) and len(x.value) == 1 for x in b.value):
                 cure = "b is a column here: write it as one row, [0, 1]"
-            self.source.fault(b, message, cure)
+            self.source.fault(b, message, cure, code="wrong-size")
             return None
         if depth == 3 and not is_one_row:
             message = "A is a list of matrices"
             cure = "matrices on shared stages are the form ark; " + _LEVELS
-            self.source.fault(A, message, cure)
+            self.source.fault(A, message, cure, code="list-expected")
             return None
         if depth > 3 and is_one_row and not isinstance(b, MappingNode):
             message = "A has blocks, as of several colours, and b is one row"
-            self.source.fault(b, message, _LEVELS)
+            self.source.fault(b, message, _LEVELS, code="wrong-size")
             return None
         return self._blocks(entries, linear)
 
@@ -275,7 +275,7 @@ class SpelledOutReader:
         if len(rows) != colours:
             found = counted(len(rows), "row")
             message = f"A has {found} of blocks and b {colours} of weights"
-            self.source.fault(entries["A"], message, "both have one a colour")
+            self.source.fault(entries["A"], message, "both have one a colour", code="wrong-size")
             return None
         A: list[BlockRow] = []
         for l, row in enumerate(rows):
@@ -297,7 +297,7 @@ class SpelledOutReader:
             return None
         if isinstance(node, SequenceNode) and not items:
             cure = "give a row of weights a colour"
-            self.source.fault(node, "b is empty", cure)
+            self.source.fault(node, "b is empty", cure, code="empty")
         rows: list[Row] = []
         for l, item in enumerate(items):
             rows.append(self.numbers.row(item, of_colour("b", l)))
@@ -313,7 +313,7 @@ class SpelledOutReader:
             wanted = counted(colours, "colour")
             message = f"{where} has {found} for {wanted}"
             cure = "write null for a block that does not exist"
-            self.source.fault(node, message, cure)
+            self.source.fault(node, message, cure, code="wrong-size")
         blocks: list[Rows | None] = []
         for m, item in enumerate(items[:colours]):
             blocks.append(self._block(item, l, m, b))
@@ -341,7 +341,7 @@ class SpelledOutReader:
         items = self.source.items(node, "c")
         if len(items) != colours:
             message = f"c has {counted(len(items), 'row')} and b {colours}"
-            self.source.fault(node, message, "give one of each a colour")
+            self.source.fault(node, message, "give one of each a colour", code="wrong-size")
             return (None,) * colours
         rows: list[Row | None] = []
         for l, item in enumerate(items):
@@ -358,7 +358,7 @@ class SpelledOutReader:
             found = entries_in(len(row))
             weights = of_colour("b", l)
             message = f"{where} has {found}, {weights} has {stages}"
-            self.source.fault(node, message, "both have one a stage")
+            self.source.fault(node, message, "both have one a stage", code="wrong-size")
         return row
 
     def _linear(self, node: Node | None, colours: int) -> tuple[int, ...]:
@@ -372,7 +372,7 @@ class SpelledOutReader:
                 continue
             if colour > colours:
                 message = f"linear: there is no colour {colour}"
-                self.source.fault(item, message, f"there {_are(colours)}")
+                self.source.fault(item, message, f"there {_are(colours)}", code="wrong-value")
             else:
                 found.append(colour - 1)
         return tuple(found)

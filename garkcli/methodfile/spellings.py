@@ -144,12 +144,13 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
         found = pattern.search(text)
         # the fault lies in what the pattern found, or right behind it
         if found and found.start() <= start <= found.end():
-            message = error.message
+            message, code = error.message, error.code
             if not isinstance(error, UndefinedValue):
                 what = shortened(found.group())
                 message = f"{what} is not how a number is written here"
+                code = "not-a-number"
             cure = better.format(**found.groupdict())
-            explanation = ExpressionError(message, cure, found.start(), found.end())
+            explanation = ExpressionError(message, cure, found.start(), found.end(), code=code)
             return explanation, pattern.pattern
     if _is_symbol(error, text):
         return error, _SYMBOLS.pattern
@@ -188,19 +189,19 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return False
     kind = str(node.tag).rpartition(":")[2]
-    message, cure = "", ""
+    message, cure, code = "", "", "not-a-number"
     if kind in _WORDS:
         word = repr(text or "nothing")
         message = f"{word} is no number: YAML reads it as {kind}"
-        cure = "write a number, such as 1/2"
+        cure, code = "write a number, such as 1/2", "yaml-word"
     elif _READ_DIFFERENTLY.fullmatch(text):
         readers = "different readers of YAML"
         message = f"{text} means different numbers to {readers}"
-        cure = "write the number in plain decimal digits"
+        cure, code = "write the number in plain decimal digits", "ambiguous-number"
         if "_" in text:
             cure = "leave out the _"
     elif text.lower().lstrip("+-") in _NO_FINITE_NUMBERS:
         message, cure = f"{text} is not a number", "coefficients are finite"
     if message:
-        source.fault(node, message, cure, where=where)
+        source.fault(node, message, cure, where=where, code=code)
     return bool(message)

@@ -62,7 +62,7 @@ def _value(at: Any, node: Node, text: str, where: str) -> fmpq | None:
         expression = parse(text)
         if any(roots_in(expression)):
             message = f"{where}: a rational number is expected"
-            at.source.fault(node, message, "write 1/3 or 0.25")
+            at.source.fault(node, message, "write 1/3 or 0.25", code="wrong-value")
             return None
         value = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
@@ -118,7 +118,7 @@ def _parameters(at: Any, node: Node, where: str) -> dict[str, tuple[str, ...] | 
         items = values.value if isinstance(values.value, list) else [values]
         if not NAME.fullmatch(name):
             message = f"{place} cannot be the name of a parameter"
-            at.source.fault(values, message, "use letters, digits and _")
+            at.source.fault(values, message, "use letters, digits and _", code="name-taken")
         elif [x.value for x in items if isinstance(x, ScalarNode)] == [FREE]:
             grids[name] = None
         else:
@@ -170,13 +170,13 @@ def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
     if text is None or parts is None:
         if text is not None:
             message = f"{where}: {shortened(text)} is no condition"
-            at.source.fault(node, message, 'write 4 or ">= 4"')
+            at.source.fault(node, message, 'write 4 or ">= 4"', code="wrong-value")
         return None
     value = _value(at, node, parts[2], where)
     bound = None if value is None else _as_float(value)
     if value is not None and bound is None:
         message = f"{where}: {shortened(parts[2])} is beyond the numbers of a column"
-        at.source.fault(node, message, "write 0, or a number up to 1e308")
+        at.source.fault(node, message, "write 0, or a number up to 1e308", code="wrong-value")
     return None if bound is None else (parts[1] or "=", bound)
 
 
@@ -366,12 +366,14 @@ class _Reader:
             methods.read(said.nodes["methods"], entries, said.get("transfer"))
             is_whole = True
         elif "transfer" in said and "methods" not in said.nodes:
-            source.fault(said["transfer"], "transfer without methods", "add methods")
+            source.fault(
+                said["transfer"], "transfer without methods", "add methods", code="not-together"
+            )
         if "files" in said:
             methods.read_files(said["files"], self.folder)
         if not {"methods", "files"} & said.nodes.keys():
             cure = "write methods: [{family: gauss, stages: 1..4}], or files"
-            source.fault(root, "no methods and no files", cure)
+            source.fault(root, "no methods and no files", cure, code="missing-key")
         if is_whole and len(source.faults) == before:
             self._refuse_unused(said, found)
         self._refuse_large(root, found)
@@ -383,14 +385,16 @@ class _Reader:
         used = {name for x in found.templates for name in x.parameters}
         for name in found.grids.keys() - used:
             message = f"parameters: no method has {name}"
-            self.source.fault(said.nodes["parameters"], message, "leave it out, or use it")
+            self.source.fault(
+                said.nodes["parameters"], message, "leave it out, or use it", code="not-together"
+            )
         is_searched = any(x.order for x in found.templates)
         # a parameter without a value is told already
         is_told = not all(found.grids.values())
         if "search" in said.nodes and not is_searched and not is_told:
             message = "search: no method has an unknown that is left to it"
             cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
-            self.source.fault(said.nodes["search"], message, cure)
+            self.source.fault(said.nodes["search"], message, cure, code="not-together")
 
     def _refuse_large(self, root: Node, found: SweepText) -> None:
         seeds = 1 if found.search is None else len(found.search.seeds)
@@ -400,4 +404,4 @@ class _Reader:
             total += values * (seeds if template.order else 1)
         if total > MOST_METHODS:
             message = f"{total} methods (limit {MOST_METHODS})"
-            self.source.fault(root, message, "make several sweeps")
+            self.source.fault(root, message, "make several sweeps", code="too-many")

@@ -53,7 +53,7 @@ def span(at: Any, node: Node, where: str, least: int, cure: str) -> range | None
     first, last = int(found[1]), int(found[2])
     if least <= first <= last:
         return range(first, last + 1)
-    at.source.fault(node, f"{where}: {shortened(text)} is no range", cure)
+    at.source.fault(node, f"{where}: {shortened(text)} is no range", cure, code="wrong-value")
     return None
 
 
@@ -61,7 +61,9 @@ def _stages(at: Any, node: Node, where: str) -> range | None:
     found = span(at, node, where, 1, _CURE_OF_STAGES)
     if found is None or found.stop <= MAX_STAGES + 1 or len(found) == 1:
         return found
-    at.source.fault(node, f"{where}: {shortened(node.value)} is no range", _CURE_OF_STAGES)
+    at.source.fault(
+        node, f"{where}: {shortened(node.value)} is no range", _CURE_OF_STAGES, code="wrong-value"
+    )
     return None
 
 
@@ -146,13 +148,15 @@ class MethodsReader:
         if len(choices) > 1:
             if transfer is None:
                 cure = "write transfer: [collocation, interpolation]"
-                self.source.fault(node, "several methods need transfer", cure)
+                self.source.fault(node, "several methods need transfer", cure, code="missing-key")
             else:
                 rules = [
                     self._rule(x) for x in TRANSFER.read(self, transfer, "transfer") or () if x
                 ]
         elif transfer is not None and choices:
-            self.source.fault(transfer, "one method has no transfer", "leave it out")
+            self.source.fault(
+                transfer, "one method has no transfer", "leave it out", code="not-together"
+            )
         for methods in product(*choices):
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
@@ -198,7 +202,9 @@ class MethodsReader:
                     found[family, recipe_of(family, s).stages] = None
         if families and not found:
             message = f"methods: no member of {', '.join(families)} has these stages"
-            self.source.fault(entry.node, message, "write stages: 2, [1, 3] or 1..4")
+            self.source.fault(
+                entry.node, message, "write stages: 2, [1, 3] or 1..4", code="wrong-value"
+            )
         return list(found)
 
     def read_files(self, node: Node, folder: Path) -> None:
@@ -222,7 +228,7 @@ class MethodsReader:
                     f"give it values: parameters: {{{missing[0]}: [1/4, 1/2]}}"
                     ", or search: {seeds: 1..100}"
                 )
-                self.source.fault(item, message, cure)
+                self.source.fault(item, message, cure, code="free-parameters")
             elif missing and all(self.found.grids[x] for x in used):
                 first = {x: self.found.grids[x][0] for x in used}
                 family = loads_family(text, source, first)
@@ -234,9 +240,11 @@ class MethodsReader:
         search = self.found.search
         if search is None:
             message = f"{shortened(name)} leaves {unknowns[0]} to a search"
-            self.source.fault(node, message, "write search: {seeds: 1..100}")
+            self.source.fault(
+                node, message, "write search: {seeds: 1..100}", code="free-parameters"
+            )
         elif not (search.order or own):
             message = f"{shortened(name)}: a search is for an order"
             cure = "write search: {order: 4}, or in a file design: {order: 4}"
-            self.source.fault(node, message, cure)
+            self.source.fault(node, message, cure, code="option-alone")
         return 0 if search is None else search.order or own

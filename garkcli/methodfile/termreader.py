@@ -92,7 +92,7 @@ class TermReader:
             found = f"second derivatives of {sum(sizes)} operations"
             message = f"{largest.where}: {found} (limit {MAX_SIZE})"
             cure = "write it shorter, or with fewer variables"
-            self.source.fault(largest.node, message, cure)
+            self.source.fault(largest.node, message, cure, code="too-many")
 
     def check_numbers(self, terms: Sequence[Term]) -> None:
         """Note terms with numbers too long to be written, once powers are multiplied out."""
@@ -108,7 +108,7 @@ class TermReader:
                 found = f"a coefficient of about {digits} digits"
                 message = f"{term.where}: {found}"
                 cure = "choose units in which coefficients are shorter"
-                self.source.fault(term.node, message, cure)
+                self.source.fault(term.node, message, cure, code="number-too-large")
 
 
 def formulas_of_invariants(text: ProblemText) -> list[tuple[Node, str]]:

@@ -97,7 +97,7 @@ class Maker:
         given = [x for x in motions if not entries.keys().isdisjoint(map(str, x))]
         if len(given) > 1:
             cure = "give all velocities or all momenta"
-            self.source.fault(node, "initial: velocities and momenta", cure)
+            self.source.fault(node, "initial: velocities and momenta", cure, code="given-twice")
         elif len(self.source.faults) == before:
             (motion,) = given or motions[-1:]
             self._refuse_missing(node, motion, entries)
@@ -118,7 +118,7 @@ class Maker:
             names = ", ".join(missing[:_SHOWN])
             message = f"initial: no value for {names}{more}"
             cure = f"give each a number, such as {missing[0]}: 1/2"
-            self.source.fault(node, message, cure)
+            self.source.fault(node, message, cure, code="missing-key")
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
@@ -161,7 +161,7 @@ class Maker:
             names = ", ".join(map(str, self.v[:3]))
             message = "the Lagrangian has no velocities"
             cure = f"the kinetic energy has {names}"
-            self.source.fault(lagrangians[0].node, message, cure)
+            self.source.fault(lagrangians[0].node, message, cure, code="missing-key")
         has_velocities = str(self.v[0]) in start
         at: dict[Expr, arb] = {}
         with ctx.workprec(BITS):
@@ -189,14 +189,14 @@ class Maker:
         unsolved = too_long(term.made, self.v)
         if unsolved is not None:
             message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
-            self.source.fault(term.node, message, WRITE_HAMILTONIAN)
+            self.source.fault(term.node, message, WRITE_HAMILTONIAN, code="no-legendre-transform")
             return None
         variables = self.text.variables
         try:
             made = legendre_transform(term.made, variables, known)
         except NoLegendreTransform as error:
             message = f"{term.where}: {error.message}"
-            self.source.fault(term.node, message, error.help)
+            self.source.fault(term.node, message, error.help, code=error.code)
             return None
         return replace(term, made=made)
 
@@ -212,13 +212,13 @@ class Maker:
             momenta = initial_momenta(L, H, self.text.variables, at)
         except NoLegendreTransform as error:
             message = f"initial: {error.message}"
-            self.source.fault(self.text.initial, message, error.help)
+            self.source.fault(self.text.initial, message, error.help, code=error.code)
             self.source.close()
         found: dict[str, fmpq] = {}
         for p, value in zip(self.p, momenta, strict=True):
             if not (value.is_finite() and value.rad() < _GOOD):
                 message = f"{moving.where}: the momenta do not exist at the initial values"
-                self.source.fault(moving.node, message, "start elsewhere")
+                self.source.fault(moving.node, message, "start elsewhere", code="no-formula")
                 self.source.close()
             found[str(p)] = nearby(value)
         return found
@@ -235,14 +235,14 @@ class Maker:
             why = f"{parts} depends on no variable, and nothing moves"
             message = f"the Hamiltonian is constant: {why}"
             cure = "write it in positions and momenta"
-            self.source.fault(terms[0].node, message, cure)
+            self.source.fault(terms[0].node, message, cure, code="nothing-moves")
         for invariant in invariants:
             if is_constant(invariant.made):
                 why = "it depends on no variable"
                 message = f"{invariant.where} is constant: {why}"
                 cure = "write a first integral in positions and momenta, "
                 cure += "or leave it out"
-                self.source.fault(invariant.node, message, cure)
+                self.source.fault(invariant.node, message, cure, code="nothing-moves")
 
     def _check_fields(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
         """Note terms that have no derivative at the start."""
@@ -256,4 +256,4 @@ class Maker:
             if missing is not None:
                 what, cure = missing
                 message = f"{term.where} at the initial values: {what}"
-                self.source.fault(term.node, message, cure)
+                self.source.fault(term.node, message, cure, code="no-formula")

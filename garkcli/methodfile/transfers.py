@@ -86,7 +86,7 @@ class TransferReader:
                 if _BLOCK_OR_COLOUR.fullmatch(key.value):
                     message = "transfer: single blocks stand under blocks"
                     cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
-                    self.source.fault(key, message, cure)
+                    self.source.fault(key, message, cure, code="given-twice")
                     return TransferText(None, {})
             return TransferText(self._rule(node, "transfer"), {})
         entries = self.source.mapping(node, "transfer", ("default", "blocks"))
@@ -111,12 +111,12 @@ class TransferReader:
                 wanted = f"off-diagonal block of {colours} colours"
                 message = f"transfer, blocks: {shown} names no {wanted}"
                 cure = 'write for instance "1,2" for the block A^{1,2}'
-                self.source.fault(keys[key], message, cure)
+                self.source.fault(keys[key], message, cure, code="wrong-value")
                 continue
             where = block_name(l, m)
             if (l, m) in blocks:
                 message = f"transfer, blocks: {where} is given twice"
-                self.source.fault(keys[key], message, "keep one of them")
+                self.source.fault(keys[key], message, "keep one of them", code="doubled")
             block = self._block(value, where)
             if block is not None:
                 blocks[l, m] = block
@@ -139,14 +139,14 @@ class TransferReader:
             first = of_pairs[0]
             why = "makes both blocks of a pair of colours"
             message = f"{where}: {first} {why} and cannot be combined"
-            self.source.fault(node, message, f"write {first} on its own")
+            self.source.fault(node, message, f"write {first} on its own", code="not-together")
             return None
         form = "write one of the rules, for instance transfer: collocation"
         entries = self.source.mapping(node, where, RULES, form=form)
         if not entries:
             if isinstance(node, MappingNode) and not node.value:
                 cure = f"one of: {', '.join(ALL_RULES)}"
-                self.source.fault(node, f"{where}: no rule", cure)
+                self.source.fault(node, f"{where}: no rule", cure, code="missing-key")
             return None
         terms = []
         for rule, weight in entries.items():

@@ -66,7 +66,7 @@ class Values:
         if len(source.faults) > before:
             return
         with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
-        source.fault(next(with_roots).node, error.message, error.help)
+        source.fault(next(with_roots).node, error.message, error.help, code=error.code)
 
     def number(self, entry: Entry) -> Number:
         """The value of a coefficient."""

@@ -38,10 +38,10 @@ class Variables:
             if form != "rhs" and f"p{name}" in RESERVED:
                 momentum = f"the momentum of {name} would be p{name}"
                 message = f"variables: {momentum}, which has a meaning already"
-                self.source.fault(node, message, _ANOTHER)
+                self.source.fault(node, message, _ANOTHER, code="name-taken")
             if name in derived:
                 message = f"variables: {name} is {derived[name]}"
-                self.source.fault(node, message, _ANOTHER)
+                self.source.fault(node, message, _ANOTHER, code="name-taken")
 
     def refuse_taken(self, form: str, parameters: Node | None) -> None:
         """Refuse a parameter that is called like a variable, or like what belongs to one."""
@@ -53,7 +53,7 @@ class Variables:
             if isinstance(key, ScalarNode) and key.value in taken:
                 what = taken[key.value]
                 message = f"parameters: {key.value} is {what} already"
-                self.source.fault(key, message, _ANOTHER)
+                self.source.fault(key, message, _ANOTHER, code="name-taken")
 
     def _derived(self, form: str) -> dict[str, str]:
         """The names that variables bring with them, and what they are."""
@@ -90,7 +90,7 @@ def read_variables(source: Source, root: Node, node: Node | None) -> Variables:
     found = Variables(source, places)
     if node is None:
         cure = "name the positions, for instance variables: [x, y]"
-        source.fault(root, "variables missing", cure)
+        source.fault(root, "variables missing", cure, code="missing-key")
         return found
     items: Sequence[Node] = KEYS["variables"].kind.read(found, node, "variables") or ()
     for item in items:
@@ -100,7 +100,7 @@ def read_variables(source: Source, root: Node, node: Node | None) -> Variables:
         why = "is named twice" if name in places else bad_name(name)
         if why:
             message = f"variables: {shortened(name)} {why}"
-            source.fault(item, message, _ANOTHER)
+            source.fault(item, message, _ANOTHER, code="name-taken")
         else:
             places[name] = item
     return found

@@ -84,7 +84,9 @@ def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]
             yield name, value, place
         elif name not in numbers.settings:
             cure = did_you_mean(name, list(numbers.free))
-            numbers.source.fault(value, f"{place} is no unknown of the file", cure)
+            numbers.source.fault(
+                value, f"{place} is no unknown of the file", cure, code="unknown-word"
+            )
 
 
 DESIGN = mapping(
@@ -166,7 +168,7 @@ def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
     for name, item in at.source.mapping(node, where, ()).items():
         if not name.isdigit() or int(name) < 1:
             message = f"{where}: {name} is no colour"
-            at.source.fault(item, message, "colours count from 1: {2: true}")
+            at.source.fault(item, message, "colours count from 1: {2: true}", code="wrong-value")
             continue
         value = kind.read(at, item, where)
         if value is not None:
@@ -182,7 +184,7 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
         return (wish.colour,)
     message = f"design, {wish.want.key}: no colour {wish.colour + 1}"
     cure = f"the method has {counted(size, 'colour')}"
-    source.fault(wish.node, message, cure)
+    source.fault(wish.node, message, cure, code="wrong-value")
     return ()
 
 
@@ -221,7 +223,7 @@ def meaning_of(
         except NotDecided:
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:
-            source.fault(wish.node, error.message, error.help)
+            source.fault(wish.node, error.message, error.help, code=error.code)
     return _together(meanings)
 
 

@@ -104,7 +104,8 @@ def _effects(rounded: RoundedTableau) -> Callable[[Tree], fmpq]:
     from garkcli.order.effects import Effects  # balls, which exact methods do without
 
     if rounded.obstacle:
-        raise MethodError(rounded.obstacle, "give more digits and a smaller tolerance")
+        cure = "give more digits and a smaller tolerance"
+        raise MethodError(rounded.obstacle, cure, code="zero-weight")
     return Effects(rounded).bound
 
 

@@ -33,7 +33,7 @@ class TreeVectors:
         colour = self.tableau.colours[tree.root]
         if colour.is_linear and len(tree.branches) > 1:
             message = f"colour {colour.name} is linear: its vertices have one branch at most"
-            raise MethodError(message)
+            raise MethodError(message, code="tree-not-admissible")
         space = self.tableau.space(tree.root)
         vector = space.one
         for branch in tree.branches:
@@ -50,7 +50,8 @@ class TreeVectors:
                 seen = self.tableau.colours[branch.root]
                 raise MethodError(
                     f"colour {colour.name} does not see colour {seen.name}: "
-                    "the tree is not admissible"
+                    "the tree is not admissible",
+                    code="tree-not-admissible",
                 )
             self._images[place] = apply(block, self.of(branch))
         return self._images[place]

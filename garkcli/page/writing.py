@@ -60,7 +60,7 @@ def refuse_unwritable(path: str) -> None:
     """
     if not path:
         message = "the name of the file to be written is empty"
-        raise UsageProblem(message, "name a file")
+        raise UsageProblem(message, "name a file", code="cannot-write")
     with _told(path):
         target = _without_links(path)
         if own_stream(str(target)) is not None:
@@ -87,13 +87,19 @@ def _told(path: str) -> Iterator[None]:
         raise
     except OSError as error:
         why = error.strerror or str(error)
-        raise UsageProblem(f"cannot write {path}: {why}", "choose another place") from None
+        raise UsageProblem(
+            f"cannot write {path}: {why}", "choose another place", code="cannot-write"
+        ) from None
 
 
 def _refuse_input(path: str, status: os.stat_result) -> None:
     """Never write over what was read, whatever it is called here and there."""
     if is_input(status):
-        raise UsageProblem(f"cannot write {path}: the command reads it", "choose another place")
+        raise UsageProblem(
+            f"cannot write {path}: the command reads it",
+            "choose another place",
+            code="cannot-write",
+        )
 
 
 def _without_links(path: str) -> Path:

@@ -69,10 +69,10 @@ def _scene(
     results: Sequence[Any], names: Sequence[str], against: str, is_order_star: bool
 ) -> Scene:
     if not results:
-        raise MethodError("there is nothing to draw", _CURE)
+        raise MethodError("there is nothing to draw", _CURE, code="arrays")
     kind = type(results[0])
     if any(type(result) is not kind for result in results):
-        raise MethodError("the results are of several kinds", "draw them apart")
+        raise MethodError("the results are of several kinds", "draw them apart", code="arrays")
     named = list(zip(names, results, strict=True))
     if kind is Convergence:
         if len(named) == 1 and against == "h":
@@ -84,12 +84,14 @@ def _scene(
         reports = [StabilityReport(name, name, result) for name, result in named]
         return stability_scene(reports, is_order_star)
     if len(results) > 1:
-        raise MethodError("several are not drawn together", "draw them apart")
+        raise MethodError("several are not drawn together", "draw them apart", code="arrays")
     (result,) = results
     if isinstance(result, LongRun):
         return energy_scene(result)
     if isinstance(result, SweepReport):
         if len(result.plan.pareto) < 2:
-            raise MethodError("the sweep compares no two columns", "say pareto: [x, y] in its file")
+            raise MethodError(
+                "the sweep compares no two columns", "say pareto: [x, y] in its file", code="arrays"
+            )
         return sweep_scene(result, *result.plan.pareto[:2])
-    raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE)
+    raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE, code="arrays")

@@ -32,7 +32,7 @@ def check_suffix(path: Path) -> None:
         kind = f"of kind {suffix!r}" if suffix else "without a suffix"
         message = f"no figure can be saved to {path.name!r}, {kind}"
         endings = ", ".join(SUFFIXES)
-        raise UsageProblem(message, f"end it in {endings}")
+        raise UsageProblem(message, f"end it in {endings}", code="option-value")
     need_matplotlib()
     refuse_unwritable(str(path))
 
@@ -45,7 +45,7 @@ def need_matplotlib() -> None:
     """
     if find_spec("matplotlib") is None:
         cure = "install garkcli[plot]; text and JSON do without"
-        raise UsageProblem("a figure needs matplotlib", cure)
+        raise UsageProblem("a figure needs matplotlib", cure, code="missing-package")
 
 
 def save_scene(scene: Scene, path: Path) -> None:

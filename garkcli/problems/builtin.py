@@ -66,6 +66,7 @@ def check_stiffness(name: str) -> None:
         raise UsageProblem(
             f"--stiffness is for the problems {takers}, not for {name}",
             "leave it out, or choose one of these",
+            code="other-problem",
         )
 
 
@@ -81,7 +82,9 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     """
     made = built_in(name).make(terms, seed)
     if not isinstance(made, Hamiltonian):
-        raise UsageProblem(f"{name} is not Hamiltonian", "its maker is problem(...)")
+        raise UsageProblem(
+            f"{name} is not Hamiltonian", "its maker is problem(...)", code="other-problem"
+        )
     return made
 
 
@@ -92,7 +95,9 @@ def built_in(name: str) -> BuiltIn:
         UsageProblem: there is no such problem.
     """
     if name not in PROBLEMS:
-        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS)))
+        raise UsageProblem(
+            f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS)), code="unknown-word"
+        )
     return PROBLEMS[name]
 
 
@@ -106,7 +111,9 @@ def check_seed(name: str, seed: int | None) -> None:
     if seed is not None and name not in takers:
         plural = "s" if len(takers) > 1 else ""
         whose = f"problem{plural} {', '.join(takers)}"
-        raise UsageProblem(f"--seed is for the {whose}, not for {name}", "leave it out")
+        raise UsageProblem(
+            f"--seed is for the {whose}, not for {name}", "leave it out", code="other-problem"
+        )
 
 
 _ALTERNATING = "alternating trees in which velocities do not branch"

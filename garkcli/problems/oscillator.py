@@ -65,6 +65,7 @@ class Oscillator:
             raise UsageProblem(
                 f"the shares {self.shares!r} are no pairs",
                 "give (kinetic, potential) for each term, such as [(1, 0), (0, 1)]",
+                code="split",
             )
         shares = tuple(
             (
@@ -77,7 +78,9 @@ class Oscillator:
         object.__setattr__(self, "shares", shares)
         if self.omega <= 0:
             raise UsageProblem(
-                f"the frequency {self.omega} is not positive", "give a positive rational, such as 1"
+                f"the frequency {self.omega} is not positive",
+                "give a positive rational, such as 1",
+                code="split",
             )
         for column, energy in enumerate(("kinetic", "potential")):
             total = sum((share[column] for share in self.shares), ZERO)
@@ -85,6 +88,7 @@ class Oscillator:
                 raise UsageProblem(
                     f"the {energy} shares sum to {total}",
                     f"they are parts of one {energy} energy: make it 1",
+                    code="split",
                 )
 
     @classmethod
@@ -129,12 +133,14 @@ def parse_shares(text: str, terms: int) -> Shares:
     cure = f"write {terms} pairs kinetic:potential, such as {example_shares(terms)}"
     parts = text.split(",")
     if len(parts) != terms:
-        raise UsageProblem(f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure)
+        raise UsageProblem(
+            f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure, code="split"
+        )
     shares = []
     for part in parts:
         texts = part.split(":")
         if len(texts) != 2:
-            raise UsageProblem(f"{part.strip()!r} is no pair of shares", cure)
+            raise UsageProblem(f"{part.strip()!r} is no pair of shares", cure, code="split")
         kinetic, potential = map(_share, texts)
         shares.append((kinetic, potential))
     return Oscillator(ONE, tuple(shares)).shares  # checks the sums
@@ -158,10 +164,13 @@ def _share(text: str) -> fmpq:
         raise UsageProblem(
             f"the share {text.strip()!r}: {error.message}",
             error.help or "write a rational number, such as 1/2",
+            code="split",
         ) from None
     if not isinstance(number, fmpq):
         raise UsageProblem(
-            f"the share {text.strip()!r} is irrational", "write a rational number, such as 1/2"
+            f"the share {text.strip()!r} is irrational",
+            "write a rational number, such as 1/2",
+            code="split",
         )
     return number
 
@@ -181,6 +190,7 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
         raise UsageProblem(
             f"the split has {len(problem.shares)} terms, the method {terms}",
             f"such as {example_shares(terms)}",
+            code="split",
         )
     for term, (kinetic, potential) in enumerate(problem.shares):
         if kinetic:
@@ -204,6 +214,7 @@ def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
         f"with this split the field of colour {one} depends on what colour {other} "
         f"drives, which its stages do not see",
         f"give the shares that the structure is for with --split, such as {example}",
+        code="split",
     )
 
 
@@ -214,4 +225,5 @@ def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
         raise UsageProblem(
             f"term {term + 1} has {energy} energy, but the method has no colour for it",
             f"move the {energy} share to another term with --split",
+            code="split",
         )

@@ -60,7 +60,7 @@ class Translator:
             if not self._is_constant(name):
                 message = f"the exponent depends on {name.name}"
                 cure = "exponents are constants"
-                raise UndefinedValue(message, cure, name.start, name.end)
+                raise UndefinedValue(message, cure, name.start, name.end, code="not-real")
 
     def translate(self, expression: Expression) -> Expr:
         """The sympy expression of a formula whose names are all known.
@@ -77,7 +77,7 @@ class Translator:
         infinities = sympy.oo, -sympy.oo
         if made.has(sympy.I, sympy.zoo, sympy.nan, *infinities):
             message = "this is no real number"
-            raise UndefinedValue(message, "", start, end)
+            raise UndefinedValue(message, "", start, end, code="not-real")
         numbers = made.atoms(sympy.Rational)
         if any(abs(x) > 1 << FLOAT_BITS for x in numbers):
             number = f"a number above 2^{FLOAT_BITS}"
@@ -137,7 +137,7 @@ class Translator:
         if is_power and abs(made.exp) > MAX_EXPONENT:
             found = f"the exponents are {made.exp} together"
             message = f"{found} (limit {MAX_EXPONENT})"
-            raise LimitExceeded(message, "use smaller ones", at.start, at.end)
+            raise LimitExceeded(message, "use smaller ones", at.start, at.end, code="too-many")
         return _without_kinks(made, at)
 
     def _root(self, radicand: Expr, index: int, at: Root) -> Expr:
@@ -149,7 +149,7 @@ class Translator:
             inner = _shortened(format_expression(at.radicand))
             message = "only square roots are taken of variables"
             cure = f"where it is positive, write ({inner})**(1/{index})"
-            raise UndefinedValue(message, cure, at.start, at.end)
+            raise UndefinedValue(message, cure, at.start, at.end, code="no-formula")
         power = sympy.Rational(1, index)
         if radicand.is_negative:
             return -((-radicand) ** power)
@@ -167,7 +167,7 @@ def _without_kinks(made: Expr, at: Expression) -> Expr:
         message = f"this has |{inner}|, which has no derivative at 0"
         cure = "write it without the root where the sign is known, "
         cure += "or add a number under the root"
-        raise UndefinedValue(message, cure, at.start, at.end)
+        raise UndefinedValue(message, cure, at.start, at.end, code="no-formula")
     return made
 
 

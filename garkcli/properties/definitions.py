@@ -194,4 +194,4 @@ def definition(key: str) -> Definition:
         if found.key == key:
             return found
     keys = [found.key for found in _OF_ORDERS]
-    raise UsageProblem(f"no claim {key!r}", did_you_mean(key, [*keys, *KEYS]))
+    raise UsageProblem(f"no claim {key!r}", did_you_mean(key, [*keys, *KEYS]), code="unknown-word")

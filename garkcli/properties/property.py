@@ -120,3 +120,19 @@ class Property:
     def field(self) -> str:
         """Its name in JSON."""
         return self.key.replace("-", "_")
+
+
+SEES_ALL = "methods whose stages all see all vector fields"
+"""For which methods some properties have a meaning."""
+
+
+def claimed(
+    source: str, kind: Kind = "truth", meaning: str = "", is_cheap: bool = True
+) -> Callable[[Callable[[Subject], Verdict]], Property]:
+    """The property that a function decides: its name is the key, its docstring the definition."""
+
+    def made(decide: Callable[[Subject], Verdict]) -> Property:
+        key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())
+        return Property(key, text, source, kind, decide, meaning, is_cheap)
+
+    return made

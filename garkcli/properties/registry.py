@@ -1,4 +1,4 @@
-"""Properties by their names: a file of ``claimed`` each."""
+"""Properties by their names."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def find(key: str) -> Property:
     >>> find("a-stable").field
     'a_stable'
     """
-    name = key.replace("-", "_")
-    found = import_module(f"garkcli.properties.claimed.{name}").PROPERTY
+    file = import_module(f"garkcli.properties.claimed.{KEYS[key]}")
+    found = getattr(file, key.replace("-", "_"))
     assert isinstance(found, Property)
     return found
 

@@ -40,7 +40,7 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
     """
     if format not in citation.FORMATS:
         message = f"no format {format!r}"
-        raise UsageProblem(message, did_you_mean(format, citation.FORMATS))
+        raise UsageProblem(message, did_you_mean(format, citation.FORMATS), code="unknown-word")
     cited = [_cited(method_of(method)) for method in methods]
     return citation.render(citation.together(cited), format)
 

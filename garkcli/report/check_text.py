@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import excerpt
-from garkcli.glossary.faults import code_of
 from garkcli.page.paint import Paint, counted
 from garkcli.page.plain import inert, printable
 from garkcli.report.check import CLAIMS, HINTS
@@ -100,7 +99,7 @@ def faults_lines(outcome: Outcome, paint: Paint) -> Iterator[str]:
         place = printable(outcome.file)
         if fault.line:
             place += f":{fault.line}:{fault.column}"
-        kind = f"{paint('bad', 'error')}[{code_of(fault.message)}]"
+        kind = f"{paint('bad', 'error')}[{fault.code}]"
         yield f"{place}: {kind}: {printable(fault.message)}"
         if 0 < fault.line <= len(source):
             shown = source[fault.line - 1]

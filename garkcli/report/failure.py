@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from garkcli.errors import Fault
 from garkcli.tell.facts import Row, Section, parts
 from garkcli.tell.kinds import POSITION, TEXT
 
-
-def code(fault: Any) -> str:
-    """The code of an error."""
-    from garkcli.glossary.faults import code_of
-
-    return code_of(fault.message)
-
-
 FAULT = Section(
     Row("line", POSITION, lambda f: f.line or None, has_null=True),
     Row("column", POSITION, lambda f: f.column or None, has_null=True),
-    Row("code", TEXT, code),
+    Row("code", TEXT),
     Row("message", TEXT),
     Row("help", TEXT),
 )

@@ -74,7 +74,9 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     kind, write, formats = _writer_of(one)
     if format not in formats:
         cure = did_you_mean(format, formats)
-        raise UsageProblem(f"no format {format!r} of {kind.partition('.')[2]}", cure)
+        raise UsageProblem(
+            f"no format {format!r} of {kind.partition('.')[2]}", cure, code="unknown-word"
+        )
     return write(value, format, name)
 
 
@@ -112,6 +114,7 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
         f"no command prints values of the kind {type(value).__name__}",
         "give a method, or what analyse, check_file or another call that"
         " help(garkcli.render) names returned",
+        code="arrays",
     )
 
 

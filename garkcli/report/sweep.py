@@ -216,7 +216,9 @@ def refuse_parquet(path: str) -> None:
 
     if find_spec("pyarrow") is None:
         raise UsageProblem(
-            "--parquet needs pyarrow", "install garkcli[parquet], or take --format csv"
+            "--parquet needs pyarrow",
+            "install garkcli[parquet], or take --format csv",
+            code="missing-package",
         )
     refuse_unwritable(path)
 

@@ -167,7 +167,7 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
         structure = structure_of(kind, terms)
     except ValueError as error:
         cure = "leave out --colours, or choose another --kind"
-        raise UsageProblem(f"--colours {terms}: {error}", cure) from None
+        raise UsageProblem(f"--colours {terms}: {error}", cure, code="option-value") from None
     names = []
     for term, part in structure.colours:
         letter = _LETTERS[part]
@@ -201,7 +201,7 @@ def subject_of_method(method: AnyTableau, orders: range) -> Subject:
         if term in quadratic and not x.is_linear:
             message = f"colour {x.name} is not linear, as the other colour of its stages is"
             cure = "such a term of the Hamiltonian has no classes; make both linear or none"
-            raise UsageProblem(message, cure)
+            raise UsageProblem(message, cure, code="tree-not-admissible")
     colours = tuple((term, x.part) for term, x in natures)
     structure = Structure(colours, quadratic)
     names = tuple(x.name for x in tableau.colours)
@@ -226,4 +226,4 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
     else:
         reason = "its momentum blocks are not the conjugates of its position blocks"
         cure = "with --pair they become the conjugates"
-    return UsageProblem(f"the method is not symplectic: {reason}", cure)
+    return UsageProblem(f"the method is not symplectic: {reason}", cure, code="not-symplectic")

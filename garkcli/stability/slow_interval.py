@@ -88,6 +88,7 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
         raise UsageProblem(
             "an interval of slow frequencies needs rational coefficients",
             "give --slow A for single ones, which are decided in number fields too",
+            code="no-radicals",
         )
     critical = _critical(plane, low, high)
     undecided: list[RealRoot] = []

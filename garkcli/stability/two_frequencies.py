@@ -92,12 +92,13 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
         raise UsageProblem(
             "a method of one term has no two colours for two springs",
             "take a method with at least two terms",
+            code="split",
         )
     with_force = {x.term for x in tableau.colours if x.part in "yp"}
     slow_terms = _slow_terms(terms, fast, with_force)
     if fast not in with_force or not slow_terms:
         message = f"term {fast + 1} leaves no term for the other spring"
-        raise UsageProblem(message, "give another colour with --fast")
+        raise UsageProblem(message, "give another colour with --fast", code="split")
     share = fmpq(1, len(slow_terms))
     kinetic = [ZERO] * terms
     kinetic[0] = ONE

@@ -48,6 +48,7 @@ def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
         raise UsageProblem(
             f"the method drives positions and momenta, and {problem.name} has none",
             "choose a Hamiltonian problem, or a method whose colours drive all unknowns",
+            code="other-problem",
         )
     return tableau
 
@@ -67,6 +68,7 @@ def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
             f"{problem.name} depends on t, and the stages of the method have no times: a colour is "
             "linear, or colours share stages and differ in their nodes",
             "choose a problem without t, or give time as an unknown with the derivative 1",
+            code="other-problem",
         )
     return made
 
@@ -124,7 +126,7 @@ def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
     H = f"H{{{term + 1}}}"
     message = f"{H} of {problem.name} depends on {on}, but the method has no colour for that"
     cure = f"choose a problem whose {H} depends on {other} alone, or another structure"
-    return UsageProblem(message, cure)
+    return UsageProblem(message, cure, code="other-problem")
 
 
 def _check_edges(tableau: Tableau, fields: Fields) -> None:
@@ -138,6 +140,7 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
                 "choose a problem with quadratic kinetic energy"
                 if driven_group == "q"
                 else "choose a problem in which it is",
+                code="other-problem",
             )
         for m, driver in fields:
             if driver in field.depends and tableau.block(l, m) is None:
@@ -146,6 +149,7 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
                     f"the field of colour {name} depends on what colour {other} drives, "
                     f"which its stages do not see",
                     "choose a problem of the form that the structure is for",
+                    code="other-problem",
                 )
 
 

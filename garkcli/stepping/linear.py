@@ -60,7 +60,7 @@ class LinearStep:
             X = system.solve(self.E)
         except ZeroDivisionError:
             message = f"the stage equations have no unique solution for h = {h}"
-            raise UsageProblem(message, "choose another step size") from None
+            raise UsageProblem(message, "choose another step size", code="step-fails") from None
         increment = self.B * X * h
         (a, b), (c, d) = self._numbers(increment)
         return (ONE + a, b), (c, ONE + d)
@@ -208,13 +208,13 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
     """
     if h <= 0 or t_end <= 0:
         message = f"step {h} and end time {t_end} are not both positive"
-        raise UsageProblem(message, "give positive numbers")
+        raise UsageProblem(message, "give positive numbers", code="step-size")
     n = t_end / h
     if n.q != 1:
         near = h * max(int(n.floor()), 1)
         message = f"the end time {t_end} is not a whole number of steps {h}"
-        raise UsageProblem(message, f"{near} is")
+        raise UsageProblem(message, f"{near} is", code="step-size")
     if n.p > MAX_STEPS:
         message = f"{n} steps (limit {MAX_STEPS})"
-        raise UsageProblem(message, "choose a shorter time or larger steps")
+        raise UsageProblem(message, "choose a shorter time or larger steps", code="too-many")
     return int(n.p)

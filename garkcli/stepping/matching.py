@@ -36,7 +36,7 @@ def split_into(problem: Problem, terms: int) -> Problem:
     elif isinstance(problem, Hamiltonian):
         cure += ": no sum of parts with and without momenta"
     message = f"{problem.name} has {found} term{plural}, the method is for {terms}"
-    raise UsageProblem(message, cure)
+    raise UsageProblem(message, cure, code="other-problem")
 
 
 def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:

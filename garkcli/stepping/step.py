@@ -32,6 +32,8 @@ _AHEAD = 64  # most steps in floats by which a trajectory is ahead of who looks 
 class StepFailed(GarkError):
     """The stage equations of a step were not solved."""
 
+    code = "step-fails"
+
     def __init__(self, number: int, h: fmpq, residual: float) -> None:
         what = "the stage equations were not solved"
         if not isfinite(residual):

@@ -78,7 +78,7 @@ def _rounded(text: str) -> float:
     mantissa, _, _ = text.lower().partition("e")
     is_lost = not value and mantissa.strip("-0.") != ""
     if is_lost or not isfinite(value):
-        raise GarkError(f"{text} is beyond the numbers of a column")
+        raise GarkError(f"{text} is beyond the numbers of a column", code="wrong-value")
     return value
 
 

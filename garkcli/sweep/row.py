@@ -108,7 +108,7 @@ def _tableau(point: Point) -> Tableau:
         return member(family.tableau, family.ring, values)
     method = loads(point.template.text, point.key, point.settings)
     if method.tolerance is not None:
-        raise MethodError("its coefficients are rounded", "give exact ones")
+        raise MethodError("its coefficients are rounded", "give exact ones", code="rounded")
     return method.tableau
 
 
@@ -120,7 +120,7 @@ def _searched(point: Point, row: Row) -> Tableau | None:
     found = first_find(point)
     if found is None:
         starts = counted(point.template.starts, "start")
-        raise MethodError(f"nothing found from {starts}", "take more")
+        raise MethodError(f"nothing found from {starts}", "take more", code="not-found")
     row["proof"] = found.proof
     row["values"] = dict(found.values)
     return method_found(point, found) if found.is_exact else None

@@ -59,6 +59,7 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
             raise UsageProblem(
                 f"{store.path} has rows of another spec, such as that of {point.key}",
                 "columns, conditions or a method file have changed: choose another --rows",
+                code="other-file",
             )
     progress = Progress(len(plan), len(plan) - len(missing))
     yield progress

@@ -41,7 +41,7 @@ class RowStore:
         except OSError as error:
             why = error.strerror
             raise UsageProblem(
-                f"{path} cannot be written: {why}", "choose another --rows"
+                f"{path} cannot be written: {why}", "choose another --rows", code="cannot-write"
             ) from None
         try:
             if self._is_file():
@@ -70,7 +70,9 @@ class RowStore:
         with suppress(OSError):
             if os.path.samestat(status, os.stat(os.devnull)):
                 return False
-        raise UsageProblem(f"{self.path} is not a regular file", "choose another --rows")
+        raise UsageProblem(
+            f"{self.path} is not a regular file", "choose another --rows", code="cannot-read"
+        )
 
     def _lock(self) -> None:
         with suppress(ImportError):
@@ -80,7 +82,9 @@ class RowStore:
                 # of this process alone: workers that outlive it do not keep the lock
                 fcntl.lockf(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except (BlockingIOError, PermissionError):
-                raise UsageProblem(f"another sweep writes to {self.path}", "wait for it") from None
+                raise UsageProblem(
+                    f"another sweep writes to {self.path}", "wait for it", code="cannot-write"
+                ) from None
             except OSError:
                 return  # a file system without locks
 
@@ -92,6 +96,7 @@ class RowStore:
             raise UsageProblem(
                 f"{self.path} exists",
                 "--resume does what is missing in it; or choose another --rows",
+                code="cannot-write",
             )
         whole = data.rfind(b"\n") + 1
         for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
@@ -111,6 +116,7 @@ class RowStore:
         raise UsageProblem(
             f"{self.path}, line {number}: this is no row of a sweep",
             "choose another --rows, or remove the line",
+            code="other-file",
         )
 
     def add(self, row: Row) -> None:

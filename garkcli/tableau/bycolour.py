@@ -42,7 +42,9 @@ class ByColour(Mapping[K, Any], Generic[K]):
             *_, last = self._parts
             what = "pair of colours" if isinstance(last, tuple) else "colour"
             raise NoSuchColour(
-                f"{key!r} is no {what} of the method", f"they count from 1, the last is {last!r}"
+                f"{key!r} is no {what} of the method",
+                f"they count from 1, the last is {last!r}",
+                code="arrays",
             ) from None
 
     def __iter__(self) -> Iterator[K]:

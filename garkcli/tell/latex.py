@@ -25,6 +25,7 @@ SIGNS = {
         "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "∞": r"\infty", "α": r"\alpha", "η": r"\eta",
         "ζ": r"\zeta", "ξ": r"\xi", "χ": r"\chi", "θ": r"\theta", "γ": r"\gamma", "ω": r"\omega",
         "λ": r"\lambda", "π": r"\pi", "ρ": r"\rho", "τ": r"\tau", "−": "-", "²": "^2", "³": "^3",
+        "σ": r"\sigma", "𝒜": r"\mathcal A",
         "ᵀ": r"^{\mathsf T}", "𝟙": r"\mathbf 1", "→": r"\to", "↔": r"\leftrightarrow",
         "Â": r"\hat A", "·": r"\cdot", "×": r"\times", "ẏ": r"\dot y", "…": r"\dots",
         "β": r"\beta", "½": r"\frac12", "±": r"\pm", "‖": r"\|", "∂": r"\partial", "Σ": r"\sum",

@@ -67,7 +67,9 @@ class Admissible:
             lengths = {len(edges), *map(len, edges)}
             if lengths != {colours}:
                 shape = f"a {colours} by {colours} matrix"
-                raise TreeError(f"edges must be {shape}, one row for each colour")
+                raise TreeError(
+                    f"edges must be {shape}, one row for each colour", code="pasted-tableau"
+                )
             rows = []
             for row in edges:
                 below = [m for m in everything if row[m]]
@@ -75,7 +77,9 @@ class Admissible:
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
-                raise TreeError(f"{what} is not one of the {colours} colours 0, 1, …")
+                raise TreeError(
+                    f"{what} is not one of the {colours} colours 0, 1, …", code="wrong-value"
+                )
         return cls(colours, tuple(rows), frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:

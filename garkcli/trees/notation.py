@@ -41,8 +41,10 @@ class NotationError(TreeError):
     (from 0).
     """
 
-    def __init__(self, message: str, help: str, offset: int) -> None:
-        super().__init__(message, help)
+    code = "no-such-tree"
+
+    def __init__(self, message: str, help: str, offset: int, *, code: str = "") -> None:
+        super().__init__(message, help, code=code)
         self.offset = offset
 
     def __str__(self) -> str:
@@ -67,7 +69,7 @@ def parse_tree(text: str) -> Tree:
     """
     if len(text) > MAX_LENGTH:
         cure = f"write one of at most {MAX_LENGTH} characters"
-        raise NotationError("the tree is too long", cure, MAX_LENGTH)
+        raise NotationError("the tree is too long", cure, MAX_LENGTH, code="too-many")
     return _Reader(text).read()
 
 
@@ -107,11 +109,11 @@ class _Reader:
         self._take("[", "a branch is missing", "a branch is a tree, such as []_1")
         if len(stack) >= MAX_DEPTH:
             cure = f"at most {MAX_DEPTH} vertices may follow each other"
-            raise NotationError("the tree is too deep", cure, at)
+            raise NotationError("the tree is too deep", cure, at, code="too-many")
         self.vertices += 1
         if self.vertices > MAX_VERTICES:
             cure = f"at most {MAX_VERTICES} vertices are read"
-            raise NotationError("the tree is too large", cure, at)
+            raise NotationError("the tree is too large", cure, at, code="too-many")
         stack.append([])
 
     def _next(self) -> str:

@@ -36,6 +36,8 @@ MOST_KEPT = 10_000
 class TableTooLarge(UsageProblem):
     """More trees were asked for than are ever held in memory at once."""
 
+    code = "too-many"
+
 
 @dataclass(frozen=True)
 class TreeTable:

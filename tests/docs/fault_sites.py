@@ -29,10 +29,13 @@ HOLE = "{}"
 
 @dataclass(frozen=True)
 class Site:
-    """A place where a message is made, with ``{}`` for what it is filled with."""
+    """A place where a message is made, with ``{}`` for what it is filled with, and its code: empty
+    where none is said there, ``{}`` where it is that of another error.
+    """
 
     place: str
     message: str
+    code: str
 
 
 class _File:
@@ -44,6 +47,7 @@ class _File:
         self.around: dict[ast.AST, ast.AST] = {}
         self.calls: dict[str, list[ast.Call]] = {}
         self.assigned: dict[tuple[ast.AST, str], list[ast.expr]] = {}
+        self.owner: dict[ast.AST, str] = {}
         self._walk(self.tree, self.tree)
 
     def _walk(self, node: ast.AST, function: ast.AST) -> None:
@@ -55,6 +59,8 @@ class _File:
                 for target in child.targets:
                     self._assign(target, child.value, function)
             is_function = isinstance(child, ast.FunctionDef)
+            if is_function and isinstance(node, ast.ClassDef):
+                self.owner[child] = node.name
             self._walk(child, child if is_function else function)
 
     def _assign(self, target: ast.expr, value: ast.expr, function: ast.AST) -> None:
@@ -111,7 +117,41 @@ def sites() -> list[Site]:
             if message is None:
                 continue
             where = f"{file.path.relative_to(ROOT)}:{node.lineno}"
-            found += [Site(where, text) for text in _texts(message, file, node, depth=3)]
+            code = _code(node, file)
+            found += [Site(where, text, code) for text in _texts(message, file, node, depth=3)]
+    return found
+
+
+def _code(call: ast.Call, file: _File) -> str:
+    """What a call says of the kind of its error, or the class that it makes."""
+    said = _argument(call, len(call.args), "code")
+    if said is None:
+        name = _name(call.func)
+        return _code_of_class(file.owner.get(file.around[call], name) if name in METHODS else name)
+    return str(said.value) if isinstance(said, ast.Constant) else HOLE
+
+
+def _code_of_class(name: str) -> str:
+    """What a class of errors says, or the first of its bases that does."""
+    definition = _classes().get(name)
+    if definition is None or name == "GarkError":
+        return ""
+    if "Exception" in map(_name, definition.bases):
+        return HOLE  # those of the program are caught where they are made
+    for line in definition.body:
+        if isinstance(line, ast.Assign) and _name(line.targets[0]) == "code":
+            return str(line.value.value) if isinstance(line.value, ast.Constant) else ""
+    return next(filter(None, (_code_of_class(_name(base)) for base in definition.bases)), "")
+
+
+@cache
+def _classes() -> dict[str, ast.ClassDef]:
+    """The classes of the package by their names."""
+    found = {}
+    for path in _paths():
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef):
+                found[node.name] = node
     return found
 
 

@@ -63,6 +63,22 @@ def test_every_message_has_one_code() -> None:
     assert wrong == [], f"each belongs among the messages of a kind in {ENTRIES}"
 
 
+def test_every_error_says_its_code() -> None:
+    """Where an error is raised it says of which kind it is, itself or by its class, and its message
+    is one of that kind; an error that hands on another one has its code.
+    """
+    assert {site.place for site in sites() if not site.code} == set()
+    said: dict[tuple[str, str], set[str]] = {}
+    for site in sites():
+        # a variable may hold the messages of several sites of its function
+        codes = said.setdefault((site.place, site.code), set())
+        if site.code == HOLE or site.message in HANDED_ON:
+            codes.add(site.code)
+        codes.update(codes_of(site.message.replace(HOLE, FILLED)))
+    assert {code for _, code in said} <= {HOLE, *by_code()}
+    assert [(place, code) for (place, code), codes in said.items() if code not in codes] == []
+
+
 def test_no_site_escapes() -> None:
     """The errors whose messages are looked for are all that there are."""
     for name in ("trees.notation", "bridges.cannot", "catalogue.facts"):

@@ -183,7 +183,7 @@ def test_faults_of_one_place_keep_the_order_they_were_met_in() -> None:
     source = Source("m", "")
     messages = [f"fault {n}" for n in range(40)]
     for message in messages:
-        source.fault(None, message)
+        source.fault(None, message, code="doubled")
     assert [fault.message for fault in source.error().faults] == messages
 
 

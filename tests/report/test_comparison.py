@@ -74,7 +74,11 @@ def entries(count: int) -> list[Entry]:
 
 
 FAILED = Entry(
-    "bad.gark.yaml", "bad.gark.yaml", None, (Fault("no such file", "look elsewhere", 3, 4),), 2
+    "bad.gark.yaml",
+    "bad.gark.yaml",
+    None,
+    (Fault("no such file", "look elsewhere", 3, 4, "no-such-file"),),
+    2,
 )
 
 

@@ -327,6 +327,9 @@ def test_a_design_says_how_its_values_are_known(format: str, tmp_path: Path) -> 
     answer = "sdirk.yaml: order 3 for 2 solutions; order 4 for no value"
     assert told().strip("*").removeprefix(r"\subsection*{").startswith(answer)
     assert told().count("order 3 of the method, proved") == 2
+    least = gark("design", "sdirk.yaml", "--minimise", "error", "--format", format, cwd=tmp_path)
+    assert "least error " in " ".join(least.out.split())
+    assert format != "latex" or list(latex_faults(least.out)) == []
     stable = told("--set", "c2=1/2", "--order", "1", "--a-stable")
     assert "decided for single solutions, or for one parameter: --set" in stable
     path.write_text("unknown: {stages: 3, shape: full}\n", encoding="utf-8")
@@ -389,6 +392,19 @@ def test_long_runs_are_told_in_every_format(format: str) -> None:
     if format == "latex":
         texts = [line for text in (run, modified) for line in text.splitlines()]
         assert not list(latex_faults("\n".join(x for x in texts if x.count("&") < 2)))
+
+
+def test_parts_of_a_list_are_told_up_to_a_number() -> None:
+    """A list of parts with titles: so many usually, each under its title, all with details."""
+    titled = Section(Row("count", COUNT, lambda x: x), title=lambda x, _: f"part {x}")
+    whole = Section(Row("answer", COUNT, lambda _: 42), Row("list", table(titled, 2), range))
+    report: Report[int] = Report.only("gark/list/1", "lists", whole)
+    usual, all_of_it = report.render([5]), report.render([5], verbosity=1)
+    assert usual.splitlines()[1:] == [
+        "  answer  42", "  part 0", "    count  0", "  part 1", "    count  1", "  … 3 more with -v",
+    ]  # fmt: skip
+    assert "part 4" in all_of_it
+    assert "more" not in all_of_it
 
 
 @pytest.mark.parametrize("format", ["markdown", "latex"])

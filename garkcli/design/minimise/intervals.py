@@ -45,4 +45,5 @@ def refuse_partitioned(tableau: Tableau) -> None:
             "the linear test equation has no meaning for it: some stages do not see every"
             " vector field",
             "minimise -oscillator-interval",
+            code="wanted-without-meaning",
         )

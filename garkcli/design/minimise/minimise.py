@@ -41,6 +41,7 @@ def step_to_minimise(design: Design) -> Step:
     raise UsageProblem(
         "--minimise: no order is known that methods of the file have",
         "values for some unknowns, by --set, make it decidable",
+        code="not-found",
     )
 
 
@@ -63,6 +64,7 @@ def minimise(
         raise UsageProblem(
             f"{design.family.stable[0]} is decided for exact solutions, a minimum has others",
             "leave it out, and ask gark check of what is found",
+            code="wanted-without-meaning",
         )
     step = step_to_minimise(design)
     if isinstance(objective, str):

@@ -135,6 +135,7 @@ def search_methods(
         raise UsageProblem(
             f"{family.stable[0]} is decided for exact solutions, a search has others",
             "leave it out, and ask gark check of what is found",
+            code="wanted-without-meaning",
         )
     result = Result()
     try:

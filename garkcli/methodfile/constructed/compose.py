@@ -34,7 +34,9 @@ def _scheme(at: PartReader, node: Node, where: str) -> Scheme | None:
     name = at.source.scalar(node, where)
     other = OTHER_NAMES.get(name or "")
     if other:
-        at.source.fault(node, f"{where}: {name} is called {other} here", "write it so")
+        at.source.fault(
+            node, f"{where}: {name} is called {other} here", "write it so", code="unknown-key"
+        )
         return None
     return SCHEMES.get(at.source.choice(node, where, SCHEMES) or "")
 
@@ -43,7 +45,7 @@ def _order(at: PartReader, node: Node, where: str) -> int | None:
     order = at.source.whole(node, where, 2, MAX_ORDER)
     if order is not None and order % 2:
         message = f"{where}: a symmetric method has an even order"
-        at.source.fault(node, message, f"for instance {order + 1}")
+        at.source.fault(node, message, f"for instance {order + 1}", code="not-together")
     return order
 
 
@@ -102,13 +104,18 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
         return None
     found.way(source, where, "the substeps are", ("scheme", "steps"))
     if "scheme" in found.nodes and "of" not in found.nodes:
-        source.fault(node, f"{where}: of missing beside scheme", _FORM)
+        source.fault(node, f"{where}: of missing beside scheme", _FORM, code="missing-key")
     for key in found.nodes.keys() & {"order", "from"}:
         if "scheme" not in found.nodes:
-            source.fault(found.nodes[key], f"{where}: {key} goes with scheme", "leave it out")
+            source.fault(
+                found.nodes[key],
+                f"{where}: {key} goes with scheme",
+                "leave it out",
+                code="option-alone",
+            )
     if not found.nodes.keys() & {"steps", "scheme", "processor"}:
         cure = "give steps: [1/2, 1/2] or scheme: triple-jump"
-        source.fault(node, f"{where}: no substeps", cure)
+        source.fault(node, f"{where}: no substeps", cure, code="missing-key")
     if len(source.faults) > before:
         return None
     steps = [*_steps(at, found, where)]
@@ -138,7 +145,12 @@ def _steps(at: PartReader, found: Found, where: str) -> Iterator[_Step]:
         is_number = isinstance(step, Entry)
         part = whole if is_number else step.get("of", whole)
         if part is None:
-            at.source.fault(place, f"compose, step {number}: the step of no method", _NAME_IT)
+            at.source.fault(
+                place,
+                f"compose, step {number}: the step of no method",
+                _NAME_IT,
+                code="missing-key",
+            )
         elif is_number:
             yield part, step, False
         else:
@@ -153,7 +165,7 @@ def _orders(at: PartReader, found: Found, scheme: Scheme) -> tuple[int, int]:
     if not scheme.has_orders:
         for key in found.nodes.keys() & {"order", "from"}:
             message = f"{scheme.name} has one order, {scheme.order}"
-            at.source.fault(found.nodes[key], message, "leave it out")
+            at.source.fault(found.nodes[key], message, "leave it out", code="not-together")
         return 0, 0
     base = found.get("from", 2)
     wanted = base + 2
@@ -164,7 +176,7 @@ def _orders(at: PartReader, found: Found, scheme: Scheme) -> tuple[int, int]:
         message = f"{scheme.name} from order {base} to {wanted} has radicals of"
         message += f" degree {degree} together (limit {MAX_DEGREE})"
         cure = "take fewer repetitions, or a rounded scheme, such as yoshida-8"
-        at.source.fault(found.nodes["order"], message, cure)
+        at.source.fault(found.nodes["order"], message, cure, code="no-radicals")
         return base, base
     return base, wanted
 

@@ -38,15 +38,15 @@ def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
         number = source.whole(item, where, 1, MAX_PARTS)
         if number in numbers:
             message = f"{where}: {number} stands there twice"
-            source.fault(item, message, "take different numbers")
+            source.fault(item, message, "take different numbers", code="doubled")
         elif number is not None:
             numbers.append(number)
     if len(items) > _MOST_ROWS:
         message = f"{len(items)} rows (limit {_MOST_ROWS})"
-        source.fault(node, message, "take fewer numbers")
+        source.fault(node, message, "take fewer numbers", code="too-many")
     elif len(items) < 2:
         message = f"{where}: two numbers are needed"
-        source.fault(node, message, "write for instance [1, 2]")
+        source.fault(node, message, "write for instance [1, 2]", code="wrong-value")
     return tuple(numbers)
 
 
@@ -97,11 +97,11 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     has_numbers = isinstance(found.nodes.get("sequence"), SequenceNode)
     if has_numbers and "order" in found:
         message = f"{where}: the numbers of sequence say the order"
-        source.fault(found.nodes["order"], message, "keep one of them")
+        source.fault(found.nodes["order"], message, "keep one of them", code="given-twice")
         return None
     if not has_numbers and "order" not in found.nodes:
         cure = "give order: 6, or sequence: [1, 2, 3]"
-        source.fault(node, f"{where}: how far is missing", cure)
+        source.fault(node, f"{where}: how far is missing", cure, code="missing-key")
         return None
     if not found.is_right:
         return None
@@ -146,14 +146,16 @@ class _Plan:
         order, is_symmetric = self.base, self.is_symmetric
         if base.has_parameters and (order is None or is_symmetric is None):
             message = "the order of a method with free parameters is not looked for"
-            raise MethodError(message, "say from: its order, and symmetric: true or false")
+            raise MethodError(
+                message, "say from: its order, and symmetric: true or false", code="free-parameters"
+            )
         if is_symmetric is None:
             is_symmetric = bool(symmetry(base, self.tolerance or ZERO).holds)
         if order is None:
             order = order_of(meant(base, self.tolerance), MAX_ORDER).order
         if order < 1:
             message = "the method has order 0: its error does not go to 0 with h"
-            raise MethodError(message, "extrapolate a consistent one")
+            raise MethodError(message, "extrapolate a consistent one", code="not-consistent")
         numbers = self.sequence
         if isinstance(numbers, str):
             numbers = self._by_name(numbers, order, is_symmetric)
@@ -164,11 +166,13 @@ class _Plan:
         rows = 1 - (order - self.wanted) // gap
         if rows < 2:
             message = f"the method has order {order} already"
-            raise MethodError(message, f"extrapolate to {order + gap} or more")
+            raise MethodError(
+                message, f"extrapolate to {order + gap} or more", code="cannot-construct"
+            )
         numbers = sequence(name, rows)
         if max(numbers) > MAX_PARTS:
             message = f"{max(numbers)} substeps in one row (limit {MAX_PARTS})"
-            raise MethodError(message, "take a lower order, or harmonic")
+            raise MethodError(message, "take a lower order, or harmonic", code="too-many")
         return numbers
 
 

@@ -164,12 +164,14 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
         return None
     way = found.way(at.source, where, "the slow part is", ("slow", "mis", "mri"))
     if way is None and not found.nodes.keys() & {"slow", "mis", "mri"}:
-        at.source.fault(node, f"{where}: the slow method is missing", _FORM)
+        at.source.fault(node, f"{where}: the slow method is missing", _FORM, code="missing-key")
     elif way != "slow" and "coupling" in found.nodes:
         message = f"{where}: coupling does not go with {way}"
-        at.source.fault(found.nodes["coupling"], message, "leave it out")
+        at.source.fault(found.nodes["coupling"], message, "leave it out", code="not-together")
     if way == "mri" and "mri" in found and not found["mri"].nodes.keys() & {"gamma", "omega"}:
-        at.source.fault(found.nodes["mri"], f"{where}, mri: gamma missing", _FORM_OF_MRI)
+        at.source.fault(
+            found.nodes["mri"], f"{where}, mri: gamma missing", _FORM_OF_MRI, code="missing-key"
+        )
     if len(at.source.faults) > before:
         return None
     make: Make
@@ -220,7 +222,7 @@ def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None
     found = f"{len(matrix)} by {len(matrix[0])}"
     message = f"{key} is {found} and should be {rows} by {columns}"
     cure = "give a row for each stage that sees, a column for each seen"
-    raise MethodError(message, cure)
+    raise MethodError(message, cure, code="wrong-size")
 
 
 def _small_steps(at: PartReader, node: Node, key: str, steps: int) -> Iterator[Rows]:
@@ -285,7 +287,7 @@ def _whole(at: PartReader, rows: Rows, node: Node, name: str, count: int) -> Row
     if len(rows) != count - 1 or width > count:
         message = f"{name} is {len(rows)} by {width} for {counted(count, 'node')}"
         cure = "give a row from each node to the next, a column a node"
-        at.source.fault(node, message, cure)
+        at.source.fault(node, message, cure, code="wrong-value")
     zero = at.numbers.written("0", node, name)
     return tuple(row + (zero,) * (count - len(row)) for row in rows)
 

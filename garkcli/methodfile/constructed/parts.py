@@ -116,7 +116,7 @@ class PartReader:
             message = f"{where}: {first.message}"
             if error.source != name:
                 message = f"{where}: {name}: {first.message}"
-            self.source.fault(node, message, first.help)
+            self.source.fault(node, message, first.help, code=first.code)
             return None
         self.parts.append(part)
         return part
@@ -124,10 +124,10 @@ class PartReader:
     def _refused(self, node: Node, where: str, name: str) -> bool:
         """Note what is no name: nothing at all, or a file."""
         if not name:
-            self.source.fault(node, f"{where}: a method is missing", _FORM)
+            self.source.fault(node, f"{where}: a method is missing", _FORM, code="missing-key")
         elif name.endswith((".yaml", ".yml")) or {"/", "\\"} & set(name):
             message = f"{where}: a name is expected here, not a file"
-            self.source.fault(node, message, _NO_FILE)
+            self.source.fault(node, message, _NO_FILE, code="value-expected")
         else:
             return False
         return True
@@ -142,7 +142,7 @@ class PartReader:
         if opened.numbers.free:
             message = f"{name} is a family with free parameters"
             cure = "write its coefficients here, with parameters of this file"
-            opened.source.fault(None, message, cure)
+            opened.source.fault(None, message, cure, code="free-parameters")
         opened.source.close()
         description = opened.description
         part = _part(opened.source, opened.numbers, description, why)
@@ -181,5 +181,5 @@ def one_field(tableau: Tableau, message: str) -> Method:
     """
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
-        raise MethodError(message, "give a method of one colour")
+        raise MethodError(message, "give a method of one colour", code="wrong-size")
     return Method("", tableau.space(0), block, tableau.colours[0].b)

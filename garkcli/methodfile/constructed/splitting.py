@@ -78,7 +78,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     first = "a" if "a" in found.nodes else "b"
     way = found.way(source, where, "the flows are", (first, "flows", "scheme"))
     if way is None and len(source.faults) == before:
-        source.fault(node, f"{where}: no flows", _FORM)
+        source.fault(node, f"{where}: no flows", _FORM, code="missing-key")
     if len(source.faults) > before or way is None:
         return None
     rounding = None
@@ -95,7 +95,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     idle = set(range(terms)) - {l for l, _ in flows}
     if idle:
         message = f"{where}: part {min(idle) + 1} never flows"
-        source.fault(node, message, "give every part a flow")
+        source.fault(node, message, "give every part a flow", code="missing-key")
         return None
 
     def made(tableau_of: Callable[[PartText], Tableau], values: Values) -> Tableau:
@@ -117,13 +117,13 @@ def _terms(at: PartReader, found: Found, where: str) -> int:
         count = len(of.value)
         if count < 2 or count != (terms or count):
             message = f"{where}, of: {count} methods for {terms or count} parts"
-            at.source.fault(of, message, "give one for each part")
+            at.source.fault(of, message, "give one for each part", code="wrong-size")
         return terms or count
     terms = terms or _largest(found.nodes.get("flows"))
     if of is None and terms > 2:
         message = f"{where}: exact flows of {terms} parts are no Runge-Kutta method"
         cure = "give of: METHOD, which takes the steps of the parts"
-        at.source.fault(found.node, message, cure)
+        at.source.fault(found.node, message, cure, code="wrong-size")
     return terms
 
 
@@ -142,13 +142,15 @@ def _alternating(at: PartReader, found: Found, where: str) -> Iterator[_Flow]:
     """Part 1 for a_1, part 2 for b_1, and so on."""
     for key, other in (("a", "b"), ("b", "a")):
         if key not in found:
-            at.source.fault(found.node, f"{where}: {key} missing beside {other}", _FORM)
+            at.source.fault(
+                found.node, f"{where}: {key} missing beside {other}", _FORM, code="missing-key"
+            )
             return
     a, b = found["a"], found["b"]
     if len(a) - len(b) not in {0, 1}:
         message = f"{where}: a has {len(a)} numbers and b has {len(b)}"
         cure = "give as many, or one more to a: part 1 flows first"
-        at.source.fault(found.nodes["b"], message, cure)
+        at.source.fault(found.nodes["b"], message, cure, code="wrong-size")
         return
     for i, entry in enumerate(a):
         yield 0, entry
@@ -169,7 +171,7 @@ def _by_scheme(at: PartReader, found: Found, terms: int, where: str) -> Iterator
     scheme, node = SPLITTINGS[found["scheme"]], found.nodes["scheme"]
     if scheme.terms and scheme.terms != terms:
         message = f"{where}, scheme: {scheme.name} is for {scheme.terms} parts"
-        at.source.fault(node, message, "strang is for any number")
+        at.source.fault(node, message, "strang is for any number", code="not-together")
         return
     for l, text in scheme.flows(terms):
         yield l, at.numbers.written(text, node, scheme.name)

@@ -1,1 +1,1 @@
-"""One file a property: its definition, and how it is decided."""
+"""The properties that files may claim: their definitions, and how they are decided."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from garkcli.errors import Fault
-from garkcli.glossary.faults import code_of
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -25,7 +24,7 @@ def _shown(fault: Fault, lines: list[str]) -> Content:
         "line": fault.line,
         "column": fault.column,
         "text": line,
-        "code": code_of(fault.message),
+        "code": fault.code,
         "message": fault.message,
         "help": fault.help,
     }

@@ -10,7 +10,9 @@ from garkcli.tableau.tableau import Tableau
 def _formula(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     if tableau.size == 1:
         raise UsageProblem(
-            "error-coupling: the method has one colour, and no tree has two", "minimise error"
+            "error-coupling: the method has one colour, and no tree has two",
+            "minimise error",
+            code="wanted-without-meaning",
         )
     return squared_coupling_error(tableau, order + 1, ring)
 

@@ -17,6 +17,7 @@ def _value(tableau: Tableau) -> Size:
         raise UsageProblem(
             "-ssp: some blocks are missing, or the nodes have no simple radicals",
             "spell the tableau out",
+            code="no-radicals",
         )
     return found.value
 
@@ -27,6 +28,7 @@ def _signs(tableau: Tableau, ring: Parameters) -> Signs:
         raise UsageProblem(
             "-ssp: families by name have no rational entries",
             "spell the tableau out, stage by stage",
+            code="no-radicals",
         )
     rows = chain.from_iterable(tableau.blocks.values())
     entries = list(chain.from_iterable(rows))

@@ -1,0 +1,245 @@
+"""What the stages and the weights of a method are like."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from flint import fmpq, fmpq_poly
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.signs import roots_below, sign
+from garkcli.properties.contractive import obstacle, obstacle_within
+from garkcli.properties.last_stage import (
+    first_same_as_last,
+    is_stiffly_accurate,
+    missed_entries,
+    new_value,
+)
+from garkcli.properties.naming import entry_name, number_text, place_name, stages_name, weight_name
+from garkcli.properties.pattern import spaces_that_matter
+from garkcli.properties.property import SEES_ALL, Verdict, claimed
+from garkcli.properties.reduction import are_positive, is_plainly_irreducible, reduced, sizes
+from garkcli.properties.subject import MISSING_BLOCKS, Subject
+from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.tableau import Tableau
+
+
+@claimed(
+    "A. Prothero, A. Robinson, Math. Comp. 28 (1974); globally, for GARK "
+    "methods: A. Sandu, M. Günther, SIAM J. Numer. Anal. 53 (2015)",
+    meaning=SEES_ALL,
+)
+def stiffly_accurate(subject: Subject) -> Verdict:
+    """A stage value is the new value: for one stage i of one method l, a_ij^{l,m} = b_j^{m} for
+    every vector field m and all j.
+    """
+    tableau = subject.tableau
+    if not subject.is_complete:
+        return Verdict.meaningless(MISSING_BLOCKS)
+    if is_stiffly_accurate(tableau, subject.tolerance):
+        return Verdict(True)
+    return Verdict(False, _missed(tableau))
+
+
+def _missed(tableau: Tableau) -> str:
+    """Where the last stage differs from the weights."""
+    space = tableau.spaces[-1]
+    if not isinstance(space, PointSpace):
+        return "at no node the stage has the weights as its rows"
+    k = len(tableau.spaces) - 1
+    i = space.stages - 1
+    (m, j), *_ = missed_entries(tableau, k, i, new_value(tableau))
+    block = tableau.blocks[k, m]
+    entry = number_text(block[i][j])
+    weight = number_text(tableau.colours[m].b[j])
+    name = entry_name(tableau, k, m, i, j)
+    name_of_weight = weight_name(tableau, m, j)
+    return f"{name} is {entry}, {name_of_weight} is {weight}"
+
+
+@claimed("J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980)", meaning=SEES_ALL)
+def fsal(subject: Subject) -> Verdict:
+    """First same as last: the first stage value is the old value, its row zero, and the last one
+    the new value, its row the weights, for all vector fields, in each method. The last evaluations
+    of a step are the first ones of the next.
+    """
+    tableau = subject.tableau
+    if not subject.is_complete:
+        return Verdict.meaningless(MISSING_BLOCKS)
+    found = first_same_as_last(tableau, subject.tolerance)
+    if found.not_first is not None:
+        stage = stages_name(tableau, [(found.not_first, 0)])
+        return Verdict(False, f"{stage} is not the old value")
+    if found.not_last is not None:
+        last = tableau.spaces[found.not_last].stages - 1
+        stage = stages_name(tableau, [(found.not_last, last)])
+        return Verdict(False, f"{stage} is not the new value")
+    return Verdict(True)
+
+
+@claimed("E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, section V.2")
+def symmetric(subject: Subject) -> Verdict:
+    """The method is its own adjoint, the inverse of the step with −h: renumbering the stages of
+    each method, the same for all blocks, turns A^{l,m} into 𝟙 (b^{m})ᵀ − A^{l,m} and keeps the
+    weights. In the stage algebra of a family the renumbering is x → 1 − x. Of a reducible method
+    it is asked of the smaller one that does the same.
+    """
+    found = subject.symmetry
+    if found.holds is None and subject.tolerance:
+        return Verdict.undecided("rounding leaves the nodes open")
+    if found.holds is None:
+        return Verdict.undecided(f"there are more than {MOST_RENUMBERINGS} renumberings")
+    if found.holds:
+        return Verdict(True)
+    return _reduced_verdict(subject)
+
+
+def _reduced_verdict(subject: Subject) -> Verdict:
+    """Where no renumbering does: stages that do nothing, and equal ones, may be in its way."""
+    differs = Verdict(False, "no renumbering of the stages gives the adjoint method")
+    tableau = subject.tableau
+    if is_plainly_irreducible(tableau, subject.tolerance):
+        return differs
+    smaller = reduced(tableau)
+    if smaller is None:
+        return Verdict.undecided("stages at irrational nodes are not compared")
+    settled = _with_idle_stages_in_the_middle(smaller)
+    if settled is tableau:
+        return differs
+    holds = symmetry(settled, subject.tolerance).holds
+    if holds is None:
+        return Verdict.undecided("there are too many renumberings once it is reduced")
+    if holds:
+        return Verdict(True, "once it is reduced")
+    return differs
+
+
+def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
+    """The same method where a last stage that does nothing has the row b_m/2.
+
+    A stage space of which nothing is left keeps one stage, whose row no step depends on. With this
+    row it is its own image in the adjoint method.
+    """
+    half = fmpq(1, 2)
+    blocks = dict(tableau.blocks)
+    matters = spaces_that_matter(tableau)
+    idle = [k for k, space in enumerate(tableau.spaces) if k not in matters and space.stages == 1]
+    for k, m in tableau.blocks:
+        if k in idle:
+            blocks[k, m] = (tuple(half * b for b in tableau.colours[m].b),)
+    return replace(tableau, blocks=blocks) if idle else tableau
+
+
+@claimed(
+    "G. Dahlquist, R. Jeltsch, TRITA-NA-7904 (1979); W. H. Hundsdorfer, M. N. Spijker, "
+    "BIT 21 (1981)"
+)
+def reducible(subject: Subject) -> Verdict:
+    """Fewer stages do the same. A stage that no weight and no stage that matters looks at can be
+    left out (DJ-reducible), the last one of an FSAL method too. Stages that are equal on every
+    problem can be one. `gark reduce` writes the smaller method.
+    """
+    tableau = subject.tableau
+    if is_plainly_irreducible(tableau, subject.tolerance):
+        return Verdict(False, "every stage has a weight, and row sums of its own")
+    smaller = reduced(tableau)
+    if smaller is None:
+        return Verdict.undecided("stages at irrational nodes are not compared")
+    if sizes(smaller) != sizes(tableau):
+        stages = ", ".join(str(space.stages) for space in smaller.spaces)
+        return Verdict(True, f"{stages} stages do the same")
+    if subject.tolerance:
+        return Verdict.undecided("rounding may hide equal stages")
+    return Verdict(False, "every stage matters, and no two are equal")
+
+
+@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.15", kind="count")
+def stage_order(subject: Subject) -> Verdict:
+    """The largest q for which B^{l}(q) and C^{l,m}(q) hold for all l and m whose block exists:
+    quadrature and stage values of the same order q. Of one colour l: for that l and all m. The
+    nodes are those that the file gives.
+    """
+    found = subject.stage_orders
+    least = min(found)
+    names = [colour.name for colour in subject.tableau.colours]
+    by_colour = [
+        f"{'at least ' if q >= subject.limit else ''}{q} of {name}"
+        for q, name in zip(found, names, strict=True)
+    ]
+    why = f"by colour: {', '.join(by_colour)}" if len(found) > 1 else ""
+    return Verdict(least, why, is_at_least=least >= subject.limit)
+
+
+@claimed("J. C. Butcher, Numerical Methods for ODEs, section 23")
+def nodes_in_unit_interval(subject: Subject) -> Verdict:
+    """All nodes c_i^{l} lie in [0, 1]: nothing is evaluated outside of the step."""
+    for l, colour in enumerate(subject.tableau.colours):
+        space = subject.tableau.space(l)
+        if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
+            reflected = space.modulus(fmpq_poly([1, -1]))
+            if roots_below(space.modulus, ZERO) or roots_below(reflected, ZERO):
+                return Verdict(False, f"a node of colour {colour.name} is outside")
+            continue
+        found = subject.points
+        if found is None:
+            return Verdict.undecided("the nodes have no simple radicals")
+        for i, c in enumerate(found.colours[l].c):
+            if sign(_beyond(c) - subject.tolerance) > 0:
+                return Verdict(False, _outside(found, l, i))
+    return Verdict(True)
+
+
+def _beyond(c: Number) -> Number:
+    """How far a node is outside of [0, 1]; not positive for one inside."""
+    return -c if sign(c) < 0 else c - ONE
+
+
+def _outside(tableau: Tableau, l: int, i: int) -> str:
+    colour = tableau.colours[l]
+    return f"{place_name('c', tableau, [colour.name], i)} is {number_text(colour.c[i])}"
+
+
+@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.12")
+def positive_weights(subject: Subject) -> Verdict:
+    """All weights b_i^{l} are larger than 0. In the stage algebra of a family that says that the
+    quadratic form f ↦ b^{l}(f²) is positive definite.
+    """
+    tableau, tolerance = subject.tableau, subject.tolerance
+    is_open = False
+    for m, colour in enumerate(tableau.colours):
+        space = tableau.space(m)
+        if not isinstance(space, PointSpace):
+            if not are_positive(space, colour.b):
+                return Verdict(False, f"b{{{colour.name}}} has an entry that is not positive")
+            is_open = is_open or bool(tolerance)
+            continue
+        for j, b in enumerate(colour.b):
+            if not b or sign(b + tolerance) < 0:
+                why = f"{weight_name(tableau, m, j)} is {number_text(b)}"
+                return Verdict(False, why)
+            is_open = is_open or sign(b - tolerance) <= 0
+    if is_open:
+        return Verdict.undecided("a weight is not larger than the tolerance")
+    return Verdict(True)
+
+
+@claimed(
+    "K. Burrage, J. C. Butcher, SIAM J. Numer. Anal. 16 (1979); for GARK methods: "
+    "A. Sandu, M. Günther, SIAM J. Numer. Anal. 53 (2015)",
+    meaning=SEES_ALL,
+)
+def algebraically_stable(subject: Subject) -> Verdict:
+    """No weight is negative, and the matrix M with the blocks B^{l} A^{l,m} + (A^{m,l})ᵀ B^{m} −
+    b^{l} (b^{m})ᵀ is positive semidefinite. Then differences of solutions never grow where every
+    vector field is contractive (B-stability).
+    """
+    if not subject.is_complete:
+        return Verdict.meaningless(MISSING_BLOCKS)
+    if not subject.tolerance:
+        return Verdict.unless(obstacle(subject.tableau))
+    found = obstacle_within(subject.tableau, subject.tolerance)
+    if found is None:
+        return Verdict.undecided("rounding leaves the signs open")
+    return Verdict.unless(found)
