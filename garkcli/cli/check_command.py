@@ -146,10 +146,12 @@ def _no_file() -> click.MissingParameter:
 def _explain(key: str, output: Output) -> int:
     """Write what a claim means."""
     from garkcli.check.meanings import claim_meaning
-    from garkcli.report.meaning import render
+    from garkcli.report.meaning import REPORT, told
+    from garkcli.tell.report import FORMATS
 
-    found = [claim_meaning(key)]
-    output.write(render(key, found, output.format, output.paint))
+    if output.format not in FORMATS:
+        output.format = "text"
+    output.tell(REPORT, told(key, [claim_meaning(key)]))
     return 0
 
 

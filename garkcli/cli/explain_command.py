@@ -6,6 +6,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from garkcli.cli.options import Output, declared
+from garkcli.tell.report import FORMATS
 
 
 class _Word(click.ParamType):  # type: ignore[type-arg]
@@ -22,7 +23,7 @@ class _Word(click.ParamType):  # type: ignore[type-arg]
         return [CompletionItem(word) for word in words]
 
 
-@declared("explain", ["text", "json"], WORD={"type": _Word()})
+@declared("explain", FORMATS, WORD={"type": _Word()})
 def command(words: tuple[str, ...], output: Output) -> int:
     """What a word of a report or of a file means: its definition, its formula, its source.
 
@@ -31,12 +32,11 @@ def command(words: tuple[str, ...], output: Output) -> int:
     message. Without one the terms are listed.
     """
     from garkcli.check.meanings import explain
-    from garkcli.report import meaning as report
+    from garkcli.report.meaning import REPORT, every_term, list_text, told
 
-    if not words:
-        output.write(report.render_list(output.format))
-        return 0
     word = " ".join(words)
-    found = explain(word)
-    output.write(report.render(word, found, output.format, output.paint))
+    if not word and output.format == "text":
+        output.write(list_text(output.width))
+    else:
+        output.tell(REPORT, told(word, explain(word)) if word else every_term())
     return 0

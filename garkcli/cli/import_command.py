@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from garkcli.cli.options import Output, declared
 from garkcli.doing import counting
 from garkcli.errors import UsageProblem, counted, printable
+from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from garkcli.bridges.readers.found import FoundTable, Reader
 
 
-@declared("import", ["text", "json", "yaml"])
+@declared("import", (*FORMATS, "yaml"))
 def command(
     sources: tuple[str, ...],
     folder: str | None,
@@ -37,6 +38,7 @@ def command(
     """
     from garkcli.bridges.collecting import collected
     from garkcli.bridges.sources import source_files
+    from garkcli.report.imported import REPORT, all_found, yaml_text
 
     output = Output(format, None, verbose - quiet, color)
     if folder is not None:
@@ -55,7 +57,10 @@ def command(
         if table.source in sources:
             output.note(f"{_other(table)}; {_take_it(table)}")
     files = {} if folder is None else _written(results, folder)
-    _report(results, files, output)
+    if output.format == "yaml":
+        output.write(yaml_text(results))
+    else:
+        output.tell(REPORT, [all_found(results, files)])
     return 0
 
 
@@ -118,14 +123,3 @@ def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
         write_whole(path, [result.method.text])
         files[number] = path
     return files
-
-
-def _report(results: Sequence[Result], files: Mapping[int, str], output: Output) -> None:
-    from garkcli.report import imported
-
-    if output.format == "json":
-        output.write(imported.render_json(results, files))
-    elif output.format == "yaml":
-        output.write(imported.render_yaml(results))
-    else:
-        output.write(imported.render_text(results, files, output.verbosity))

@@ -1,114 +1,94 @@
-"""``gark import``: what was found in sources, for people and for programs."""
+"""``gark import``: what was found in sources, declared once."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.collecting import Result
 from garkcli.errors import counted
-from garkcli.page.paint import folded
-from garkcli.page.plain import printable
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import COUNT, POSITION, TEXT, Schema, array, nullable, published
+from garkcli.tell.facts import Answer, Level, Row, Section, Status, parts, picture, table
+from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
+from garkcli.tell.report import Report
 
-SCHEMA = "gark/import/1"
-_WIDTH = 80
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+DETAIL, DATA = Level.DETAIL, Level.DATA
+ORDER = replace(COUNT, absent="no method")
 
 
-class _Told(NamedTuple):
+class Found(NamedTuple):
     """A result with the file that it was written to."""
 
     result: Result
     file: str | None
 
+    @property
+    def name(self) -> str:
+        """What people call it."""
+        return self.result.table.name or self.result.stem
 
-def _order(told: _Told) -> int | None:
-    method = told.result.method
-    return None if method is None else method.order.order
+    def order(self, of: str) -> Answer:
+        """An order of its method, as its digits let it be known."""
+        method = self.result.method
+        found = None if method is None else getattr(method, of)
+        if method is None or found is None:
+            return Answer(None)
+        return Answer(found.order, Status(method.tolerance or None, found.is_limited))
 
 
-def _embedded_order(told: _Told) -> int | None:
-    method = told.result.method
-    if method is None or method.embedded_order is None:
-        return None
-    return method.embedded_order.order
+def all_found(results: Sequence[Result], files: Mapping[int, str]) -> list[Found]:
+    """Results in order, with where each was written, by its number from 0."""
+    return [Found(x, files.get(k)) for k, x in enumerate(results)]
 
 
-_METHOD: Record[_Told] = Record(
-    Field("source", TEXT, lambda x: x.result.table.source),
-    Field("line", POSITION, lambda x: x.result.table.line),
-    Field("format", TEXT, lambda x: x.result.table.format),
-    Field("name", TEXT, lambda x: x.result.table.name),
-    Field("file", nullable(TEXT), lambda x: x.file),
-    Field("stages", COUNT, lambda x: x.result.table.stages),
-    Field("colours", COUNT, lambda x: x.result.table.colours),
-    Field("order", nullable(COUNT), _order),
-    Field("embedded_order", nullable(COUNT), _embedded_order),
-    Field("notes", array(TEXT), lambda x: list(x.result.notes())),
+def _notes(found: Sequence[Found]) -> list[tuple[str, str]]:
+    """What people should know of each."""
+    return [(x.name, note) for x in found for note in x.result.notes()]
+
+
+def _texts(found: Sequence[Found], _: Plain) -> list[str]:
+    """The method files."""
+    return [line for x in found if x.result.method for line in x.result.method.text.splitlines()]
+
+
+SIZES = (
+    Row("stages", COUNT, lambda x: x.result.table.stages),
+    Row("colours", COUNT, lambda x: x.result.table.colours),
+    Row("order", ORDER, lambda x: x.order("order"), has_null=True),
+    Row("embedded_order", COUNT, lambda x: x.order("embedded_order"), has_null=True),
 )
-_REPORT: Record[Sequence[_Told]] = Record(
-    schema_named(SCHEMA), _METHOD.every("methods", lambda x: x)
+METHOD = Section(
+    Row("source", TEXT, lambda x: x.result.table.source),
+    Row("line", POSITION, lambda x: x.result.table.line),
+    Row("format", TEXT, lambda x: x.result.table.format),
+    Row("name", TEXT, lambda x: x.result.table.name),
+    Row("file", TEXT, has_null=True),
+    *SIZES,
+    Row("notes", TEXTS, lambda x: [*x.result.notes()]),
+)
+LINE = Section(
+    Row("name", TEXT, label=""),
+    *SIZES,
+    Row("source", TEXT, lambda x: f"{x.result.table.source}:{x.result.table.line}"),
+    Row("file", TEXT),
+)
+NOTE = Section(Row("name", TEXT, lambda x: x[0], label=""), Row("notes", TEXT, lambda x: x[1]))
+REPORT: Report[Sequence[Found]] = Report.only(
+    "gark/import/1",
+    "report of gark import",
+    Section(
+        Row("methods", parts(METHOD), lambda x: x, DATA),
+        Row("name", table(LINE, 0, is_data=False), lambda x: x),
+        Row("name", table(NOTE, 0, is_data=False), _notes),
+        Row("texts", picture(_texts), lambda x: x, DETAIL),
+        title=lambda x, _: counted(sum(y.result.method is not None for y in x), "method"),
+    ),
 )
 
 
-def import_report_schema() -> Schema:
-    """The JSON Schema of ``gark import --format json``."""
-    return published("report of gark import", _REPORT.schema)
-
-
-def render_json(results: Sequence[Result], files: Mapping[int, str]) -> str:
-    """The methods as JSON.
-
-    Args:
-        results: in order.
-        files: where each was written, by its number from 0.
-    """
-    told = [_Told(x, files.get(k)) for k, x in enumerate(results)]
-    return _REPORT.text(told)
-
-
-def render_yaml(results: Sequence[Result]) -> str:
+def yaml_text(results: Sequence[Result]) -> str:
     """The method files, parted as YAML parts documents."""
-    texts = [x.method.text for x in results if x.method is not None]
-    return "---\n".join(texts)
-
-
-def render_text(results: Sequence[Result], files: Mapping[int, str], verbosity: int = 0) -> str:
-    """A line for each method, with what people should know below it.
-
-    Args:
-        results: in order.
-        files: where each was written, by its number from 0.
-        verbosity: below 0 without notes, above 0 with the method files.
-    """
-    lines: list[str] = []
-    for k, result in enumerate(results):
-        table = result.table
-        place = printable(f"{table.source}:{table.line}")
-        lines.append(f"{place}  {_title(result)}")
-        if k in files:
-            lines.append(f"    wrote {printable(files[k])}")
-        for note in result.notes() if verbosity >= 0 else ():
-            text = printable(note)
-            lines += [f"    {x}" for x in folded(text, _WIDTH - 4, "  ")]
-        if verbosity > 0 and result.method is not None:
-            lines += [f"    {x}" for x in result.method.text.splitlines()]
-    found = sum(x.method is not None for x in results)
-    lines.append(counted(found, "method"))
-    return "\n".join(lines) + "\n"
-
-
-def _title(result: Result) -> str:
-    table = result.table
-    name = printable(table.name or result.stem)
-    if result.method is None:
-        return f"{name}: no method"
-    words = [counted(table.stages, "stage")]
-    if table.colours > 1:
-        words.insert(0, counted(table.colours, "colour"))
-    words.append(f"order {result.method.order.order}")
-    if result.method.embedded_order is not None:
-        embedded = result.method.embedded_order.order
-        words.append(f"embedded order {embedded}")
-    return f"{name}: {', '.join(words)}"
+    return "---\n".join(x.method.text for x in results if x.method is not None)

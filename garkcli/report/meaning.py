@@ -3,109 +3,85 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import chain
-from typing import NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.glossary.registry import TOPICS, terms_of
 from garkcli.glossary.term import Term
-from garkcli.page.paint import Paint, folded, indented
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import TEXT, Schema, array, published
+from garkcli.page.paint import folded, indented
+from garkcli.properties.definitions import Definition
+from garkcli.tell.facts import Level, Row, Section
+from garkcli.tell.kinds import TEXT, TEXTS
+from garkcli.tell.report import Report
 
-SCHEMA = "gark/explain/1"
-_WIDTH = 80
-_MARGIN = 12
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
 
 
-class _Word(NamedTuple):
-    """A word with its meanings."""
+class Told(NamedTuple):
+    """A meaning of a word."""
 
     word: str
-    meanings: Sequence[Meaning]
+    meaning: Meaning
 
 
-_MEANING: Record[Meaning] = Record(
-    Field("kind", TEXT, lambda x: x.kind),
-    Field("name", TEXT, lambda x: x.name),
-    Field("text", TEXT, lambda x: x.text),
-    Field("formula", TEXT, lambda x: x.formula or None, is_optional=True),
-    Field("values", TEXT, lambda x: x.values or None, is_optional=True),
-    Field("for", TEXT, lambda x: x.scope or None, is_optional=True),
-    Field("default", TEXT, lambda x: x.default or None, is_optional=True),
-    Field("example", TEXT, lambda x: x.example or None, is_optional=True),
-    Field("cure", TEXT, lambda x: x.cure or None, is_optional=True),
-    Field("source", TEXT, lambda x: x.source),
-    Field("see", array(TEXT), lambda x: list(x.see)),
-)
-_REPORT: Record[_Word] = Record(
-    schema_named(SCHEMA),
-    Field("word", TEXT, lambda x: x.word),
-    _MEANING.every("meanings", lambda x: x.meanings),
-)
+def _optional(key: str, field: str = "") -> Row:
+    """A part of a meaning that some have."""
+    return Row(key, TEXT, lambda x: getattr(x, field or key) or None, is_optional=True)
 
 
-def explain_report_schema() -> Schema:
-    """The JSON Schema of ``gark explain --format json``."""
-    return published("report of gark explain", _REPORT.schema)
-
-
-def render(word: str, found: Sequence[Meaning], format: str, paint: Paint) -> str:
-    """What a word means, as text or as JSON."""
-    if format == "json":
-        return _REPORT.text(_Word(word, found))
-    blocks = [_block(meaning, paint) for meaning in found]
-    return "\n".join(blocks)
-
-
-def _block(meaning: Meaning, paint: Paint) -> str:
-    lines = _lines(meaning, paint)
-    return "\n".join(lines) + "\n"
-
-
-def _lines(meaning: Meaning, paint: Paint) -> Iterator[str]:
-    name = paint("strong", meaning.name)
-    yield f"{name}: {meaning.kind}"
-    yield from indented(folded(meaning.text, _WIDTH - 2, ""))
-    if meaning.formula:
-        yield ""
-        yield from indented(folded(meaning.formula, _WIDTH - 4, ""), "    ")
-        yield ""
-    yield from _part("claim", meaning.values)
-    yield from _part("for", meaning.scope)
-    yield from _part("default", meaning.default)
-    yield from _example(meaning.example)
-    yield from _part("cure", meaning.cure)
-    yield from _part("source", meaning.source)
-    yield from _part("see", ", ".join(meaning.see))
-
-
-def _example(text: str) -> Iterator[str]:
+def _example_rows(text: str, d: Plain) -> list[tuple[str, str]]:
     """Lines of a file or a command, as they are written."""
-    for number, line in enumerate(text.splitlines()):
-        label = "  example" if number == 0 else ""
-        yield label.ljust(_MARGIN) + line
+    return [("" if i else "example", d.prose(x)) for i, x in enumerate(text.splitlines())]
 
 
-def _part(label: str, text: str) -> list[str]:
-    """A part beside its label; nothing where it is empty."""
-    if not text:
-        return []
-    first, *rest = folded(text, _WIDTH - _MARGIN, "")
-    head = f"  {label}".ljust(_MARGIN)
-    return [head + first, *indented(rest, " " * _MARGIN)]
+EXAMPLE = replace(TEXT, rows=_example_rows)
+MEANING = Section(
+    *(
+        row.of(lambda x: x.meaning)
+        for row in (
+            Row("kind", TEXT, level=Level.DATA),
+            Row("name", TEXT, level=Level.DATA),
+            Row("text", TEXT, label="", line="text"),
+            _optional("formula"),
+            _optional("values"),
+            _optional("for", "scope"),
+            _optional("default"),
+            replace(_optional("example"), kind=EXAMPLE),
+            _optional("cure"),
+            Row("source", TEXT),
+            Row("see", TEXTS),
+        )
+    ),
+    title=lambda x, d: d.prose(f"{x.meaning.name}: {x.meaning.kind}"),
+)
+REPORT: Report[Told] = Report(
+    "gark/explain/1",
+    "report of gark explain",
+    lambda: [MEANING],
+    lambda _: MEANING,
+    key="meanings",
+    tail=Section(Row("word", TEXT, lambda xs: xs[0].word)),
+)
 
 
-def render_list(format: str) -> str:
-    """The terms by topic, as text or as JSON."""
-    if format == "json":
-        terms = chain.from_iterable(map(terms_of, TOPICS))
-        meanings = [term_meaning(term) for term in terms]
-        return _REPORT.text(_Word("", meanings))
+def told(word: str, found: Sequence[Meaning]) -> list[Told]:
+    """The meanings of a word."""
+    return [Told(word, meaning) for meaning in found]
+
+
+def every_term() -> list[Told]:
+    """The terms, each with its meaning."""
+    return told("", [term_meaning(x) for topic in TOPICS for x in terms_of(topic)])
+
+
+def list_text(width: int) -> str:
+    """The names of the terms by topic."""
     lines = []
     for topic, title in TOPICS.items():
         names = "; ".join(term.name for term in terms_of(topic))
-        lines += [title, *indented(folded(names, _WIDTH - 2, ""))]
+        lines += [title, *indented(folded(names, width - 2, ""))]
     return "\n".join(lines) + "\n"
 
 
@@ -132,3 +108,12 @@ def _entry(term: Term) -> Iterator[str]:
         see = ", ".join(term.see)
         yield f"See {see}."
     yield f"Source: {term.source}."
+
+
+def as_markdown(found: Definition) -> str:
+    """What a claim means, as a section of docs/properties.md."""
+    lines = [f"### {found.key}", "", found.text, "", f"Claim: {found.values}."]
+    if found.meaning:
+        lines[-1] += f" For {found.meaning}."
+    lines += ["", f"Source: {found.source}."]
+    return "\n".join(lines) + "\n"

@@ -141,10 +141,10 @@ def _sweep(report: SweepReport, format: str, _: str) -> str:
 
 
 def _meanings(value: Any, format: str, name: str) -> str:
-    from garkcli.report.meaning import render as written
+    from garkcli.report.meaning import REPORT, told
 
     found = value if isinstance(value, (list, tuple)) else [value]
-    return written(name or found[0].name, found, format, _PLAIN)
+    return REPORT.render(told(name or found[0].name, found), format)
 
 
 def _audited(value: Any, format: str, _: str) -> str:
@@ -156,7 +156,7 @@ def _audited(value: Any, format: str, _: str) -> str:
 
 WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
     "bridges.Audited": (_audited, (*FORMATS, "github", "sarif")),
-    "check.Meaning": (_meanings, ("text", "json")),
+    "check.Meaning": (_meanings, FORMATS),
     "check.Outcome": (_outcomes, (*FORMATS, "sarif", "junit", "github")),
     "report.SweepReport": (_sweep, (*FORMATS, "csv", "jsonl")),
     "tableau.GarkMethod": (_method, FORMATS),

@@ -16,7 +16,7 @@ _TABLEAU = "garkcli.report.tableau:REPORT"
 REPORTS = {
     "check": "garkcli.report.checked:REPORT",
     "claims": "garkcli.report.claims:REPORT",
-    "explain": "garkcli.report.meaning:explain_report_schema",
+    "explain": "garkcli.report.meaning:REPORT",
     "trees": "garkcli.report.symplectic:trees_report_schema",
     "conditions": "garkcli.report.conditions_json:conditions_report_schema",
     "tableau": _TABLEAU,
@@ -41,7 +41,7 @@ REPORTS = {
     "cite": "garkcli.report.citation:REPORT",
     "list-exports": "garkcli.report.listing:EXPORTS",
     "audit": "garkcli.report.audited:REPORT",
-    "import": "garkcli.report.imported:import_report_schema",
+    "import": "garkcli.report.imported:REPORT",
     "sweep": "garkcli.report.sweep:REPORT",
 }
 """Where a report is declared, or the function is that makes its schema."""

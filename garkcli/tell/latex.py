@@ -133,7 +133,7 @@ class Latex(Plain):
         return [rf"\paragraph{{{text}}}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
-        return [f"{text}.", ""]
+        return [f"{text.removesuffix('.')}.", ""]
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         body = [rf"{label} & {text} \\" for label, text in rows]

@@ -46,7 +46,7 @@ class Markdown(Plain):
         return [f"{'#' * (depth + 2)} {text}", ""]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
-        return [f"{text}.", ""]
+        return [f"{text.removesuffix('.')}.", ""]
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         return ["| | |", "|---|---|", *(f"| {label} | {text} |" for label, text in rows), ""]

@@ -46,7 +46,7 @@ FORMULA = re.compile(r".*[|{}=/].*|[A-Z]|sqrt.*")
 
 def is_head(line: str) -> bool:
     """Whether a list of methods begins."""
-    return line.startswith("  name ") and "order" in line
+    return line.startswith("  name ") and ("order" in line or line.endswith("  notes"))
 
 
 def labels(text: str) -> Iterator[str]:

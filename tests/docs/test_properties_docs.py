@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from garkcli.properties.definitions import every_definition
-from garkcli.report.explanation import as_markdown
+from garkcli.report.meaning import as_markdown
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "properties.md"
 MARK = "<!-- definitions -->\n"

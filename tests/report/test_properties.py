@@ -15,7 +15,7 @@ from garkcli.errors import UsageProblem
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.properties.keys import KEYS
 from garkcli.report.checked import REPORT
-from garkcli.report.meaning import explain_report_schema
+from garkcli.report.meaning import REPORT as MEANINGS
 from tests.cli.harness import ROOT, gark
 
 METHODS = sorted((ROOT / "methods").glob("*.yaml"))
@@ -104,11 +104,11 @@ def test_every_claim_is_explained(key: str) -> None:
     lines = run.out.splitlines()
     assert lines[0] == f"{key}: claim under expect"
     assert max(map(len, lines)) <= 80
-    assert any(line.startswith("  source   ") for line in lines)
+    assert any(line.startswith("  source  ") for line in lines)
     assert gark("check", "--explain", key, encoding="ascii").out.isascii()
     data = json.loads(gark("check", "--explain", key, "--format", "json").out)
     assert [x["name"] for x in data["meanings"]] == [key]
-    assert list(Draft7Validator(explain_report_schema()).iter_errors(data)) == []
+    assert list(Draft7Validator(MEANINGS.schema).iter_errors(data)) == []
 
 
 def test_an_unknown_key_has_a_suggestion() -> None:
