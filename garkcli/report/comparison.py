@@ -326,7 +326,7 @@ REPORT: Report[Compared] = Report.only(
     "gark/converge-comparison/1",
     "report of gark converge of several methods",
     Section(
-        Row("answer", told(lambda _, d: "", _answer), lambda c: c, HEADLINE),
+        Row("answer", told(lambda _, d: "", _answer), lambda c: c, HEADLINE, label=""),
         Row("problem_in_words", WORDS, _problem, label="problem"),
         Row("remarks", rows_of(lambda xs, d: [(x, d.prose(text)) for x, text in xs]), _remarks),
         Row("methods", table(METHOD, MOST_METHODS, is_data=False), lambda c: c.named, label=""),

@@ -418,7 +418,7 @@ RUN = [
             ("drifts", TRUTH, lambda x: x.drifts),
         )
     ),
-    Row("answer", told(lambda _, d: "", _answer), lambda x: x, HEADLINE),
+    Row("answer", told(lambda _, d: "", _answer), lambda x: x, HEADLINE, label=""),
     Row("verdicts", rows_of(_verdicts), lambda x: x),
     Row(
         "quantities",

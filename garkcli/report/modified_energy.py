@@ -124,7 +124,7 @@ MEASURED = Section(
         lambda x: x.run,
         [
             Row("problem", TEXT, lambda x: x.problem.name, DATA),
-            Row("answer", told(lambda _, d: "", _answer), lambda x: x.energies, HEADLINE),
+            Row("answer", told(lambda _, d: "", _answer), lambda x: x.energies, HEADLINE, label=""),
             Row(
                 "problem_in_words",
                 WORDS,

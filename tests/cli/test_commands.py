@@ -47,7 +47,10 @@ RUNS = [
     (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "markdown", "latex", "csv")),
     (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
     (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
-    (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),
+    (
+        ("energy", VERLET, "--t-end", "20", "--step", "1/10"),
+        ("text", "json", "csv", "markdown", "latex"),
+    ),
     (
         ("audit", "tests/bridges/sources/register.cpp"),
         ("auto", "text", "json", "markdown", "latex", "github", "sarif"),
@@ -69,7 +72,7 @@ RUNS = [
     (("reduce", VERLET), ("yaml", "text", "json", "markdown", "latex")),
     (("convert", VERLET), ("yaml", "text", "json", "markdown", "latex")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown", "latex")),
-    (("modified", VERLET), ("text", "json", "latex")),
+    (("modified", VERLET), ("text", "json", "markdown", "latex")),
     (("certificate", VERLET), ("json", "text", "markdown", "latex")),
     (("design", FREE), ("text", "json", "markdown", "latex")),
     (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "markdown", "latex", "jsonl", "csv")),

@@ -158,7 +158,10 @@ TERMS = (
         " start.",
         "|H(q_n, p_n) − H(q_0, p_0)|",
         _ENERGY,
-        ("max error",),
+        (
+            *("max error", "at the start"),
+            "root mean square of H(t) - H(0), and with the modified terms of H",
+        ),
         ("oscillation", "drift"),
     ),
     Term(
