@@ -8,20 +8,18 @@ from collections.abc import Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 from yaml.nodes import Node
 
-from garkcli.methodfile.formulas import BITS, Formulas, nearby
+from garkcli.methodfile.formulas import Formulas, nearby
 from garkcli.methodfile.problem_text import STIFFNESS, ProblemText, Side
-from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.termreader import Term, TermReader, formulas_of_invariants, named
-from garkcli.methodfile.words import unquoted
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
     from garkcli.problems.righthandside import RightHandSide
 
-_SHOWN = 8  # most missing names that are told
 # parts of the time, where a solution is tried
 _TRIES = fmpq(1, 3), fmpq(2, 3), fmpq(1)
 ByName: TypeAlias = dict[str, Term]
@@ -64,7 +62,8 @@ class SidesMaker:
         self.reader.check_numbers([*all_terms, *invariants, *solution])
         self.source.close()
         assert start is not None
-        self._check_jacobians(all_terms, start)
+        # Newton's method needs derivatives
+        self.reader.check_derivatives(all_terms, self.y, start, {self.t: arb(0)})
         self._refuse_constants(all_terms, terms, invariants)
         self.source.close()
         made = RightHandSide(
@@ -134,7 +133,7 @@ class SidesMaker:
         found = self._by_name(tuple(items), names, "parameter, nor t")
         if self.text.are_named:
             cure = f"a formula, such as {{}}: cos({TIME})"
-            self._refuse_missing(node, "exact", entries, cure)
+            self.reader.refuse_missing(node, "exact", variables, entries, cure)
         return found if len(self.source.faults) == before else None
 
     def _initial(self, exact: ByName | None) -> Start | None:
@@ -145,16 +144,10 @@ class SidesMaker:
             return started
         before = len(self.source.faults)
         variables = self.text.variables if self.text.are_named else ()
-        entries = self.source.mapping(node, "initial", variables)
-        values: Start = {}
-        for name, x in entries.items():
-            shown = name if self.text.are_named else unquoted(name)
-            value = self.formulas.rational(x, f"initial: {shown}")
-            if value is not None:
-                values[name] = value
+        entries, values = self.reader.numbers(node, "initial", variables)
         if self.text.are_named and len(self.source.faults) == before:
             cure = "a number, such as {}: 1/2"
-            self._refuse_missing(node, "initial", entries, cure)
+            self.reader.refuse_missing(node, "initial", variables, entries, cure)
         if len(self.source.faults) > before or not self.text.are_named:
             return None
         if exact is not None and started is not None:
@@ -182,35 +175,10 @@ class SidesMaker:
                 found[name] = nearby(value)
         return found if len(found) == len(exact) else None
 
-    def _refuse_missing(self, node: Node, where: str, given: Entries, cure: str) -> None:
-        missing = [x for x in self.text.variables if x not in given]
-        if missing:
-            more = ", …" if len(missing) > _SHOWN else ""
-            names = ", ".join(missing[:_SHOWN])
-            message = f"{where}: no value for {names}{more}"
-            example = cure.format(missing[0])
-            self.source.fault(node, message, f"give each {example}", code="missing-key")
-
-    def _check_jacobians(self, terms: Sequence[Term], start: Start) -> None:
-        """Note right-hand sides that have no derivative at the start: Newton's method needs it."""
-        from garkcli.problems.start import missing_derivative
-
-        with ctx.workprec(BITS):
-            at = {x: arb(start[str(x)]) for x in self.y}
-            at[self.t] = arb(0)
-        for term in terms:
-            missing = missing_derivative(term.made, self.y, at)
-            if missing is not None:
-                what, cure = missing
-                message = f"{term.where} at the initial values: {what}"
-                self.source.fault(term.node, message, cure, code="no-formula")
-
     def _refuse_constants(
         self, all_terms: Sequence[Term], terms: Sequence[ByName], invariants: Sequence[Term]
     ) -> None:
         """Note right-hand sides with which nothing moves, and invariants that depend on nothing."""
-        from garkcli.problems.vectorfield import is_constant
-
         moves = False
         for name in self.text.variables:
             parts = [term[name].made for term in terms if name in term]
@@ -219,13 +187,7 @@ class SidesMaker:
             message = "nothing moves: the right-hand sides sum to 0"
             cure = "write the derivative of a variable"
             self.source.fault(all_terms[0].node, message, cure, code="nothing-moves")
-        for invariant in invariants:
-            if is_constant(invariant.made):
-                why = "it depends on no variable"
-                message = f"{invariant.where} is constant: {why}"
-                cure = "write a first integral in the variables, "
-                cure += "or leave it out"
-                self.source.fault(invariant.node, message, cure, code="nothing-moves")
+        self.reader.refuse_constants(invariants, "the variables")
 
     def _check_solution(self, problem: RightHandSide, exact: ByName) -> None:
         """Note a solution whose derivative differs from the right-hand sides at a later time, with

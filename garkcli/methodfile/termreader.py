@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from flint import arb, ctx, fmpq
@@ -12,10 +12,12 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.nodes import Expression
 from garkcli.methodfile.formulas import BITS, Formulas
 from garkcli.methodfile.problem_text import ProblemText
-from garkcli.methodfile.source import Source
-from garkcli.problems.expr import Expr, Invariants
+from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.words import unquoted
+from garkcli.problems.expr import Expr, Invariants, Place, Vector
 from garkcli.transfer import LOG10_2
 
+_SHOWN = 8  # most missing names that are told
 MAX_BITS = 4_000
 """Longest numerator or denominator: squared and cubed it is short of the 4300 digits that Python
 writes.
@@ -81,6 +83,55 @@ class TermReader:
             if all(str(x) in start for x in term.made.free_symbols):
                 where = f"{term.where} at the initial values"
                 self.formulas.value(term.expression, term.node, where, values)
+
+    def numbers(
+        self, node: Node, where: str, names: Sequence[str]
+    ) -> tuple[Entries, dict[str, fmpq]]:
+        """Values by names: what is given, and the numbers; of no names given all may stand here."""
+        entries = self.source.mapping(node, where, names)
+        values: dict[str, fmpq] = {}
+        for name, x in entries.items():
+            value = self.formulas.rational(x, f"{where}: {unquoted(name)}")
+            if value is not None:
+                values[name] = value
+        return entries, values
+
+    def refuse_missing(
+        self, node: Node, where: str, needed: Iterable[object], given: Container[str], example: str
+    ) -> None:
+        """Note names without a value; ``example`` is one, with ``{}`` for a name."""
+        missing = [name for name in map(str, needed) if name not in given]
+        if missing:
+            more = ", …" if len(missing) > _SHOWN else ""
+            message = f"{where}: no value for {', '.join(missing[:_SHOWN])}{more}"
+            self.source.fault(
+                node, message, f"give each {example.format(missing[0])}", code="missing-key"
+            )
+
+    def refuse_constants(self, invariants: Sequence[Term], noun: str) -> None:
+        """Note first integrals that are none: they are constant for every motion."""
+        from garkcli.problems.vectorfield import is_constant
+
+        for invariant in invariants:
+            if is_constant(invariant.made):
+                message = f"{invariant.where} is constant: it depends on no variable"
+                cure = f"write a first integral in {noun}, or leave it out"
+                self.source.fault(invariant.node, message, cure, code="nothing-moves")
+
+    def check_derivatives(
+        self, terms: Sequence[Term], y: Vector, start: Mapping[str, fmpq], more: Place
+    ) -> None:
+        """Note terms that have no derivative at the start, where more names may have values."""
+        from garkcli.problems.start import missing_derivative
+
+        with ctx.workprec(BITS):
+            at = {**{x: arb(start[str(x)]) for x in y}, **more}
+        for term in terms:
+            missing = missing_derivative(term.made, y, at)
+            if missing is not None:
+                what, cure = missing
+                message = f"{term.where} at the initial values: {what}"
+                self.source.fault(term.node, message, cure, code="no-formula")
 
     def check_size(self, terms: Sequence[Term]) -> None:
         """Note terms whose derivatives are too long."""

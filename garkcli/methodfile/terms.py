@@ -4,7 +4,7 @@ derivatives.
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -18,13 +18,12 @@ from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.problem_text import ProblemText
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.termreader import Term, TermReader, formulas_of_invariants, named
-from garkcli.methodfile.words import unquoted
 from garkcli.problems.expr import Expr, Place, Vector
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
-_SHOWN = 8  # most missing names that are told
+_NUMBER = "a number, such as {}: 1/2"
 _GOOD = 10.0**-PLACES  # the radius of momenta that may be taken for the start
 
 
@@ -63,7 +62,7 @@ class Maker:
             terms, start = self._transformed(terms, start)
         names = [str(x) for x in (*self.q, *self.p)]
         at = {name: start[name] for name in names}
-        self._check_fields(terms, at)
+        self.reader.check_derivatives(terms, (*self.q, *self.p), at, {})
         self.reader.check_values(invariants, at)
         self._refuse_constants(terms, invariants)
         self.source.close()
@@ -82,43 +81,22 @@ class Maker:
         if node is None:
             return None
         if not self.text.are_named:
-            self._read_unnamed(node)
+            self.reader.numbers(node, "initial", ())
             return None
         before = len(self.source.faults)
         # a Lagrangian starts with velocities or with momenta
         motions = [self.p, self.v] if self.is_lagrangian else [self.p]
         names = [str(x) for x in chain(self.q, *motions)]
-        entries = self.source.mapping(node, "initial", names)
-        values: dict[str, fmpq] = {}
-        for name, x in entries.items():
-            value = self.formulas.rational(x, f"initial: {name}")
-            if value is not None:
-                values[name] = value
+        entries, values = self.reader.numbers(node, "initial", names)
         given = [x for x in motions if not entries.keys().isdisjoint(map(str, x))]
         if len(given) > 1:
             cure = "give all velocities or all momenta"
             self.source.fault(node, "initial: velocities and momenta", cure, code="given-twice")
         elif len(self.source.faults) == before:
             (motion,) = given or motions[-1:]
-            self._refuse_missing(node, motion, entries)
+            needed = (*self.q, *motion)
+            self.reader.refuse_missing(node, "initial", needed, entries, _NUMBER)
         return values if len(self.source.faults) == before else None
-
-    def _read_unnamed(self, node: Node) -> None:
-        """Note what is wrong with the numbers alone, where the names are not known."""
-        for name, x in self.source.mapping(node, "initial", ()).items():
-            where = f"initial: {unquoted(name)}"
-            self.formulas.rational(x, where)
-
-    def _refuse_missing(self, node: Node, motion: Vector, given: Container[str]) -> None:
-        """Note positions, and momenta or velocities, without a value."""
-        needed = map(str, (*self.q, *motion))
-        missing = [name for name in needed if name not in given]
-        if missing:
-            more = ", …" if len(missing) > _SHOWN else ""
-            names = ", ".join(missing[:_SHOWN])
-            message = f"initial: no value for {names}{more}"
-            cure = f"give each a number, such as {missing[0]}: 1/2"
-            self.source.fault(node, message, cure, code="missing-key")
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
@@ -236,24 +214,4 @@ class Maker:
             message = f"the Hamiltonian is constant: {why}"
             cure = "write it in positions and momenta"
             self.source.fault(terms[0].node, message, cure, code="nothing-moves")
-        for invariant in invariants:
-            if is_constant(invariant.made):
-                why = "it depends on no variable"
-                message = f"{invariant.where} is constant: {why}"
-                cure = "write a first integral in positions and momenta, "
-                cure += "or leave it out"
-                self.source.fault(invariant.node, message, cure, code="nothing-moves")
-
-    def _check_fields(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
-        """Note terms that have no derivative at the start."""
-        from garkcli.problems.start import missing_derivative
-
-        y = (*self.q, *self.p)
-        with ctx.workprec(BITS):
-            at = {x: arb(start[str(x)]) for x in y}
-        for term in terms:
-            missing = missing_derivative(term.made, y, at)
-            if missing is not None:
-                what, cure = missing
-                message = f"{term.where} at the initial values: {what}"
-                self.source.fault(term.node, message, cure, code="no-formula")
+        self.reader.refuse_constants(invariants, "positions and momenta")
