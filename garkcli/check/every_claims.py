@@ -12,7 +12,7 @@ from garkcli.check.every_value import EveryValue
 from garkcli.check.every_words import fact_text
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.expectations import NUMBERS, TABLES, AtLeast
+from garkcli.methodfile.expectations import OF_ORDERS, AtLeast
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.keys import KEYS
 
@@ -24,7 +24,7 @@ _OF_TABLES: dict[str, Callable[[Simplifying], Any]] = {
     "sharp-bound": lambda x: x.sharp_bound,
 }
 """Claims on what B, C and D are."""
-GROWING = {*NUMBERS, *TABLES, "stage-order"}
+GROWING = OF_ORDERS
 """Claims on how many conditions hold."""
 
 

@@ -24,12 +24,12 @@ from garkcli.methodfile.description import (
     further_of,
 )
 from garkcli.methodfile.diagonal import DiagonalReader
-from garkcli.methodfile.expectations import NUMBERS, TRUTHS
 from garkcli.methodfile.file_keys import KEYS, KEYS_OF_METHOD
 from garkcli.methodfile.nodes import key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spelled_out import SpelledOutReader
+from garkcli.properties.definitions import ORDERS
 from garkcli.transfer import RULES
 
 if TYPE_CHECKING:
@@ -39,7 +39,9 @@ if TYPE_CHECKING:
 _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
 _START = "give A and b, or one of the keys methods, tableau, ark, prk"
 _HOMES = {
-    "claims go under expect, for instance expect: {order: 4}": (*NUMBERS, *TRUTHS),
+    "claims go under expect, for instance expect: {order: 4}": [
+        key for key in ORDERS if len(key) > 1
+    ],
     "write methods: [{family: gauss, stages: 2}]": ("family", "stages"),
     "it goes under transfer": ("blocks", "default"),
     "it goes under prk: {q: {A, b}, p: {A, b}}": ("q", "p"),

@@ -13,27 +13,13 @@ from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.grammar import FLAG, Key, Kind, mapping
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.words import shortened
+from garkcli.properties.definitions import ORDERS, definition, every_definition
 from garkcli.properties.keys import KEYS
 
 if TYPE_CHECKING:
     from garkcli.methodfile.measures import Measure
 
-NUMBERS = (
-    "order",
-    "conjugate-order",
-    "pair-order",
-    "bound",
-    "pair-bound",
-    "sharp-bound",
-    "pair-sharp-bound",
-    "nonautonomous-order",
-    "embedded-order",
-    "embedded-nonautonomous-order",
-    "dense-order",
-)
-TRUTHS = ("symplectic", "dense-continuous", "dense-smooth")
-TABLES = ("B", "C", "D")
-CLAIMS = (*NUMBERS, *TABLES, *TRUTHS, *KEYS)
+CLAIMS = (*ORDERS, *KEYS)
 """Everything a file may claim."""
 _FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")
@@ -101,7 +87,7 @@ _REAL = Kind(
     lambda: {"type": ["number", "string"], "pattern": r"^(>=\s*)?[-+*/^(),.\sA-Za-z0-9_]+$"},
     _measure,
 )
-_KINDS: dict[str, Kind] = {"truth": FLAG, "count": _COUNT, "number": _REAL}
+_KINDS = {"truth": FLAG, "count": _COUNT, "number": _REAL, "row": _ROW, "table": _table(_ROW)}
 _EXAMPLES = {
     "B": "[4, 4]",
     "C": "[[2, 3], [3, 3]]",
@@ -114,33 +100,19 @@ _EXAMPLES = {
 """How tables and real numbers are claimed."""
 
 
-def kind_of(key: str) -> Kind:
-    """What a claim is made with."""
-    if key in TABLES:
-        return _ROW if key == "B" else _table(_ROW)
-    if key in KEYS:
-        from garkcli.properties.registry import find  # few files claim properties
-
-        return _KINDS[find(key).kind]
-    return _COUNT if key in NUMBERS else FLAG
-
-
 def claims() -> Iterator[Key]:
     """Every claim with what it means."""
-    from garkcli.properties.definitions import every_definition
-
     for claim in every_definition():
-        kind = kind_of(claim.key)
-        example = _EXAMPLES.get(claim.key, "4" if kind is _COUNT else "true")
+        example = _EXAMPLES.get(claim.key, "4" if claim.kind == "count" else "true")
         text = f"{claim.text} It is claimed as {claim.values.replace('`', '')}."
-        yield Key(f"{claim.key}: {example}", kind, text, is_listed=False)
+        yield Key(f"{claim.key}: {example}", _KINDS[claim.kind], text, is_listed=False)
 
 
 def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
     """The claims of ``expect``; faulty ones are noted."""
     entries = at.source.mapping(node, where, CLAIMS, form=_FORM)
     return tuple(
-        ClaimText(value, key, kind_of(key).read(at, value, f"{where}, {key}"))
+        ClaimText(value, key, _KINDS[definition(key).kind].read(at, value, f"{where}, {key}"))
         for key, value in entries.items()
     )
 
@@ -149,13 +121,13 @@ EXPECT = Kind(mapping(more=claims).schema, _read)
 """What a file claims."""
 
 
-_OF_ORDERS = {*NUMBERS, *TABLES, "stage-order"}
+OF_ORDERS = {*(key for key, x in ORDERS.items() if x.kind != "truth"), "stage-order"}
 """Claims for which orders must be looked for as far as their numbers, and one further."""
 
 
 def highest_order(claims: tuple[ClaimText, ...]) -> int:
     """The largest order that occurs in the claims."""
-    found = [_largest(claim.value) for claim in claims if claim.key in _OF_ORDERS]
+    found = [_largest(claim.value) for claim in claims if claim.key in OF_ORDERS]
     return max(found, default=0)
 
 

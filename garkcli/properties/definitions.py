@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.properties.keys import KEYS
-from garkcli.properties.property import KINDS, Property
+from garkcli.properties.property import KINDS, Kind, Property
 from garkcli.properties.registry import find
 
 
@@ -18,62 +20,67 @@ class Definition:
         key: the name of the claim, also in ``gark check --explain``.
         text: the definition, in whole sentences.
         source: where it comes from.
-        values: how the claim is written.
+        kind: what it is claimed with.
         meaning: for which methods it has a meaning; empty for all.
     """
 
     key: str
     text: str
     source: str
-    values: str
+    kind: Kind | Literal["row", "table"] = "count"
     meaning: str = ""
+
+    @property
+    def values(self) -> str:
+        """How the claim is written."""
+        return _VALUES[self.kind]
+
+
+_VALUES: Mapping[str, str] = {
+    **{str(kind): text for kind, text in KINDS.items()},
+    "row": f"{KINDS['count']} for each colour, in a list",
+    "table": "a list of such numbers by colour; `null` where there is no block",
+}
 
 
 _PAPER = (
     "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
 )
-_ORDER = KINDS["count"]
-_TABLE = "a list of such numbers by colour; `null` where there is no block"
 _HAIRER = "E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, section"
 _HAIRER_II_4 = f"{_HAIRER} II.4"
 _HAIRER_II_6 = f"{_HAIRER} II.6"
 _WITH_EMBEDDED = "methods with embedded weights"
 _WITH_DENSE = "methods with dense output"
-_OF_ORDERS = (
+_ORDERS = (
     Definition(
         "order",
         "The largest p for which all order conditions of the tableau up to order p hold: one step"
         " differs from the exact solution by O(h^(p+1)) on every problem of its structure.",
         "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, section III.1",
-        _ORDER,
     ),
     Definition(
         "conjugate-order",
         "The order of the symplectic conjugate Â^{l,m} = (𝟙 − (B^{l})⁻¹ (A^{m,l})ᵀ) B^{m}.",
         _PAPER,
-        _ORDER,
-        "methods without zero weights",
+        meaning="methods without zero weights",
     ),
     Definition(
         "pair-order",
         "The order of the symplectic method of 2N colours that the method and its conjugate form.",
         _PAPER,
-        _ORDER,
-        "methods without zero weights",
+        meaning="methods without zero weights",
     ),
     Definition(
         "bound",
         "The bound of the order that the simplifying conditions give, min{r, 2η+2, ξ+1, η+ζ+1},"
         " with the letters of sharp-bound.",
         _PAPER,
-        _ORDER,
     ),
     Definition(
         "pair-bound",
         "The same bound for the symplectic pair.",
         _PAPER,
-        _ORDER,
-        "methods without zero weights",
+        meaning="methods without zero weights",
     ),
     Definition(
         "sharp-bound",
@@ -83,33 +90,31 @@ _OF_ORDERS = (
         " η^{l,m} + ζ^{l,m}, and χ the least ζ^{l,m} + η^{m,n} of two blocks A^{l,m} and A^{m,n}."
         " The order is never smaller; the proof is in docs/sharper-bound.md.",
         "this project",
-        _ORDER,
     ),
     Definition(
         "pair-sharp-bound",
         "The sharper bound for the symplectic pair.",
         "this project",
-        _ORDER,
-        "methods without zero weights",
+        meaning="methods without zero weights",
     ),
     Definition(
         "B",
         "For each colour l the largest r with Σ b_i^{l} (c_i^{l})^(k−1) = 1/k for k = 1, …, r.",
         _PAPER,
-        f"{_ORDER} for each colour, in a list",
+        kind="row",
     ),
     Definition(
         "C",
         "For each block the largest η with A^{l,m} (c^{m})^(k−1) = (c^{l})^k / k for k = 1, …, η.",
         _PAPER,
-        _TABLE,
+        kind="table",
     ),
     Definition(
         "D",
         "For each block the largest ζ with (A^{l,m})ᵀ B^{l} (c^{l})^(k−1) = B^{m} (𝟙 − (c^{m})^k)"
         " / k for k = 1, …, ζ.",
         _PAPER,
-        _TABLE,
+        kind="table",
     ),
     Definition(
         "symplectic",
@@ -118,7 +123,7 @@ _OF_ORDERS = (
         " of each other. Then every step is symplectic; that of a reducible method may be so"
         " without it.",
         "J. M. Sanz-Serna, BIT 28 (1988)",
-        KINDS["truth"],
+        kind="truth",
     ),
     Definition(
         "nonautonomous-order",
@@ -126,22 +131,19 @@ _OF_ORDERS = (
         " with time as one more colour, whose block is the column of nodes. It is the order where"
         " the nodes are the row sums of every block.",
         f"{_HAIRER} II.1",
-        _ORDER,
-        "methods without linear colours",
+        meaning="methods without linear colours",
     ),
     Definition(
         "embedded-order",
         "The order of the method with the embedded weights in place of b.",
         _HAIRER_II_4,
-        _ORDER,
-        _WITH_EMBEDDED,
+        meaning=_WITH_EMBEDDED,
     ),
     Definition(
         "embedded-nonautonomous-order",
         "The order on problems ẏ = f(t, y) of the method with the embedded weights in place of b.",
         _HAIRER_II_4,
-        _ORDER,
-        _WITH_EMBEDDED,
+        meaning=_WITH_EMBEDDED,
     ),
     Definition(
         "dense-order",
@@ -149,16 +151,15 @@ _OF_ORDERS = (
         " Σ b_i(θ) 𝒜^[u]_i = θ^n/γ(u), a polynomial identity, for every tree u of order n ≤ p. The"
         " order is no larger than the degree.",
         _HAIRER_II_6,
-        _ORDER,
-        _WITH_DENSE,
+        meaning=_WITH_DENSE,
     ),
     Definition(
         "dense-continuous",
         "Dense output ends where the step does, b(1) = b; it begins where the step does in any"
         " case, as it has no constant terms.",
         _HAIRER_II_6,
-        KINDS["truth"],
-        _WITH_DENSE,
+        kind="truth",
+        meaning=_WITH_DENSE,
     ),
     Definition(
         "dense-smooth",
@@ -166,20 +167,23 @@ _OF_ORDERS = (
         " autonomous problems: b(1) = b, and the slope is that of the vector field at both ends of"
         " a step.",
         _HAIRER_II_6,
-        KINDS["truth"],
-        _WITH_DENSE,
+        kind="truth",
+        meaning=_WITH_DENSE,
     ),
 )
 
 
+ORDERS = {found.key: found for found in _ORDERS}
+"""The claims that are no properties, by their keys."""
+
+
 def _of_property(found: Property) -> Definition:
-    values = KINDS[found.kind]
-    return Definition(found.key, found.text, found.source, values, found.meaning)
+    return Definition(found.key, found.text, found.source, found.kind, found.meaning)
 
 
 def every_definition() -> list[Definition]:
     """What every claim means, in the order of the documentation."""
-    return [*_OF_ORDERS, *(_of_property(find(key)) for key in KEYS)]
+    return [*ORDERS.values(), *(_of_property(find(key)) for key in KEYS)]
 
 
 def definition(key: str) -> Definition:
@@ -190,8 +194,8 @@ def definition(key: str) -> Definition:
     """
     if key in KEYS:
         return _of_property(find(key))
-    for found in _OF_ORDERS:
-        if found.key == key:
-            return found
-    keys = [found.key for found in _OF_ORDERS]
-    raise UsageProblem(f"no claim {key!r}", did_you_mean(key, [*keys, *KEYS]), code="unknown-word")
+    if key in ORDERS:
+        return ORDERS[key]
+    raise UsageProblem(
+        f"no claim {key!r}", did_you_mean(key, [*ORDERS, *KEYS]), code="unknown-word"
+    )
