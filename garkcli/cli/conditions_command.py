@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.companion import companion
 from garkcli.cli.options import Output, declared
-from garkcli.cli.tree_options import kind_asked
+from garkcli.cli.tree_lists import kind_asked
 from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, UsageProblem
 

@@ -8,8 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.companion import companion
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
-from garkcli.cli.options import Output, declared, files_meant, refuse_settings_of_several
-from garkcli.cli.plotting import check_plot, save_plot
+from garkcli.cli.options import (
+    Output,
+    check_plot,
+    declared,
+    files_meant,
+    refuse_settings_of_several,
+    save_plot,
+)
 from garkcli.cli.problems import note_changing
 from garkcli.cli.stepping import given_positive, positive, refuse_misplaced, tell_failure
 from garkcli.errors import GarkError, UsageProblem

@@ -274,13 +274,13 @@ def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
     """
     if wanted.slow is None or wanted.fast is None:
         return None
-    from garkcli.cli.stepping import square, term_of
+    from garkcli.cli.stepping import colour_named, square
     from garkcli.design.design import TABLEAUS
     from garkcli.design.springs_kind import TwoSprings
 
     tableau = TABLEAUS[wanted.whose](family.tableau)
     slow = square("--slow", wanted.slow)
-    fast = term_of(tableau, wanted.fast)
+    fast = tableau.colours[colour_named(tableau, wanted.fast)].term
     if wanted.up_to is None:
         return TwoSprings(slow, fast)
     return TwoSprings(slow, fast, square("--up-to", wanted.up_to))

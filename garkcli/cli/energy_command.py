@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.companion import companion, exact_companion
 from garkcli.cli.long_runs import Wanted, check_wanted, followed, problem_of, symplecticity_of
-from garkcli.cli.options import Output, declared
-from garkcli.cli.plotting import save_plot
+from garkcli.cli.options import Output, declared, save_plot
 from garkcli.cli.stepping import given_positive, tell_failure
 from garkcli.errors import GarkError
 from garkcli.tell.report import FORMATS

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from garkcli.cli.options import Output
-from garkcli.cli.plotting import check_plot
+from garkcli.cli.options import Output, check_plot
 from garkcli.cli.problems import find_problem, is_path, note_changing, unsplit_problem
 from garkcli.cli.stepping import given_positive, oscillator, refuse_misplaced
 from garkcli.errors import UsageProblem

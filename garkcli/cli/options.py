@@ -7,6 +7,7 @@ from __future__ import annotations
 import inspect
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence, Sized
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -20,6 +21,7 @@ from garkcli.files import note_input
 from garkcli.page.paint import Paint
 
 if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
     from garkcli.tell.report import Report
 
 CONTEXT = {"help_option_names": [], "max_content_width": 100}
@@ -316,3 +318,23 @@ def files_meant(arguments: Sequence[str], output: Output) -> list[str]:
         note_input(path)
     output.check_place()
     return paths
+
+
+def check_plot(path: str | None) -> None:
+    """Refuse a picture of another kind, before the work.
+
+    Raises:
+        UsageProblem: its suffix is none of those that can be drawn.
+    """
+    if path is not None:
+        from garkcli.plots.saving import check_suffix
+
+        check_suffix(Path(path))
+
+
+def save_plot(scene: Scene, path: str, output: Output) -> None:
+    """Draw the scene into a file, and say so."""
+    from garkcli.plots.saving import save_scene
+
+    save_scene(scene, Path(path))
+    output.note(f"wrote {path}")

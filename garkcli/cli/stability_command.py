@@ -7,8 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garkcli.cli.companion import exact_companion
-from garkcli.cli.options import Output, declared, files_meant, refuse_settings_of_several
-from garkcli.cli.plotting import check_plot, save_plot
+from garkcli.cli.options import (
+    Output,
+    check_plot,
+    declared,
+    files_meant,
+    refuse_settings_of_several,
+    save_plot,
+)
 from garkcli.errors import HasFreeParameters, UsageProblem
 from garkcli.tell.report import FORMATS
 
@@ -130,19 +136,10 @@ def _ratio(text: str) -> fmpq:
 def _whole_report(
     file: str, method: GarkMethod, digits: int, ratios: Sequence[fmpq]
 ) -> StabilityReport:
+    from garkcli.api.calls import find_stability
     from garkcli.report.stability import StabilityReport
-    from garkcli.stability.summary import stability, stability_of_rounded
 
-    if method.tolerance is None:
-        if ratios and method.tableau.size != 2:
-            raise UsageProblem(
-                f"{file}: --ratio is for methods of two colours",
-                "leave it out",
-                code="options-clash",
-            )
-        found = stability(method.tableau, ratios=ratios)
-    else:
-        found = stability_of_rounded(method.tableau, method.tolerance)
+    found = find_stability(method, ratios=ratios)
     return StabilityReport(file, method.name, found, digits=digits, derivation=method.derivation)
 
 
@@ -150,35 +147,30 @@ def _springs_report(
     file: str, method: GarkMethod, digits: int, slow: str, fast: str, with_plane: bool
 ) -> StabilityReport:
     """The two springs that the options ask for."""
-    from garkcli.cli.stepping import term_of
+    from garkcli.api.calls import two_springs
+    from garkcli.cli.stepping import colour_named
     from garkcli.report.stability import StabilityReport
-    from garkcli.stability.slow_interval import slow_interval
+    from garkcli.stability.slow_interval import SlowInterval
     from garkcli.stability.summary import Stability
-    from garkcli.stability.two_frequencies import springs, two_frequencies
 
-    if method.tolerance is not None:
-        raise UsageProblem(
-            f"{file}: with rounded coefficients nothing is decided about two springs",
-            "give exact coefficients, without tolerance",
-            code="rounded",
-        )
     tableau = method.tableau
-    split = springs(tableau, term_of(tableau, fast))
+    colour = 1 + colour_named(tableau, fast)
     low, high = _strengths(slow)
+    found = two_springs(method, (low, high) if ".." in slow else low, colour)
     nothing = Stability(tableau, (), None, None)
     report = StabilityReport(
         file, method.name, nothing, digits=digits, derivation=method.derivation
     )
-    if ".." in slow:
-        interval = slow_interval(tableau, split, low, high)
-        stable, report = interval.stable, replace(report, slow=interval)
+    if isinstance(found, SlowInterval):
+        report = replace(report, slow=found)
     else:
-        single = two_frequencies(tableau, split, low)
-        stable, report = single.stable, replace(report, springs=single)
+        report = replace(report, springs=found)
     if with_plane:
         from garkcli.stability.springs_plane import plane_with_ends_of
+        from garkcli.stability.two_frequencies import springs
 
-        plane = plane_with_ends_of(tableau, split, stable, high)
+        split = springs(tableau, tableau.colours[colour - 1].term)
+        plane = plane_with_ends_of(tableau, split, found.stable, high)
         report = replace(report, plane=plane)
     return report
 

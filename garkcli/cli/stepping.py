@@ -157,15 +157,14 @@ def square(option: str, text: str) -> fmpq:
     return number
 
 
-def term_of(tableau: Tableau, colour: str) -> int:
-    """The term of the colour that was given for --fast, counted from 0.
+def colour_named(tableau: Tableau, colour: str) -> int:
+    """The colour that was given for --fast, counted from 0.
 
     Raises:
         UsageProblem: there is no such colour.
     """
     names = [x.name for x in tableau.colours]
     if colour not in names:
-        raise UsageProblem(
-            f"--fast: no colour {colour!r}", did_you_mean(colour, names), code="wrong-value"
-        )
-    return tableau.colours[names.index(colour)].term
+        message = f"--fast: no colour {colour!r}"
+        raise UsageProblem(message, did_you_mean(colour, names), code="wrong-value")
+    return names.index(colour)

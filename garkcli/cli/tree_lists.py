@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.cli.options import Output
     from garkcli.report.trees import Query, TreeRow
+    from garkcli.trees.symplectic import Kind
     from garkcli.trees.tree import Tree
 
 MAX_PICTURES = 2000
@@ -67,3 +68,20 @@ def draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Out
     labels = [format_tree(tree, has_colours) for tree in trees]
     write_whole(path, [draw_svg_sheet(trees, labels)])
     output.note(f"wrote {path}")
+
+
+def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -> Kind | None:
+    """The kind of symplectic methods; None where all trees are meant.
+
+    Raises:
+        UsageProblem: options of ``--symplectic`` without it, or members in a LaTeX table.
+    """
+    if members and format == "latex":
+        message = "--members do not fit into a LaTeX table"
+        raise UsageProblem(message, "choose another --format", code="options-clash")
+    if symplectic:
+        return cast("Kind", kind or "pair")
+    if kind is not None or members:
+        option = "--members" if kind is None else "--kind"
+        raise UsageProblem(f"{option} is about free trees", "add --symplectic", code="option-alone")
+    return None

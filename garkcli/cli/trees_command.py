@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.options import Output, declared
 from garkcli.cli.streams import is_terminal, say
-from garkcli.cli.tree_lists import counts_of, draw_sheet, rows_of
-from garkcli.cli.tree_options import kind_asked
+from garkcli.cli.tree_lists import counts_of, draw_sheet, kind_asked, rows_of
 from garkcli.doing import counting, hush
 from garkcli.errors import UsageProblem
 
