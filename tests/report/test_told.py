@@ -415,3 +415,27 @@ def test_a_modified_equation_says_in_every_format_how_its_orders_are_known(forma
     rounded = gark("modified", ROUNDED, "-n", "4", "--format", format).out
     assert "order at least 4 within 1e-14" in rounded
     assert "not decided: coefficients are rounded" in rounded
+
+
+@pytest.mark.parametrize("format", ["text", "markdown", "latex"])
+def test_orders_of_one_method_are_as_they_are_known(format: str) -> None:
+    """``gark show`` of rounded coefficients and ``gark import`` of decimals say within which
+    tolerance each order holds; of exact coefficients there is none.
+    """
+    shown = gark("show", ROUNDED, "--format", format).out
+    assert "order 4 within 1e-14" in shown.splitlines()[0]
+    told = shown.count("4 within 1e-14") + shown.count("order 4 within\n")
+    assert told >= 3
+    assert "within" not in gark("show", "rk4", "--format", format).out
+    imported = gark("import", "tests/bridges/sources/ralston.tsv", "--format", format).out
+    assert "2 within 1e-15" in imported
+
+
+def test_a_list_begins_with_how_many_there_are() -> None:
+    """In every format for people, with what its letters mean; with details these are words."""
+    for format in ("text", "markdown", "latex"):
+        lines = gark("list", "methods", "alexander", "--format", format).out.splitlines()
+        assert "2 methods" in lines[0]
+        assert any("alexander-3" in line for line in lines[1:])
+    assert "A: A-stable" in gark("list", "methods", "alexander").out
+    assert "A-stable, L-stable" in gark("list", "methods", "alexander", "-v").out
