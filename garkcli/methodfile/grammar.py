@@ -263,9 +263,8 @@ def list_of(
     return Kind(lambda: {"type": "array", "items": item.schema(), **schema}, read, item.inside)
 
 
-def either(*kinds: Kind, at_list: Kind | None = None, at_mapping: Kind | None = None) -> Kind:
+def either(single: Kind, at_list: Kind | None = None, at_mapping: Kind | None = None) -> Kind:
     """What is of one kind where it is a single value, and of another as a list or as a mapping."""
-    (single,) = kinds
     every = [x for x in (single, at_list, at_mapping) if x is not None]
 
     def read(at: Any, node: Node, where: str) -> Any:
