@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from garkcli.trees.tree import Tree
 
 
-@declared("conditions", ["text", "json", "csv", "latex"])
+@declared("conditions", ["text", "json", "csv", "markdown", "latex"])
 def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The order-condition table.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
@@ -10,10 +11,20 @@ from garkcli.exact.parametric import Parametric
 from garkcli.order.conditions import Condition
 from garkcli.page.latex import fragment, number
 from garkcli.page.paint import Paint, counted, folded, indented
-from garkcli.report.conditions_data import ConditionRow, Valued, shown
+from garkcli.report.conditions_data import (
+    ConditionRow,
+    Valued,
+    json_of,
+    row_data,
+    section_of,
+    shown,
+)
 from garkcli.report.symplectic import legend_lines, member_lines, summary_lines
 from garkcli.report.symplectic_subject import Subject
 from garkcli.report.trees import picture
+from garkcli.tell.facts import Level, Row, Section, table
+from garkcli.tell.markdown import Markdown
+from garkcli.tell.outputs import body
 from garkcli.trees.notation import format_latex, format_tree, vertex_letters
 
 MOST_DIGITS = 60
@@ -48,24 +59,24 @@ def render(
 
     Args:
         rows: its rows, also those that ``valued`` does not show.
-        format: json, csv, latex or text.
+        format: json, csv, latex, markdown or text.
         paint: colour or none.
         width: of the terminal.
         is_document: whether LaTeX gets a preamble.
         subject: where the rows are the independent conditions alone, what they are independent for.
         valued: where the rows have values, of what.
     """
-    if valued is not None and format != "text":
+    if valued is not None and format not in ("text", "markdown"):
         rows = filter(valued.shows, rows)
     if format == "json":
-        from garkcli.report.conditions_json import json_of
-
         yield from json_of(rows, subject, valued)
     elif format == "csv":
         count = "multiplicity" if subject is None else "stands_for"
         yield from _csv(rows, [*_VALUED, count])
     elif format == "latex":
         yield from fragment(_latex(rows, subject), is_document)
+    elif format == "markdown":
+        yield _markdown(rows, subject, valued)
     else:
         yield from _text(rows, paint, width, subject, valued)
 
@@ -74,8 +85,6 @@ def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
     """The rows under their keys; under ``heading`` where there are none, since no condition
     fails.
     """
-    from garkcli.report.conditions_json import row_data
-
     keys: list[str] = []
     for row in rows:
         data = row_data(row)
@@ -133,6 +142,34 @@ def _text(
         ending = f", {verdict}" if verdict else ""
         conditions = counted(count, "condition")
         yield f"{conditions}{ending}\n"
+
+
+def _markdown(rows: Iterable[ConditionRow], subject: Subject | None, valued: Valued | None) -> str:
+    """How many conditions there are, how many hold, and all of them in a table."""
+    found = list(rows)
+    if valued is None:
+        text = counted(len(found), "condition")
+        shown_rows = found
+    else:
+        failed = sum(x.condition is not None and not x.condition.holds for x in found)
+        text = f"{counted(len(found), 'condition')}, {_verdict(failed, valued)}"
+        shown_rows = [x for x in found if valued.shows(x)]
+    about = legend_lines(subject) if subject is not None else _names(valued) if valued else ()
+    d = Markdown()
+    lines = d.headline(text)
+    for line in about:
+        lines += d.subtitle(d.prose(line.strip()))
+    if shown_rows:
+        section = section_of(shown_rows[0])
+        whole = Section(Row("conditions", table(section, len(shown_rows))))
+        lines += body(whole, _Listed(shown_rows), d, Level.USUAL, 1)
+    return d.page(lines)
+
+
+class _Listed(NamedTuple):
+    """The rows of a table."""
+
+    conditions: list[ConditionRow]
 
 
 def _names(valued: Valued) -> Iterator[str]:

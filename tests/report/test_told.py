@@ -439,3 +439,24 @@ def test_a_list_begins_with_how_many_there_are() -> None:
         assert any("alexander-3" in line for line in lines[1:])
     assert "A: A-stable" in gark("list", "methods", "alexander").out
     assert "A-stable, L-stable" in gark("list", "methods", "alexander", "-v").out
+
+
+def test_conditions_in_markdown_have_the_rows_of_their_json() -> None:
+    """Each condition in a line with its values; within which tolerance they hold is above."""
+    run = ("conditions", "heun", "--order", "3")
+    rows = json.loads(gark(*run, "--format", "json").out)["conditions"]
+    text = gark(*run, "--format", "markdown").out
+    assert text.startswith("**4 conditions, 2 fail**\n")
+    lines = [line for line in text.splitlines() if line.startswith("| ")]
+    assert len(lines) == 1 + len(rows)
+    for line, row in zip(lines[1:], rows, strict=True):
+        cells = [x.strip() for x in line.strip("|").split("|")]
+        assert cells[6:10] == [
+            *(row[x] for x in ("value", "required", "residual")),
+            "yes" if row["holds"] else "no",
+        ]
+    failing = gark(*run, "--failing", "--format", "markdown").out
+    assert failing.startswith("**4 conditions, 2 fail**\n")
+    assert failing.count("\n| ") == 3
+    rounded = gark("conditions", ROUNDED, "--order", "3", "--format", "markdown").out
+    assert "hold within 1e-14**" in rounded

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
 from garkcli.report.conditions import is_parametric
-from garkcli.report.conditions_data import ConditionRow
-from garkcli.report.conditions_json import row_data
+from garkcli.report.conditions_data import ConditionRow, row_data
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
