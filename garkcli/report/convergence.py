@@ -153,6 +153,16 @@ def steps(test: ConvergenceReport) -> list[StepTold]:
     return [StepTold(row, test) for row in test.result.rows]
 
 
+def lines(x: Any) -> tuple[Section, list[StepTold]]:
+    """The rows for CSV; no column where there is no energy."""
+    if isinstance(x, Failure):
+        return STEP, []
+    section, found = WORKED if x.has_work else STEP, steps(x)
+    if all(step.row.energy_error is not None for step in found):
+        return section, found
+    return Section(*(row for row in section.rows if row.key != "energy_error")), found
+
+
 # orders and the verdict
 
 
@@ -314,9 +324,7 @@ REPORT: Report[ConvergenceReport | Failure] = Report(
     lambda: (*FORMS.values(), FAILURE),
     form,
     key="",
-    lines=lambda x: (STEP, ()) if isinstance(x, Failure) else (
-        WORKED if x.has_work else STEP, steps(x)
-    ),
+    lines=lines,
 )  # fmt: skip
 
 

@@ -52,7 +52,7 @@ def test_design_takes_a_name(tmp_path: Path) -> None:
     (tmp_path / "half.gark.yaml").write_text(FAMILY)
     run = gark("design", "Half", "--order", "2", "--catalogue", str(tmp_path))
     assert run.code == 0, run.err
-    assert run.out.startswith("half\n")
+    assert run.out.startswith("half: order 2 for 1 solution\n")
 
 
 def test_a_sweep_takes_names(tmp_path: Path) -> None:

@@ -112,13 +112,13 @@ def test_json_says_which_method_it_is(command: str, which: tuple[str, ...], word
         (
             ("converge", "rk4", "--pair", "--problem", "kepler"),
             "symplectic pair of the classical",
-            "of the pair 4",
+            "predicted order  4",
         ),
-        (("converge", "rk4", "--problem", "kepler"), "the classical", "of the method 4"),
+        (("converge", "rk4", "--problem", "kepler"), "the classical", "predicted order  4"),
         (
             ("converge", "rk4", "heun", "--conjugate", "--problem", "kepler"),
             "2 methods",
-            "of the conjugate",
+            "symplectic conjugate of Heun",
         ),
         (
             ("energy", "rk4", "--pair"),
@@ -133,7 +133,7 @@ def test_json_says_which_method_it_is(command: str, which: tuple[str, ...], word
         (
             ("modified", "rk4", "--pair", "-n", "2"),
             "symplectic pair of the classical",
-            "yes, by its coefficients",
+            "symplectic order",
         ),
         (("stability", "rk4", "--conjugate"), "symplectic conjugate of rk4: not A-stable", "R(z)"),
         (("tableau", "rk4", "--conjugate"), "symplectic conjugate of the classical", "-2/3"),

@@ -23,7 +23,7 @@ def test_the_slope_that_stiffness_leaves() -> None:
     text = gark("converge", ARS, *options)
     assert text.code == 0, text.err
     assert "reduced by stiffness" in text.out
-    assert "classical order 2, stage order 1" in text.out
+    assert "classical order 2, stage order 1" in " ".join(text.out.split())
     assert "energy error" not in text.out
     data = json.loads(gark("converge", ARS, *options, "--format", "json").out)
     assert data["verdict"] == "reduced"
@@ -92,7 +92,7 @@ def test_invariants_are_followed() -> None:
     assert {x["verdict"] for x in found["quantities"]} == {"drifts"}
     assert found["symplectic"] is None
     text = gark("energy", RK4, *options)
-    assert "error of momentum" in text.out
+    assert text.out.splitlines()[0].endswith(": momentum DRIFTS, kinetic energy DRIFTS")
     assert "symplectic" not in text.out
     assert gark("energy", RK4, *options, "--bounded").code == 1
     assert gark("energy", RK4, *options, "--max-error", "1e-20").code == 1
