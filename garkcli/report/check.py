@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -437,31 +437,60 @@ def _colours_words(found: Any, d: Plain) -> str:
     return "; ".join(texts)
 
 
+SYSTEMS = Kind(S.array(S.array(STAGES)), words=_systems_words)
+OWN_ROWS = {
+    "gamma": (
+        Row("gamma", EXACT, lambda a: a.subject.shape and a.subject.shape.gamma, has_null=True),
+    ),
+    "implicit-stages": (
+        Row(
+            "implicit_stages",
+            COUNT,
+            lambda a: a.subject.shape.implicit_stages,
+            DETAIL,
+            has_null=True,
+        ),
+        Row(
+            "solved_together",
+            Kind(S.array(S.array(STAGES)), words=_systems_words),
+            together,
+            DETAIL,
+        ),
+    ),
+    "symmetric": (
+        truth("symmetric"),
+        Row(
+            "renumbering",
+            Kind(S.array(RENUMBERED), words=_renumbering_words),
+            renumbering,
+            DETAIL,
+            has_null=True,
+        ),
+        Row("symplectic", TRUTH, lambda a: a.symplectic, DATA),
+    ),
+    "stage-order": (
+        Row("stage_order", COUNT, stage_order, DETAIL),
+        Row(
+            "stage_order_is_lower_bound",
+            TRUE,
+            lambda a: stage_order(a).status.at_least or None,
+            DATA,
+            is_optional=True,
+        ),
+    ),
+}
+"""Properties that are no truths, or that are told with more than their truth."""
+
+
+def property_rows() -> Iterator[Row]:
+    """Those that every check decides; what linear stability needs is decided where it is asked."""
+    for key, file in KEYS.items():
+        if file != "stability":
+            yield from OWN_ROWS.get(key) or (truth(key),)
+
+
 PROPERTIES = Section(
-    *map(truth, ("explicit", "diagonally-implicit", "sdirk", "esdirk")),
-    Row("gamma", EXACT, lambda a: a.subject.shape and a.subject.shape.gamma, has_null=True),
-    truth("fully-implicit"),
-    Row("implicit_stages", COUNT, lambda a: a.subject.shape.implicit_stages, DETAIL, has_null=True),
-    Row("solved_together", Kind(S.array(S.array(STAGES)), words=_systems_words), together, DETAIL),
-    *map(truth, ("stiffly-accurate", "fsal", "symmetric")),
-    Row(
-        "renumbering",
-        Kind(S.array(RENUMBERED), words=_renumbering_words),
-        renumbering,
-        DETAIL,
-        has_null=True,
-    ),
-    Row("symplectic", TRUTH, lambda a: a.symplectic, DATA),
-    truth("reducible"),
-    Row("stage_order", COUNT, stage_order, DETAIL),
-    Row(
-        "stage_order_is_lower_bound",
-        TRUE,
-        lambda a: stage_order(a).status.at_least or None,
-        DATA,
-        is_optional=True,
-    ),
-    *map(truth, ("nodes-in-unit-interval", "positive-weights", "algebraically-stable")),
+    *property_rows(),
     Row(
         "by_colour",
         parts(COLOUR),

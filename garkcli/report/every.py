@@ -181,12 +181,13 @@ def of(name: str) -> Callable[[Any], Fact]:
 
 
 def obstacle(get: Callable[[Any], Any]) -> Callable[[Any], Answer]:
-    """An order, or why there is none."""
+    """An order of the conjugate or the pair, or why there is none; a detail of one colour."""
 
     def answer(e: Any) -> Answer:
         from garkcli.tell.facts import Reason
 
-        return Answer(get(e), reason=Reason("" if get(e) is not None else e.obstacle))
+        reason = Reason("" if get(e) is not None else e.obstacle)
+        return Answer(get(e), reason=reason, level=None if e.tableau.size > 1 else DETAIL)
 
     return answer
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import signal
 import sys
 
 import pytest
@@ -167,6 +168,7 @@ def test_a_process_draws_while_the_command_is_at_something_else(ending: str) -> 
     process, place = pty.fork()
     if process == 0:
         os.environ["TERM"] = "xterm"
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # in the background of a shell it is ignored
         os.execv(sys.executable, [sys.executable, "-c", SCRIPT])
     shown = ""
     while "order, 0 s" not in shown:

@@ -335,7 +335,9 @@ def test_a_design_says_how_its_values_are_known(format: str, tmp_path: Path) -> 
     path.write_text("unknown: {stages: 3, shape: full}\n", encoding="utf-8")
     is_open = told("--order", "6", "--seconds", "0.01")
     assert re.search(r"sdirk.yaml: .*order \d is not decided", is_open)
-    assert "not decided in the time of --seconds; fewer unknowns make it decidable" in is_open
+    # how far it comes in this time depends on the machine
+    assert "not decided in the time of --seconds; " in is_open
+    assert "fewer unknowns make it decidable" in is_open
 
 
 @pytest.mark.parametrize("format", ["markdown", "latex"])
@@ -460,3 +462,19 @@ def test_conditions_in_markdown_have_the_rows_of_their_json() -> None:
     assert failing.count("\n| ") == 3
     rounded = gark("conditions", ROUNDED, "--order", "3", "--format", "markdown").out
     assert "hold within 1e-14**" in rounded
+
+
+def test_conjugate_and_pair_of_a_family_of_one_colour_are_details(tmp_path: Path) -> None:
+    """As of a single method: usually the order is all that is looked for."""
+    file = tmp_path / "two.yaml"
+    weights = "['1 - 1/(2*t)', '1/(2*t)']"
+    file.write_text(f"parameters: {{t: free}}\nA: [[0, 0], [t, 0]]\nb: {weights}\n")
+    assert "pair order" not in gark("check", str(file)).out
+    assert "pair order" in gark("check", str(file), "-v").out
+    two = tmp_path / "tau.yaml"
+    two.write_text(
+        "parameters: {tau: free}\n"
+        "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\n"
+        "transfer: {interpolation: tau, collocation: 1 - tau}\n"
+    )
+    assert "pair order" in gark("check", str(two)).out

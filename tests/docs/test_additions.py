@@ -1,0 +1,161 @@
+"""The five most likely additions, made in a copy of the package as CONTRIBUTING.md says: nothing
+besides is touched, and every command has them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+import garkcli
+from tests.cli.harness import ROOT
+
+PACKAGE = Path(garkcli.__file__).parent
+RK4 = "A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]\nb: [1/6, 1/3, 1/3, 1/6]\n"
+
+
+class Copy:
+    """A copy of the package, and its command."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        skipped = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(PACKAGE, folder / "garkcli", ignore=skipped)
+        (folder / "m.yaml").write_text(RK4)
+
+    def write(self, path: str, text: str) -> None:
+        """A new file."""
+        file = self.folder / path
+        assert not file.exists()
+        file.write_text(text, encoding="utf-8")
+
+    def insert(self, path: str, before: str, text: str) -> None:
+        """A line of a list, or what else is new in a file, before what is there."""
+        file = self.folder / path
+        old = file.read_text(encoding="utf-8")
+        assert old.count(before) == 1, before
+        file.write_text(old.replace(before, text + before), encoding="utf-8")
+
+    def gark(self, *arguments: str) -> str:
+        """What a command prints; it must succeed."""
+        variables: Mapping[str, str] = {
+            **os.environ, "PYTHONPATH": str(self.folder), "COLUMNS": "80", "PYTHONUTF8": "1",
+        }  # fmt: skip
+        run = subprocess.run(
+            [sys.executable, "-m", "garkcli", *arguments],
+            cwd=self.folder, env=variables, capture_output=True, encoding="utf-8", check=False,
+        )  # fmt: skip
+        assert run.returncode == 0, f"{arguments}: {run.stderr}"
+        return run.stdout
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Copy:
+    """The package as it is."""
+    return Copy(tmp_path)
+
+
+def row(what: str) -> str:
+    """The row of the table on what is added, without the column of tests."""
+    lines = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").splitlines()
+    [found] = [line for line in lines if line.startswith(f"| {what} ")]
+    return found.rpartition("| `tests/")[0]
+
+
+def test_a_family_is_one_file(copy: Copy) -> None:
+    """Method files, the list, the explanation, the schema and the suggestion have it."""
+    assert "`garkcli/families/NAME.py`" in row("family of methods")
+    copy.write(
+        "garkcli/families/gaussian.py",
+        '"""Gauss methods by another name."""\n\n'
+        "from garkcli.families.family import of_stages\n"
+        "from garkcli.families.gauss import gauss\n\n"
+        'FAMILIES = (of_stages("gaussian", gauss, 1, "2s", "of a test"),)\n',
+    )
+    copy.write("two.yaml", "methods: [{family: gaussian, stages: 2}]\nexpect: {order: 4}\n")
+    assert "order 4, proved" in copy.gark("check", "two.yaml")
+    assert "gaussian" in copy.gark("list")
+    assert "Of a test" in copy.gark("explain", "gaussian")
+    assert '"gaussian"' in copy.gark("schema")
+
+
+def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
+    """Reports, claims, the catalogue, its filters, comparisons and explanations have it."""
+    assert "`garkcli/properties/claimed`" in row("property, which files may claim")
+    file = copy.folder / "garkcli/properties/claimed/solving.py"
+    file.write_text(
+        file.read_text(encoding="utf-8") + '\n\n@claimed("this test")\n'
+        "def few_stages(subject: Subject) -> Verdict:\n"
+        '    """The first method has at most four stages."""\n'
+        "    return Verdict(len(subject.tableau.colours[0].b) <= 4)\n",
+        encoding="utf-8",
+    )
+    copy.insert("garkcli/properties/keys.py", "explicit diagonally-implicit", "few-stages ")
+    copy.write("claim.yaml", RK4 + "expect: {few-stages: true}\n")
+    assert "claim holds" in copy.gark("check", "claim.yaml")
+    assert "few-stages" in copy.gark("check", "m.yaml", "-v").replace(" ", "-")
+    [checked] = json.loads(copy.gark("check", "m.yaml", "--format", "json"))["files"]
+    assert checked["properties"]["few_stages"] is True
+    assert "at most four stages" in copy.gark("explain", "few-stages")
+    shown = json.loads(copy.gark("show", "rk4", "--format", "json"))
+    assert "few_stages" in shown["undecided"]
+    assert "rk4" not in copy.gark("list", "methods", "--few-stages")
+    assert "few-stages" in copy.gark("schema")
+    copy.gark("report", "m.yaml", "-o", "page.html")
+    assert "few" in (copy.folder / "page.html").read_text(encoding="utf-8")
+
+
+def test_a_target_is_a_file_and_a_template(copy: Copy) -> None:
+    """The list and the export have it."""
+    assert "found by itself" in row("target of `gark export`")
+    copy.write(
+        "garkcli/bridges/targets/weights.py",
+        '"""The weights alone."""\n\n'
+        "from garkcli.bridges.registry import Bridge\n\n"
+        'BRIDGES = (Bridge("weights", "the weights alone", ("rk",), ".txt"),)\n',
+    )
+    copy.write("garkcli/bridges/templates/weights.txt.jinja", "{{ row('b = ', b[0], '') }}\n")
+    assert "weights" in copy.gark("list", "exports")
+    assert "b = " in copy.gark("export", "m.yaml", "--to", "weights")
+
+
+def test_a_problem_is_an_entry(copy: Copy) -> None:
+    """The list and every command that runs problems have it."""
+    assert "`garkcli/problems/builtin.py`" in row("problem")
+    copy.insert(
+        "garkcli/problems/builtin.py",
+        '    mechanical(\n        "henon-heiles",',
+        "    mechanical(\n"
+        '        "swing", "a pendulum by another name", "½p² + 1 − cos q", _ALTERNATING,\n'
+        '        Mechanical(("x",), pendulum_potential, numbers("1 1/2"), fmpq(4)),\n    ),\n',
+    )
+    assert "swing" in copy.gark("list")
+    assert "they agree" in copy.gark("converge", "m.yaml", "--problem", "swing")
+    assert "swing" in copy.gark("energy", "m.yaml", "--problem", "swing", "--t-end", "2",
+                                "--format", "json")  # fmt: skip
+
+
+def test_a_format_of_check_is_a_file_and_a_line(copy: Copy) -> None:
+    """The option has it."""
+    assert "`garkcli/report/check_formats.py`" in row("format of `gark check`")
+    copy.write(
+        "garkcli/report/check_names.py",
+        '"""The names of the files."""\n\n\n'
+        "def render(outcomes):\n"
+        '    """A line a file."""\n'
+        '    return "".join(f"file {x.file}\\n" for x in outcomes)\n',
+    )
+    copy.insert(
+        "garkcli/report/check_formats.py",
+        '    "junit": _machine("check_junit"),',
+        '    "names": _machine("check_names"),\n',
+    )
+    assert copy.gark("check", "m.yaml", "--format", "names") == "file m.yaml\n"
+    assert "names" in copy.gark("check", "--help")
