@@ -25,7 +25,7 @@ from garkcli.report.trees import picture
 from garkcli.tell.facts import Level, Row, Section, table
 from garkcli.tell.markdown import Markdown
 from garkcli.tell.outputs import body
-from garkcli.trees.notation import format_latex, format_tree, vertex_letters
+from garkcli.trees.notation import condition_text, format_latex, format_tree, vertex_letters
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""
@@ -131,7 +131,7 @@ def _text(
         if row.tree.order != order:
             order = row.tree.order
             yield paint("strong", f"order {order}") + "\n"
-        yield from _lines(row, paint, width)
+        yield from _lines(row, paint, width, valued is None or valued.tableau.size > 1)
     verdict = ""
     if valued is not None and count:
         verdict = _verdict(failed, valued)
@@ -203,12 +203,13 @@ def _of_every_value(failed: int) -> str:
     return f"{failed} {verb} not hold for every value"
 
 
-def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
+def _lines(row: ConditionRow, paint: Paint, width: int, has_colours: bool) -> Iterator[str]:
     """One row: on one line where there is no value and it fits, below each other otherwise."""
-    tree = format_tree(row.tree, not row.is_shape)
+    tree = format_tree(row.tree, has_colours and not row.is_shape)
     sizes = f"σ = {row.tree.symmetry}  γ = {row.tree.density}"
     multiplicity = _multiplicity(row)
-    formula = f"{row.formula}   {multiplicity}".rstrip()
+    text = row.formula if has_colours else condition_text(row.tree, colours=False)
+    formula = f"{text}   {multiplicity}".rstrip()
     one = f"  {tree:<22} {sizes:<17} {formula}"
     condition = row.condition
     if condition is None and len(one) <= width:
@@ -227,7 +228,7 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     if condition is not None and not condition.is_exact:
         miss = _miss(condition, row.digits)
         lines += folded(f"      {miss}", width, " " * 8)
-    members = map(format_tree, row.members)
+    members = (format_tree(tree, has_colours) for tree in row.members)
     lines += member_lines(members, width)
     for line in lines:
         yield line + "\n"

@@ -216,24 +216,26 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
     return tuple(letters)
 
 
-def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
+def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bool = True) -> str:
     """The order condition b^T 𝒜^[u] = 1/γ(u) of a tree (the paper's eq. bA) in plain text.
 
     Without ``letters`` the colours are numbers, from 1. With them each vertex has a name of its
     own, in the order of writing, the root first: the condition of a shape, for all colours l, m, n,
-    …; :func:`vertex_letters` gives the paper's.
+    …; :func:`vertex_letters` gives the paper's. ``colours=False`` leaves them out.
 
     >>> u = Tree(0, [Tree(1), Tree(0, [Tree(1)])])
     >>> condition_text(u)
     'b{1}ᵀ((A{1,1}A{1,2}𝟙) ⊙ (A{1,2}𝟙)) = 1/8'
+    >>> condition_text(u, colours=False)
+    'bᵀ((AA𝟙) ⊙ (A𝟙)) = 1/8'
     >>> condition_text(u, vertex_letters(u))
     'b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙)) = 1/8'
     """
-    formula = _Formula("A{%s,%s}", "𝟙", " ⊙ ", letters)
+    formula = _Formula("A{%s,%s}" if colours else "A", "𝟙", " ⊙ ", letters)
     root, weight = formula.of(tree)
     density = tree.density
     required = "1" if density == 1 else f"1/{density}"
-    return f"b{{{root}}}ᵀ{weight} = {required}"
+    return f"{f'b{{{root}}}' if colours else 'b'}ᵀ{weight} = {required}"
 
 
 def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
@@ -292,7 +294,7 @@ class _Formula:
         factors: list[str] = []
         for u in written_order(tree):
             below, vector = self.of(u)
-            block = self.block % (name, below)
+            block = self.block % (name, below) if "%" in self.block else self.block
             factors.append(block + vector)
         if len(factors) == 1:
             return name, factors[0]
