@@ -56,15 +56,15 @@ LANGUAGES: Mapping[str, Language] = {
     ".f90": Language(BANG, "cpp", continuation=" &", width=98),
     ".h": _C,
     ".hpp": _CPP,
+    ".inputs": _PYTHON,
     ".jl": Language(HASH, "julia"),
     ".m": Language(PERCENT, "matlab", " ", " ..."),
     ".py": _PYTHON,
+    ".tsv": _PYTHON,
     ".wl": Language(STARRED, "mathematica"),
     ".xml": Language(XML, "python"),
 }
-"""By the ending of a file; the lines of C and of Fortran are longer than those of the others.
-Comments of unknown endings begin with ``#``.
-"""
+"""By the ending of a file; the lines of C and of Fortran are longer than those of the others."""
 
 
 def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
@@ -77,7 +77,7 @@ def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
         values: what the target has computed.
     """
     template = _environment().get_template(f"{file}.jinja")
-    language = LANGUAGES.get(PurePath(file).suffix, _PYTHON)
+    language = LANGUAGES[PurePath(file).suffix]
     return template.render(_given(payload, language, style), **values)
 
 

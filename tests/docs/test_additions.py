@@ -119,9 +119,9 @@ def test_a_target_is_a_file_and_a_template(copy: Copy) -> None:
         "garkcli/bridges/targets/weights.py",
         '"""The weights alone."""\n\n'
         "from garkcli.bridges.registry import Bridge\n\n"
-        'BRIDGES = (Bridge("weights", "the weights alone", ("rk",), ".txt"),)\n',
+        'BRIDGES = (Bridge("weights", "the weights alone", ("rk",), ".tsv"),)\n',
     )
-    copy.write("garkcli/bridges/templates/weights.txt.jinja", "{{ row('b = ', b[0], '') }}\n")
+    copy.write("garkcli/bridges/templates/weights.tsv.jinja", "{{ row('b = ', b[0], '') }}\n")
     assert "weights" in copy.gark("list", "exports")
     assert "b = " in copy.gark("export", "m.yaml", "--to", "weights")
 
