@@ -23,8 +23,8 @@ LONGEST = 120
 """Characters of a message that are shown."""
 HEAD = """# Bad input
 
-What is wrong with a file or with options is told with the place, the line with a caret under the text, and the cure, all faults of a file in
-one run; the exit code is 2. Nothing in a file is ever executed, and no file is met with a traceback. Each kind of fault has a code:
+gark names every fault of a file or of options in one run: the place, the line with a caret under the text, and the cure.
+The exit code is 2. Nothing in a file is ever executed, and no file is met with a traceback. Each kind of fault has a code:
 `error[unknown-key]` in text, `code` in JSON, `properties.code` in SARIF. `gark explain CODE` says what is below, and `gark explain` of a message leads to its kind.
 
 ## Files that gark does not open or does not quote
