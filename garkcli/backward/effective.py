@@ -29,8 +29,8 @@ from flint import fmpq, fmpq_mat, fmpz_mat
 from garkcli.backward.forest import Forest
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.backward.series import transported
-from garkcli.exact.echelon import leading_columns
 from garkcli.exact.field import ZERO, Number, NumberField, coordinates
+from garkcli.exact.span import leading_columns
 
 MAX_ENTRIES = 5_000_000
 """The largest linear system that is looked at, rows times columns."""

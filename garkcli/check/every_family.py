@@ -24,8 +24,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parameters, Parametric
 from garkcli.exact.polynomial import in_one
-from garkcli.exact.root_number import number_of
-from garkcli.exact.roots import RealRoot, real_roots, sign_at
+from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
 from garkcli.tableau.family import Family
 from garkcli.tableau.family_points import family_in_points
 from garkcli.tableau.point_space import PointSpace

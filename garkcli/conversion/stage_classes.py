@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 from garkcli.conversion.sheet import Sheet, all_rows
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
-from garkcli.exact.signs import sign
+from garkcli.exact.roots import sign
 from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]

@@ -26,10 +26,9 @@ from garkcli.design.member import value_of
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import Point, between_roots, sign_of, where
-from garkcli.exact.definite import MOST_DEGREE, kept_sign
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.projection import PLANE, curves, projected
+from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, kept_sign, projected
 from garkcli.exact.roots import RealRoot
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family

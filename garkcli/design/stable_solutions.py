@@ -8,8 +8,7 @@ from garkcli.design.member import member
 from garkcli.design.solutions import Solution
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.root_number import number_of
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.roots import RealRoot, number_of
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability

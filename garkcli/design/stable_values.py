@@ -29,8 +29,7 @@ from garkcli.design.stability_kinds import AStability, Kind, Members, PStability
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.root_number import number_of
-from garkcli.exact.roots import RealRoot, sign_at
+from garkcli.exact.roots import RealRoot, number_of, sign_at
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from garkcli.deadline import check_time
-from garkcli.exact.isolating import precision
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
 
@@ -71,18 +70,15 @@ def where(
     for cell in _cells(roots, left is not None):
         check_time()
         if holds(_sample(cell)):
-            grown = cell if grown is None else _joined(grown, cell)
+            if grown is not None:  # the cell is next to it
+                cell = Interval(grown.start, cell.end, grown.has_start, cell.has_end)
+            grown = cell
         elif grown is not None:
             found.append(grown)
             grown = None
     if grown is not None:
         found.append(grown)
     return tuple(found)
-
-
-def _joined(left: Interval, right: Interval) -> Interval:
-    """The union of two neighbours."""
-    return Interval(left.start, right.end, left.has_start, right.has_end)
 
 
 def _roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
@@ -123,11 +119,11 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
     while True:
         check_time()
         low = high = None
-        with precision(bits):  # of the ends of balls too
+        with ctx.workprec(bits):  # of the ends of balls too
             if left is not None:
-                low = _upper(left.ball(bits))
+                low = _dyadic(left.ball(bits).upper())
             if right is not None:
-                high = _lower(right.ball(bits))
+                high = _dyadic(right.ball(bits).lower())
         if low is None:
             assert high is not None
             return high.floor() - fmpq(1)
@@ -145,13 +141,9 @@ def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
         yield between(left, right)
 
 
-def _upper(ball: arb) -> fmpq:
-    mantissa, exponent = ball.upper().man_exp()
-    return fmpq(mantissa) * fmpq(2) ** int(exponent)
-
-
-def _lower(ball: arb) -> fmpq:
-    mantissa, exponent = ball.lower().man_exp()
+def _dyadic(end: arb) -> fmpq:
+    """The end of a ball, which is a number m · 2^e."""
+    mantissa, exponent = end.man_exp()
     return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
@@ -162,10 +154,8 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
         return fmpq(whole + 1)
     rest = high - whole
     if low == whole:
-        denominator = (1 / rest).floor() + 1
-        return whole + fmpq(1) / denominator
-    farther = 1 / (low - whole)
-    return whole + 1 / _simplest(1 / rest, farther)
+        return whole + fmpq(1) / ((1 / rest).floor() + 1)
+    return whole + 1 / _simplest(1 / rest, 1 / (low - whole))
 
 
 def first_end(intervals: Sequence[Interval]) -> RealRoot | None:

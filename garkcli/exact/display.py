@@ -43,17 +43,13 @@ def _latex_term(coefficient: fmpq, factors: str) -> str:
 
 def to_ball(number: Number, digits: int = 17) -> arb:
     """An enclosure of ``number`` with at least ``digits`` correct decimal digits."""
-    precision = ctx.prec
     goal = int(digits * 3.33) + 8
-    try:
-        ctx.prec = goal + 32
+    with ctx.workprec(goal + 32):
         while True:
             ball = _ball(number)
             if ball.rel_accuracy_bits() >= goal or not number:
                 return ball
             ctx.prec *= 2
-    finally:
-        ctx.prec = precision
 
 
 def _ball(number: Number) -> arb:

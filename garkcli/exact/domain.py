@@ -151,8 +151,8 @@ class Domain:
         if isinstance(root, AlgebraicRoot):
             return None
         if not self._has_rational_radicand(root):
-            if not self._are_real:
-                _check_sign(root)
+            if not self._are_real and root.index % 2 == 0 and _sign(root.radicand) < 0:
+                raise even_root_fault(root)
             return None
         return perfect_root(root, self._rational_value(root.radicand))
 
@@ -207,8 +207,7 @@ class Domain:
                 raise LimitExceeded(message, cure, root.start, root.end)
             kept.append(root)
             # the list grows with the loop, so its present state is bound here
-            enclosures = partial(_enclosures, tuple(kept))
-            tower = tower.adjoin(relation, enclosures)
+            tower = tower.adjoin(relation, partial(_enclosures, tuple(kept)))
         elements = list(zip(kept, tower.elements, strict=True))
         if tower.degree > 1:
             self.field = NumberField(tower.modulus, elements)
@@ -220,8 +219,7 @@ class Domain:
         if isinstance(root, AlgebraicRoot):
             *lower, leading = root.coefficients
             return [fmpq_poly([fmpq(-a, leading)]) for a in lower]
-        radicand = self._within(tower, kept, root.radicand)
-        return [radicand] + [fmpq_poly()] * (root.index - 1)
+        return [self._within(tower, kept, root.radicand)] + [fmpq_poly()] * (root.index - 1)
 
     def _within(self, tower: Tower, roots: list[Radical], expression: Expression) -> fmpq_poly:
         """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
@@ -243,24 +241,14 @@ def _enclosures(roots: tuple[Radical, ...]) -> list[arb]:
     return [enclose(root) for root in roots]
 
 
-def _check_sign(root: Root) -> None:
-    """Refuse an even root of a negative nested radicand."""
-    if _sign(root.radicand) < 0 and root.index % 2 == 0:
-        raise even_root_fault(root)
-
-
 def _sign(expression: Expression) -> int:
     """The sign of a value: by enclosures, and exactly when they cannot tell."""
-    precision = ctx.prec
-    try:
-        ctx.prec = 64
+    with ctx.workprec(64):
         while ctx.prec <= MAX_PRECISION:
             ball = enclose(expression)
             if ball > 0 or ball < 0:
                 return 1 if ball > 0 else -1
             ctx.prec *= 2
-    finally:
-        ctx.prec = precision
     # the roots inside were checked before this one; to check them again, each with those inside of
     # it, doubles the work with every level
     if Domain([expression], are_real=True).evaluate(expression):
@@ -272,8 +260,7 @@ def _sign(expression: Expression) -> int:
 
 def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
-        bits = [int(x.height_bits()) for x in number.poly.coeffs()]
-        return max(bits)
+        return max(int(x.height_bits()) for x in number.poly.coeffs())
     return int(number.height_bits())
 
 

@@ -1,15 +1,39 @@
-"""Expressions in balls: as many digits as ``flint.ctx`` has, and a bound on what is missing."""
+"""Enclosures in balls: of expressions, of real roots, and of polynomials.
+
+What is enclosed has as many digits as ``flint.ctx`` has, and a bound on what is missing. A list of
+coefficients starts with that of 1; what is said of polynomials holds for all numbers in the balls,
+and is None where these are too wide to tell.
+"""
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq, fmpz_poly
 
-from garkcli.exact.isolating import isolated
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
+
+
+@lru_cache(maxsize=512)
+def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
+    """The real roots of an irreducible polynomial in ascending order, with about ``bits`` bits.
+
+    python-flint isolates all roots and gives real ones an imaginary part that is exactly zero.
+
+    Args:
+        coefficients: the lowest first.
+        bits: the precision.
+    """
+    with ctx.workprec(bits):
+        found: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
+        real = [root.real for root, _ in found if root.imag == 0]
+        real.sort(key=lambda ball: ball.mid())
+        return tuple(real)
+
 
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -26,13 +50,13 @@ def integer_power(base: arb, exponent: int) -> arb:
     >>> integer_power(arb(0, 0.5), 2).str(2), (arb(0, 0.5) ** 2).str(2)
     ('[+/- 0.251]', 'nan')
     """
-    found, square, rest = arb(1), base, abs(exponent)
+    power, square, rest = arb(1), base, abs(exponent)
     while rest:
         if rest % 2:
-            found *= square
+            power *= square
         square *= square
         rest //= 2
-    return found if exponent >= 0 else 1 / found
+    return power if exponent >= 0 else 1 / power
 
 
 def enclose(expression: Expression) -> arb:
@@ -55,10 +79,76 @@ def enclose(expression: Expression) -> arb:
         case Power(base=base, exponent=exponent):
             return integer_power(enclose(base), exponent)
         case Root(radicand=radicand, index=index):
-            inside = enclose(radicand)
-            if index % 2 and inside < 0:
-                return -((-inside).root(index))
-            return inside.root(index)
+            ball = enclose(radicand)
+            if index % 2 and ball < 0:
+                return -((-ball).root(index))
+            return ball.root(index)
         case AlgebraicRoot(coefficients=coefficients, number=number):
             return isolated(coefficients, ctx.prec)[number]
     raise TypeError(f"no value: {expression!r}")
+
+
+def root_count(coefficients: Sequence[arb]) -> int | None:
+    """The number of distinct real roots, by Sturm's chain; None too where roots are multiple.
+
+    >>> root_count([arb(-2), arb(0), arb(1)]), root_count([arb(2), arb(0), arb(1)])
+    (2, 0)
+    """
+    return cauchy_index(coefficients, derivative(coefficients))
+
+
+def cauchy_index(f: Sequence[arb], g: Sequence[arb]) -> int | None:
+    """The Cauchy index of g/f over the real line, by the chain f, g, −rem, …"""
+    chain = [list(f), list(g)]
+    while len(chain[-1]) > 1:
+        rest = _negative_remainder(chain[-2], chain[-1])
+        if rest is None:
+            return None
+        chain.append(rest)
+    if not chain[-1]:
+        return None
+    if any(p[-1].contains(0) for p in chain):
+        return None
+    return _variations(chain, at_plus=False) - _variations(chain, at_plus=True)
+
+
+def derivative(coefficients: Sequence[arb]) -> list[arb]:
+    """The derivative."""
+    return [k * a for k, a in enumerate(coefficients) if k]
+
+
+def value(coefficients: Sequence[arb | fmpq], x: arb) -> arb:
+    """The value at x, by Horner's rule."""
+    total = arb(0)
+    for a in reversed(coefficients):
+        total = total * x + a
+    return total
+
+
+def _negative_remainder(f: Sequence[arb], g: Sequence[arb]) -> list[arb] | None:
+    """−(f mod g), with a leading coefficient that is not zero."""
+    *lower, leading = g
+    if leading.contains(0):
+        return None
+    rest = list(f)
+    while len(rest) >= len(g):
+        factor = rest.pop() / leading
+        for k, a in enumerate(lower, start=len(rest) - len(lower)):
+            rest[k] = rest[k] - factor * a
+    while rest and rest[-1].is_zero():
+        rest.pop()
+    if not rest or rest[-1].contains(0):
+        return None
+    return [-a for a in rest]
+
+
+def _variations(chain: Sequence[Sequence[arb]], at_plus: bool) -> int:
+    """Changes of sign along the chain at ∞ or −∞."""
+    signs = []
+    for p in chain:
+        is_positive = bool(p[-1] > 0)
+        has_odd_degree = len(p) % 2 == 0
+        if has_odd_degree and not at_plus:
+            is_positive = not is_positive
+        signs.append(is_positive)
+    return sum(1 for a, b in pairwise(signs) if a != b)

@@ -110,8 +110,7 @@ class Parser:
             match = _TOKEN.match(self.text, position)
             if match is None:
                 rest = self.text[position:]
-                unread = rest.lstrip(" \t\r\n")
-                offset = position + len(rest) - len(unread)
+                offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
                 message = f"the sign {sign!r} has no place in a {self.value_noun}"
@@ -234,8 +233,7 @@ class Parser:
         start = self.start
         if self.kind == "number":
             text = self._advance()
-            value = read_decimal(text, start)
-            return Literal(value, start=start, end=self.last_end, text=text)
+            return Literal(read_decimal(text, start), start=start, end=self.last_end, text=text)
         if self.kind == "name":
             name = self._advance()
             if self.value == "(":

@@ -14,12 +14,12 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TypeAlias
 
-from flint import arb, fmpq, fmpq_mpoly
+from flint import arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.exact.cells import sign_of
+from garkcli.exact.enclosing import value
 from garkcli.exact.field import Algebraic, Number, NumberField
-from garkcli.exact.isolating import precision
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, in_y, resultant
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign_at
@@ -67,7 +67,7 @@ class Root:
     def ball(self, bits: int) -> arb:
         """An enclosure, by ``bits`` behind the point."""
         found = self.refined(bits)
-        with precision(2 * bits):
+        with ctx.workprec(2 * bits):
             return arb(found.low).union(arb(found.high))
 
     @property
@@ -114,9 +114,9 @@ class Fibre:
         """The sign of a polynomial over ℚ(t_0) at a rational number."""
         key = p, y
         if key not in self._signs:
-            value = p(y)
-            element = value.poly if isinstance(value, Algebraic) else Polynomial([value]).to_flint()
-            self._signs[key] = sign_at(Polynomial.from_flint(element), self.t)
+            number = p(y)
+            poly = number.poly if isinstance(number, Algebraic) else Polynomial([number]).to_flint()
+            self._signs[key] = sign_at(Polynomial.from_flint(poly), self.t)
         return self._signs[key]
 
     @cached_property
@@ -181,11 +181,11 @@ class Fibre:
         while waiting:
             check_time()
             low, high = waiting.pop()
-            with precision(bits):
+            with ctx.workprec(bits):
                 interval = arb(low).union(arb(high))
-                if not _at(values, interval).contains(0):
+                if not value(values, interval).contains(0):
                     continue
-                is_monotone = not _at(slopes, interval).contains(0)
+                is_monotone = not value(slopes, interval).contains(0)
             if is_monotone:
                 if self.sign_on(p, low) * self.sign_on(p, high) < 0:
                     yield low, high
@@ -200,7 +200,7 @@ class Fibre:
     def _enclosed(self, p: Polynomial, bits: int) -> list[arb]:
         """The coefficients in balls."""
         t = self.t.ball(bits)
-        with precision(bits):
+        with ctx.workprec(bits):
             return [_ball(a, t) for a in p.coefficients]
 
     @cached_property
@@ -260,20 +260,13 @@ def _ball(a: Number, t: arb) -> arb:
     return poly.enclosed_at(t)
 
 
-def _at(coefficients: Sequence[arb], x: arb) -> arb:
-    total = arb(0)
-    for a in reversed(coefficients):
-        total = total * x + a
-    return total
-
-
 def _bound(coefficients: Sequence[arb], bits: int) -> fmpq:
     """A power of 2 that all roots are below (Cauchy).
 
     Raises:
         _NotFineEnough: the leading coefficient may be 0.
     """
-    with precision(bits):
+    with ctx.workprec(bits):
         *lower, leading = coefficients
         if leading.contains(0):
             raise _NotFineEnough

@@ -14,10 +14,10 @@ from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
-from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.nodes import Expression
 from garkcli.exact.pickling import register
 from garkcli.exact.rewriting import format_expression
+from garkcli.exact.span import pivot_columns
 from garkcli.upward import answered
 
 register()  # methods are copied, and sent to other processes
@@ -88,8 +88,7 @@ class NumberField:
         while level:
             words = list(level)
             candidates = [self._column(level[word]) for word in words]
-            rows = fmpq_mat([*columns, *candidates])
-            pivots = pivot_columns(rows.transpose())
+            pivots = pivot_columns(fmpq_mat([*columns, *candidates]).transpose())
             known = len(columns)
             new = [j - known for j in pivots if j >= known]
             new_words = [words[j] for j in new]
@@ -97,10 +96,8 @@ class NumberField:
             columns += [candidates[j] for j in new]
             if len(columns) == self.degree:
                 break
-            kept = {word: level[word] for word in new_words}
-            level = self._extended(kept)
-        basis = fmpq_mat(columns).transpose()
-        return tuple(chosen), basis.inv()
+            level = self._extended({word: level[word] for word in new_words})
+        return tuple(chosen), fmpq_mat(columns).transpose().inv()
 
     def _extended(self, level: Mapping[Word, fmpq_poly]) -> dict[Word, fmpq_poly]:
         """The products with one factor more; the indices of a word do not descend."""
@@ -109,8 +106,7 @@ class NumberField:
             last = word[-1] if word else 0
             for index in range(last, len(self.radicals)):
                 _, radical = self.radicals[index]
-                longer = (*word, index)
-                extended[longer] = product * radical % self.modulus
+                extended[*word, index] = product * radical % self.modulus
         return extended
 
     def _column(self, poly: fmpq_poly) -> list[fmpq]:
@@ -129,9 +125,7 @@ class NumberField:
     def in_radicals(self, number: Algebraic) -> list[fmpq]:
         """The coordinates of ``number`` in the basis ``monomials``."""
         _, inverse = self._basis
-        entries = self._column(number.poly)
-        column = fmpq_mat(self.degree, 1, entries)
-        return (inverse * column).entries()
+        return (inverse * fmpq_mat(self.degree, 1, self._column(number.poly))).entries()
 
 
 class Algebraic:
@@ -206,8 +200,7 @@ class Algebraic:
         base: Number = self
         if exponent < 0:
             base = self.inverse()
-        bits = f"{abs(exponent):b}"
-        for bit in bits:
+        for bit in f"{abs(exponent):b}":
             result = result * result
             if bit == "1":
                 result = result * base
@@ -240,8 +233,7 @@ class Algebraic:
         ``NumberField.monomials``.
         """
         coefficients = self.field.in_radicals(self)
-        words = self.field.monomials
-        for coefficient, word in zip(coefficients, words, strict=True):
+        for coefficient, word in zip(coefficients, self.field.monomials, strict=True):
             if coefficient:
                 yield coefficient, word
 

@@ -10,13 +10,18 @@ where the exponent has to be a constant, and ``pi`` is a name.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Callable, Mapping
+from typing import ClassVar, TypeAlias
 
-from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
+from flint import arb, fmpq
+
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, did_you_mean
+from garkcli.exact.domain import MAX_BITS, too_many_bits
+from garkcli.exact.enclosing import OPERATIONS, integer_power
 from garkcli.exact.expression import FUNCTIONS as ROOTS
 from garkcli.exact.expression import MAX_EXPONENT, Parser
-from garkcli.exact.nodes import Chain, Expression, Literal, Power
+from garkcli.exact.nodes import Call, Chain, Expression, Literal, Name, Power, RealPower, Root
+from garkcli.exact.rewriting import format_expression
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
 """The functions of formulas besides the roots: each has a derivative wherever it is defined."""
@@ -32,22 +37,6 @@ _CURES = {
     "arccos": "write acos(x)",
     "arctan": "write atan(x)",
 }
-
-
-@dataclass(frozen=True)
-class Call(Expression):
-    """A function of one argument, one of ``FUNCTIONS``."""
-
-    function: str
-    argument: Expression
-
-
-@dataclass(frozen=True)
-class RealPower(Expression):
-    """A power whose exponent is not a whole number as it is written."""
-
-    base: Expression
-    exponent: Expression
 
 
 def parse_formula(text: str) -> Expression:
@@ -110,3 +99,182 @@ def _cure_of(name: str) -> str:
     if near.startswith("did"):
         return near
     return f"write products with *, as in {name}*(x); functions: {', '.join(known)}"
+
+
+Value: TypeAlias = fmpq | arb
+"""A number in a formula."""
+MAX_DENOMINATOR = 10_000
+"""Largest denominator of an exponent."""
+FLOAT_BITS = 1000
+"""Largest numbers are 2^``FLOAT_BITS``: floats can still be multiplied by them."""
+_FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for name in FUNCTIONS}
+
+
+def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
+    """The value, at the current ``flint.ctx`` precision; rational operations on rational numbers
+    are exact.
+
+    Args:
+        expression: any, with whatever roots, powers and functions.
+        names: a value for each name in it but ``pi``.
+
+    Raises:
+        UndefinedValue: an operation has no real value, or none that can be told: log(-1), 1/0,
+            sqrt(-2). The error knows the offsets of the operation.
+        LimitExceeded: a number of more than ``MAX_BITS`` bits or beyond the floats, or an exponent
+            that is none.
+        KeyError: a name without a value.
+
+    >>> from garkcli.exact.formula import parse_formula
+    >>> value_of(parse_formula("(1 + x)**2/3"), {"x": fmpq(1, 2)})
+    3/4
+    """
+    match expression:
+        case Literal(value=number):
+            return number
+        case Name(name=name):
+            return arb.pi() if name == "pi" else names[name]
+        case Chain(signs=signs, operands=operands):
+            is_sum = signs[0] in "+-"
+            total: Value = fmpq(0) if is_sum else fmpq(1)
+            for sign, operand in zip(signs, operands, strict=True):
+                total = _applied(sign, total, value_of(operand, names), operand)
+                total = _bounded(total, expression)
+            return total
+        case Power(base=base, exponent=exponent):
+            x = value_of(base, names)
+            return _power(x, fmpq(exponent), expression, base)
+        case RealPower(base=base, exponent=exponent):
+            x = value_of(base, names)
+            return _power(x, exponent_of(exponent, names), expression, base)
+        case Root(radicand=radicand, index=index):
+            x = value_of(radicand, names)
+            return _root(x, index, expression, radicand)
+        case Call(function=function, argument=argument):
+            x = value_of(argument, names)
+            return _finite(_FUNCTIONS[function](arb(x)), expression, function, argument, x)
+    raise TypeError(f"no expression: {expression!r}")
+
+
+def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
+    """The rational number that an exponent is.
+
+    Raises:
+        UndefinedValue: it is irrational.
+        LimitExceeded: it is too large, or its denominator is.
+    """
+    value = value_of(expression, names)
+    start, end = expression.start, expression.end
+    if isinstance(value, arb):
+        message = f"the exponent {format_expression(expression)} is no rational number"
+        cure = "write a fraction or a decimal, such as 3/2"
+        raise UndefinedValue(message, cure, start, end, code="not-real")
+    if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
+        fault = f"is beyond {MAX_EXPONENT} or has more than four decimals"
+        message = f"the exponent {shown(value)} {fault}"
+        raise LimitExceeded(message, "use a smaller or simpler one", start, end)
+    return value
+
+
+def shown(x: Value) -> str:
+    """A number in a message.
+
+    >>> shown(fmpq(1, 3)), shown(arb(2).sqrt())
+    ('1/3', '1.41421')
+    """
+    if isinstance(x, fmpq) and len(str(x)) <= 12:
+        return str(x)
+    return f"{float(arb(x)):.6g}"
+
+
+def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
+    if sign == "/":
+        _check_divisor(right, at)
+    if isinstance(left, arb) or isinstance(right, arb):
+        left = arb(left)
+        right = arb(right)
+    found: Value = OPERATIONS[sign](left, right)
+    return found
+
+
+def _check_divisor(number: Value, at: Expression) -> None:
+    may_be_zero = not number
+    if isinstance(number, arb):
+        may_be_zero = number.contains(0)
+    if not may_be_zero:
+        return
+    what = ""
+    if not isinstance(at, Literal):
+        divisor = _cut(format_expression(at))
+        what = f"{divisor} is 0 here"
+    raise UndefinedValue("division by zero", what, at.start, at.end, code="division-by-zero")
+
+
+def _cut(text: str) -> str:
+    if len(text) <= 40:
+        return text
+    start = text[:39]
+    return f"{start}…"
+
+
+def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
+    """A power; the base is positive where the exponent is no whole number."""
+    if exponent < 0:
+        _check_divisor(base, of)
+    if exponent.q == 1:
+        n = int(exponent.p)
+        if not isinstance(base, fmpq):
+            return _bounded(integer_power(base, n), at)
+        if base.height_bits() * abs(n) > MAX_BITS:
+            raise too_many_bits(at)
+        return base**n
+    if isinstance(base, fmpq) and not base:
+        return fmpq(0)
+    if not arb(base) > 0:
+        message = f"a power with the exponent {exponent} of {shown(base)}"
+        cure = "such powers are of positive numbers"
+        raise UndefinedValue(message, cure, at.start, at.end, code="not-real")
+    return _bounded(arb(base) ** arb(exponent), at)
+
+
+def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
+    is_odd = index % 2 == 1
+    if isinstance(radicand, fmpq) and (is_odd or radicand >= 0):
+        size = abs(radicand)
+        root = fmpq(size.p.root(index), size.q.root(index))
+        if root**index == size:
+            return -root if radicand < 0 else root
+    x = arb(radicand)
+    if is_odd and x < 0:
+        return -((-x).root(index))
+    kind = "a root" if is_odd else "an even root"
+    return _finite(x.root(index), at, kind, of, radicand)
+
+
+def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value) -> Value:
+    if not result.is_finite():
+        what = _cut(format_expression(of))
+        if what != str(x):
+            what = f"{what} = {shown(x)}"
+        message = f"{function} of {what} is no real number"
+        raise UndefinedValue(message, "", at.start, at.end, code="not-real")
+    return _bounded(result, at)
+
+
+def _bounded(number: Value, at: Expression) -> Value:
+    if isinstance(number, fmpq) and number.height_bits() > MAX_BITS:
+        raise too_many_bits(at)
+    size = abs(arb(number))
+    is_large_enough = size > _LEAST or size.contains(0)
+    is_within = size < _MOST and is_large_enough
+    if not is_within:
+        bound = f"above 2^{FLOAT_BITS}"
+        if size < 1:
+            bound = f"below 2^-{MAX_BITS}"
+        cure = "choose other units"
+        raise LimitExceeded(f"a number {bound}", cure, at.start, at.end)
+    return number
+
+
+_MOST = arb(2) ** FLOAT_BITS
+_LEAST = arb(2) ** -MAX_BITS

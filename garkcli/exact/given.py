@@ -67,8 +67,7 @@ def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) ->
         return str(x)
     if _is_float(x):
         return _float_text(x, where, is_rounded, cure)
-    package = kind.__module__.partition(".")[0]
-    if package == "sympy":
+    if kind.__module__.partition(".")[0] == "sympy":
         return _sympy_text(x, where)
     message = f"{where}: {_shown(x)} is no exact real number"
     raise MethodError(message, _CURE, code="not-a-number")
@@ -109,8 +108,7 @@ def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
         raise MethodError(message, "give its text, or a Fraction", code="number-too-large")
     text = repr(value)
     mantissa, *_ = text.lower().partition("e")
-    significant = mantissa.replace(".", "").lstrip("-0").rstrip("0")
-    is_long = len(significant) > FLOAT_DIGITS
+    is_long = len(mantissa.replace(".", "").lstrip("-0").rstrip("0")) > FLOAT_DIGITS
     # subnormal floats keep fewer digits
     is_subnormal = 0 < abs(value) < float_info.min
     if (is_long or is_subnormal) and not is_rounded:

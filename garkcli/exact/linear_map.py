@@ -53,8 +53,7 @@ class LinearMap:
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
         if self._rows_apart is not None:
-            rational = cast("Sequence[_Rational]", vectors)
-            return [_image(self._rows_apart, v) for v in rational]
+            return [_image(self._rows_apart, v) for v in cast("Sequence[_Rational]", vectors)]
         return _products(vectors, self._transposed, self.field)
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
@@ -88,10 +87,7 @@ class EntrywiseMap:
 def _rational_rows_apart(rows: Matrix) -> Sequence[_Rational] | None:
     """The rows, where one of them is better summed as fractions; else None."""
     rational = cast("Sequence[_Rational]", rows)
-    for row in rational:
-        if _has_denominators_apart(row):
-            return rational
-    return None
+    return rational if any(map(_has_denominators_apart, rational)) else None
 
 
 def _has_denominators_apart(row: _Rational) -> bool:
@@ -101,18 +97,11 @@ def _has_denominators_apart(row: _Rational) -> bool:
         return False
     # Over one denominator the row is len(row) numbers of its length, as fractions it is as long as
     # all denominators together; summing these is Python's work, the other python-flint's.
-    common = lcm(*denominators)
-    bits_together = len(row) * common.bit_length()
-    return bits_together > 4 * bits
+    return len(row) * lcm(*denominators).bit_length() > 4 * bits
 
 
 def _image(rows: Sequence[_Rational], vector: _Rational) -> Vector:
-    image = []
-    for row in rows:
-        pairs = zip(row, vector, strict=True)
-        products = [a * x for a, x in pairs]
-        image.append(_sum(products))
-    return tuple(image)
+    return tuple(_sum([a * x for a, x in zip(row, vector, strict=True)]) for row in rows)
 
 
 def _sum(terms: _Rational) -> fmpq:
@@ -157,10 +146,7 @@ def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]
     """The rows of Σ θⁿ P_n, entry by entry; ``powers`` has P_0, and others that are not zero."""
     constant = powers[0]
     zeros = fmpq_mat(constant.nrows(), constant.ncols())
-    by_power = []
-    for n in range(max(powers) + 1):
-        matrix = powers.get(n, zeros)
-        by_power.append(matrix.tolist())
+    by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
     found = []
     for rows in zip(*by_power, strict=True):
         row = []
@@ -185,6 +171,5 @@ def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
     for k in range(1, field.degree):
         coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]
         if any(coordinates):
-            part = fmpq_mat(height, width, coordinates)
-            parts.append((k, part))
+            parts.append((k, fmpq_mat(height, width, coordinates)))
     return parts

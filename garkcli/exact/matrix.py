@@ -1,7 +1,7 @@
 """Matrices of exact numbers, as tuples of rows.
 
 Rational matrices go through python-flint; matrices over a number field entry by entry.
-``LinearMap`` is the way for one matrix and many vectors.
+``LinearMap`` is the way for one matrix and many vectors. Determinants of I − z W are polynomials.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from typing import TypeAlias, cast
 from flint import fmpq, fmpq_mat
 
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, sum_of_products
+from garkcli.exact.polynomial import Polynomial
+from garkcli.graph import components
 
 Vector: TypeAlias = tuple[Number, ...]
 Matrix: TypeAlias = tuple[Vector, ...]
@@ -41,12 +43,7 @@ def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
 
 def identity(size: int) -> Matrix:
     """The unit matrix."""
-    rows = []
-    for i in range(size):
-        row = [ZERO] * size
-        row[i] = ONE
-        rows.append(tuple(row))
-    return tuple(rows)
+    return tuple(tuple(ONE if i == j else ZERO for j in range(size)) for i in range(size))
 
 
 def transpose(a: Matrix) -> Matrix:
@@ -56,40 +53,22 @@ def transpose(a: Matrix) -> Matrix:
 
 def add(a: Matrix, b: Matrix) -> Matrix:
     """The sum a + b."""
-    total = []
-    for row, other in zip(a, b, strict=True):
-        pairs = zip(row, other, strict=True)
-        entries = [x + y for x, y in pairs]
-        total.append(tuple(entries))
-    return tuple(total)
+    return tuple(tuple(x + y for x, y in zip(u, v, strict=True)) for u, v in zip(a, b, strict=True))
 
 
 def subtract(a: Matrix, b: Matrix) -> Matrix:
     """The difference a − b."""
-    difference = []
-    for row, other in zip(a, b, strict=True):
-        pairs = zip(row, other, strict=True)
-        entries = [x - y for x, y in pairs]
-        difference.append(tuple(entries))
-    return tuple(difference)
+    return tuple(tuple(x - y for x, y in zip(u, v, strict=True)) for u, v in zip(a, b, strict=True))
 
 
 def scale(factor: Number, a: Matrix) -> Matrix:
     """The multiple factor · a."""
-    multiple = []
-    for row in a:
-        entries = [factor * x for x in row]
-        multiple.append(tuple(entries))
-    return tuple(multiple)
+    return tuple(tuple(factor * x for x in row) for row in a)
 
 
 def outer(u: Vector, v: Vector) -> Matrix:
     """The product u vᵀ, shape (len(u), len(v))."""
-    product = []
-    for x in u:
-        entries = [x * y for y in v]
-        product.append(tuple(entries))
-    return tuple(product)
+    return tuple(tuple(x * y for y in v) for x in u)
 
 
 def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
@@ -114,8 +93,7 @@ def apply(a: Matrix, v: Sequence[Number]) -> Vector:
 
 def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
     """uᵀ A."""
-    columns = zip(*a, strict=True)
-    return tuple(dot(u, column) for column in columns)
+    return tuple(dot(u, column) for column in zip(*a, strict=True))
 
 
 def multiply(a: Matrix, b: Matrix) -> Matrix:
@@ -125,11 +103,7 @@ def multiply(a: Matrix, b: Matrix) -> Matrix:
         right = to_flint(b, len(b[0]))
         return from_flint(left * right)
     columns = transpose(b)
-    product = []
-    for row in a:
-        entries = [dot(row, column) for column in columns]
-        product.append(tuple(entries))
-    return tuple(product)
+    return tuple(tuple(dot(row, column) for column in columns) for row in a)
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix:
@@ -148,8 +122,7 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
             return from_flint(left.solve(right))
         except ZeroDivisionError:
             raise SingularMatrixError from None
-    pairs = zip(a, b, strict=True)
-    return _eliminated([[*row, *right_side] for row, right_side in pairs])
+    return _eliminated([[*row, *right_side] for row, right_side in zip(a, b, strict=True)])
 
 
 def _eliminated(rows: list[list[Number]]) -> Matrix:
@@ -169,7 +142,62 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
             factor = row[k]
             if i == k or not factor:
                 continue
-            pairs = zip(row, pivot_row, strict=True)
-            rows[i] = [x - factor * y if y else x for x, y in pairs]
-    solutions = [tuple(row[n:]) for row in rows]
-    return tuple(solutions)
+            rows[i] = [x - factor * y if y else x for x, y in zip(row, pivot_row, strict=True)]
+    return tuple(tuple(row[n:]) for row in rows)
+
+
+def reciprocal_characteristic(W: Matrix) -> Polynomial:
+    """det(I − z W), the characteristic polynomial of W read backwards.
+
+    The strongly connected components of the graph of W are taken one by one: an explicit method
+    has none but single vertices, and a diagonally implicit one the entries of its diagonal.
+
+    Args:
+        W: square, exact.
+
+    >>> half = fmpq(1, 2)
+    >>> reciprocal_characteristic(((half, half), (half, half)))
+    Polynomial([1, -1])
+    """
+    neighbours: dict[int, list[int]] = {}
+    for i, row in enumerate(W):
+        neighbours[i] = [j for j, w in enumerate(row) if w]
+    result = Polynomial([1])
+    for component in components(neighbours):
+        result = result * _dense(tuple(tuple(W[i][j] for j in component) for i in component))
+    return result
+
+
+def _dense(W: Matrix) -> Polynomial:
+    """The same of one component."""
+    size = len(W)
+    if size == 1:
+        [[entry]] = W
+        return Polynomial([ONE, -entry])
+    if is_rational(W):
+        return Polynomial.from_flint(to_flint(W, size).charpoly()).reversed(size)
+    return Polynomial(_from_traces(_traces(W)))
+
+
+def _traces(W: Matrix) -> list[Number]:
+    """The traces of W, W², …, W^n."""
+    power = W
+    traces = []
+    for _ in W:
+        trace: Number = ZERO
+        for i, row in enumerate(power):
+            trace = trace + row[i]
+        traces.append(trace)
+        power = multiply(power, W)
+    return traces
+
+
+def _from_traces(traces: Sequence[Number]) -> list[Number]:
+    """The coefficients e_k of det(I − z W) by Newton's identities, k e_k = −Σ_j t_j e_{k−j}."""
+    coefficients: list[Number] = [ONE]
+    for k in range(1, len(traces) + 1):
+        total: Number = ZERO
+        for j in range(1, k + 1):
+            total = total + traces[j - 1] * coefficients[k - j]
+        coefficients.append(total * fmpq(-1, k))
+    return coefficients

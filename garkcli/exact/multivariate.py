@@ -62,8 +62,7 @@ class Multivariate:
         return Multivariate.of(self.variables, sums)
 
     def __neg__(self) -> Multivariate:
-        negated = [(exponents, -a) for exponents, a in self.terms]
-        return Multivariate(self.variables, tuple(negated))
+        return Multivariate(self.variables, tuple((exponents, -a) for exponents, a in self.terms))
 
     def __sub__(self, other: Multivariate) -> Multivariate:
         return self + -other
@@ -79,8 +78,7 @@ class Multivariate:
         """The value at an exact point."""
         total: Number = ZERO
         for exponents, a in self.terms:
-            pairs = zip(point, exponents, strict=True)
-            powers = [x**k for x, k in pairs if k]
+            powers = [x**k for x, k in zip(point, exponents, strict=True) if k]
             total = total + a * prod(powers, start=ONE)
         return total
 
@@ -88,8 +86,7 @@ class Multivariate:
         """The coefficients of 1, x, x², … in the last variable x."""
         powers: list[dict[Exponents, Number]] = []
         for (*others, last), a in self.terms:
-            missing = last + 1 - len(powers)
-            powers += [{} for _ in range(missing)]
+            powers += [{} for _ in range(last + 1 - len(powers))]
             powers[last][tuple(others)] = a
         return [Multivariate.of(self.variables - 1, terms) for terms in powers]
 
@@ -137,12 +134,9 @@ def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) 
     for k in range(degree + 1):
         values = {}
         for point in lattice(axes, k):
-            line = lines[point]
-            values[point] = line[k]
-        part = _interpolated(values, axes, offset, k)
-        for exponents, a in part.items():
-            first = k - sum(exponents)
-            terms[first, *exponents] = a
+            values[point] = lines[point][k]
+        for exponents, a in _interpolated(values, axes, offset, k).items():
+            terms[k - sum(exponents), *exponents] = a
     return Multivariate.of(axes + 1, terms)
 
 
@@ -157,8 +151,7 @@ def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivari
     (((1, 0), 2), ((0, 0), 1))
     """
     axes = len(next(iter(values)))
-    terms = _interpolated(values, axes, 0, degree)
-    return Multivariate.of(axes, terms)
+    return Multivariate.of(axes, _interpolated(values, axes, 0, degree))
 
 
 def _interpolated(
@@ -176,8 +169,7 @@ def _interpolated(
         factors = [enumerate(basis[i].coefficients) for i in point]
         for chosen in product(*factors):
             exponents = tuple(power for power, _ in chosen)
-            numbers = [x for _, x in chosen]
-            a = prod(numbers, start=difference)
+            a = prod([x for _, x in chosen], start=difference)
             terms[exponents] = terms.get(exponents, ZERO) + a
     return terms
 
@@ -189,8 +181,7 @@ def _take_differences(table: dict[Exponents, Number], axis: int, degree: int) ->
         for point in descending:
             i = point[axis]
             if i >= rank:
-                before = (*point[:axis], i - 1, *point[axis + 1 :])
-                table[point] = table[point] - table[before]
+                table[point] = table[point] - table[*point[:axis], i - 1, *point[axis + 1 :]]
 
 
 def _newton_basis(offset: int, degree: int) -> list[Polynomial]:
@@ -198,8 +189,6 @@ def _newton_basis(offset: int, degree: int) -> list[Polynomial]:
     basis = [Polynomial([1])]
     last = basis[0]
     for i in range(degree):
-        zero = offset + i
-        factor = Polynomial([-zero, 1])
-        last = last * factor * fmpq(1, i + 1)
+        last = last * Polynomial([-(offset + i), 1]) * fmpq(1, i + 1)
         basis.append(last)
     return basis

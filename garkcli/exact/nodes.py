@@ -1,4 +1,4 @@
-"""What expressions are made of; ``garkcli.exact.formula`` adds the nodes of problems."""
+"""What expressions are made of; only formulas of problems have calls and real powers."""
 
 from __future__ import annotations
 
@@ -71,3 +71,19 @@ class AlgebraicRoot(Expression):
 
     coefficients: tuple[int, ...]
     number: int
+
+
+@dataclass(frozen=True)
+class Call(Expression):
+    """A function of one argument, one of those that ``garkcli.exact.formula`` has."""
+
+    function: str
+    argument: Expression
+
+
+@dataclass(frozen=True)
+class RealPower(Expression):
+    """A power whose exponent is not a whole number as it is written."""
+
+    base: Expression
+    exponent: Expression

@@ -67,18 +67,14 @@ class Parameters:
 
     def parameter(self, name: str) -> Parametric:
         """A parameter as a number."""
-        index = self.names.index(name)
-        return Parametric(self, self.context.gen(index), self.constant(fmpq(1)))
+        return Parametric(self, self.context.gen(self.names.index(name)), self.constant(fmpq(1)))
 
     def text(self, polynomial: fmpq_mpoly | fmpz_mpoly) -> str:
         """A polynomial as people read it."""
-        found = str(polynomial)
+        text = str(polynomial)
         if not self.shown:
-            return found
-        return _NAME.sub(lambda x: self._shown(x[0]), found)
-
-    def _shown(self, name: str) -> str:
-        return self.shown[name][0] if name in self.shown else name
+            return text
+        return _NAME.sub(lambda name: self.shown.get(name[0], (name[0], ""))[0], text)
 
     def latex(self, polynomial: fmpq_mpoly) -> str:
         """A polynomial in LaTeX."""

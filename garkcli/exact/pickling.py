@@ -27,9 +27,7 @@ Dyadic: TypeAlias = tuple[int, int]
 
 
 def _rational(number: fmpq) -> Made:
-    numerator = int(number.p)
-    denominator = int(number.q)
-    return fmpq, (numerator, denominator)
+    return fmpq, (int(number.p), int(number.q))
 
 
 def _polynomial(poly: fmpq_poly) -> Made:
@@ -37,8 +35,7 @@ def _polynomial(poly: fmpq_poly) -> Made:
 
 
 def _integer_polynomial(poly: fmpz_poly) -> Made:
-    coefficients = [int(x) for x in poly.coeffs()]
-    return fmpz_poly, (coefficients,)
+    return fmpz_poly, ([int(x) for x in poly.coeffs()],)
 
 
 def _in_several(polynomial: fmpq_mpoly | fmpz_mpoly) -> Made:
@@ -58,16 +55,11 @@ def _in_several_of(kind: Any, names: tuple[str, ...], ordering: Ordering, terms:
 
 
 def _matrix(matrix: fmpq_mat) -> Made:
-    rows = matrix.nrows()
-    columns = matrix.ncols()
-    entries = matrix.entries()
-    return fmpq_mat, (rows, columns, entries)
+    return fmpq_mat, (matrix.nrows(), matrix.ncols(), matrix.entries())
 
 
 def _ball(ball: arb) -> Made:
-    middle = _dyadic(ball.mid())
-    radius = _dyadic(ball.rad())
-    return _ball_of, (middle, radius)
+    return _ball_of, (_dyadic(ball.mid()), _dyadic(ball.rad()))
 
 
 def _dyadic(exact: arb) -> Dyadic:

@@ -85,8 +85,7 @@ class Polynomial:
 
     def __add__(self, other: Polynomial | Number | int) -> Polynomial:
         right = _as_polynomial(other)
-        degree = max(self.degree, right.degree)
-        coefficients = [self[k] + right[k] for k in range(degree + 1)]
+        coefficients = [self[k] + right[k] for k in range(max(self.degree, right.degree) + 1)]
         return Polynomial(coefficients)
 
     def __sub__(self, other: Polynomial | Number | int) -> Polynomial:
@@ -95,10 +94,8 @@ class Polynomial:
     def __mul__(self, other: Polynomial | Number | int) -> Polynomial:
         right = _as_polynomial(other)
         if self.is_rational and right.is_rational:
-            in_flint = self.to_flint() * right.to_flint()
-            return Polynomial.from_flint(in_flint)
-        length = len(self.coefficients) + len(right.coefficients)
-        product: list[Number] = [ZERO] * length
+            return Polynomial.from_flint(self.to_flint() * right.to_flint())
+        product: list[Number] = [ZERO] * (len(self.coefficients) + len(right.coefficients))
         for i, a in enumerate(self.coefficients):
             check_time()
             for k, b in enumerate(right.coefficients, start=i):
@@ -131,8 +128,7 @@ class Polynomial:
             return quotient, remainder
         inverse = ONE / divisor.leading
         rest = list(self.coefficients)
-        length = max(self.degree - divisor.degree + 1, 0)
-        quotients: list[Number] = [ZERO] * length
+        quotients: list[Number] = [ZERO] * max(self.degree - divisor.degree + 1, 0)
         for k in reversed(range(len(quotients))):
             check_time()
             factor = rest[k + divisor.degree] * inverse
@@ -155,13 +151,11 @@ class Polynomial:
 
     def derivative(self) -> Polynomial:
         """The derivative."""
-        terms = [a * k for k, a in enumerate(self.coefficients)]
-        return Polynomial(terms[1:])
+        return Polynomial([a * k for k, a in enumerate(self.coefficients)][1:])
 
     def reversed(self, degree: int) -> Polynomial:
         """The polynomial x^degree p(1/x)."""
-        coefficients = [self[k] for k in range(degree, -1, -1)]
-        return Polynomial(coefficients)
+        return Polynomial([self[k] for k in range(degree, -1, -1)])
 
     def substituted(self, inner: Polynomial) -> Polynomial:
         """The composition p(inner(x)), by Horner's rule."""
@@ -187,8 +181,7 @@ class Polynomial:
 
     def square_free(self) -> Polynomial:
         """The monic polynomial with the same roots, each once."""
-        repeated = gcd(self, self.derivative())
-        return (self // repeated).monic()
+        return (self // gcd(self, self.derivative())).monic()
 
     def norm(self) -> fmpz_poly:
         """A polynomial over ℤ that has all roots of this one, and those of its conjugates.
@@ -203,8 +196,7 @@ class Polynomial:
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]
         values = [_norm_of(self(point), field) for point in points]
-        norm = interpolated(points, values)
-        return norm.to_flint().numer()
+        return interpolated(points, values).to_flint().numer()
 
 
 def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
@@ -218,10 +210,7 @@ def _norm_of(number: Number, field: NumberField) -> fmpq:
     check_time()
     d = field.degree
     theta = fmpq_poly([0, 1])
-    rows = []
-    for k in range(d):
-        image = number * field.element(theta**k)
-        rows.append(coordinates(image, d))
+    rows = [coordinates(number * field.element(theta**k), d) for k in range(d)]
     return fmpq_mat(rows).det()
 
 
@@ -252,8 +241,7 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
     result = Polynomial([])
     for point, difference in zip(reversed(points), reversed(table), strict=True):
         check_time()
-        x_minus_point = Polynomial([-point, ONE])
-        result = result * x_minus_point + difference
+        result = result * Polynomial([-point, ONE]) + difference
     return result
 
 
@@ -283,8 +271,7 @@ def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
             return ZERO
         if (a.degree - k) % 2 and (b.degree - k) % 2:
             result = -result
-        drop = a.degree - rest.degree
-        result = result * b.leading**drop
+        result = result * b.leading ** (a.degree - rest.degree)
         a, b = b, rest
     if b.degree < k:
         return ZERO
@@ -298,8 +285,7 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
     Polynomial([1, 1])
     """
     if a.is_rational and b.is_rational:
-        common = a.to_flint().gcd(b.to_flint())
-        return Polynomial.from_flint(common).monic()
+        return Polynomial.from_flint(a.to_flint().gcd(b.to_flint())).monic()
     while b:
         a, b = b, (a % b).monic()
     return a.monic()

@@ -64,8 +64,7 @@ def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
     """
     terms = []
     for exponents, a in p.terms:
-        named = zip(variables, exponents, strict=True)
-        powers = [power_text(x, k) for x, k in named if k]
+        powers = [power_text(x, k) for x, k in zip(variables, exponents, strict=True) if k]
         terms.append((a, "*".join(powers)))
     return _sum_text(terms)
 
@@ -153,8 +152,7 @@ def root_in_short(root: RealRoot) -> str:
 
 def root_decimal(root: RealRoot, digits: int) -> str:
     """A root rounded to significant digits, zeros at the end left out."""
-    bits = int(digits * BITS_A_DIGIT) + 40
-    return ball_decimal(root.ball(bits), digits)
+    return ball_decimal(root.ball(int(digits * BITS_A_DIGIT) + 40), digits)
 
 
 def ball_decimal(ball: arb, digits: int) -> str:

@@ -71,9 +71,7 @@ def even_root_fault(root: Root) -> UndefinedValue:
 
 def rational_square_root(number: fmpq) -> fmpq | None:
     """The square root of a number that is not negative; None where it is irrational."""
-    p = number.p.isqrt()
-    q = number.q.isqrt()
-    root = fmpq(p, q)
+    root = fmpq(number.p.isqrt(), number.q.isqrt())
     if root**2 != number:
         return None
     return root

@@ -9,8 +9,17 @@ from flint import fmpq
 
 from garkcli.errors import UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT
-from garkcli.exact.formula import Call, RealPower
-from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Call,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    RealPower,
+    Root,
+)
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
@@ -19,8 +28,7 @@ def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
     """
     if isinstance(expression, Name):
         return sizes.get(expression.name, 1)
-    of_parts = [size_of(x, sizes) for x in parts(expression)]
-    return 1 + sum(of_parts)
+    return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
 
 def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
@@ -29,8 +37,7 @@ def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
     """
     if isinstance(expression, Name):
         return depths.get(expression.name, 1)
-    of_parts = [depth_of(x, depths) for x in parts(expression)]
-    return 1 + max(of_parts, default=0)
+    return 1 + max([depth_of(x, depths) for x in parts(expression)], default=0)
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:

@@ -6,10 +6,10 @@ it is meant. What is kept is the irreducible factor with that root, so that a nu
 
 from __future__ import annotations
 
-from flint import arb, fmpq, fmpq_poly, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
-from garkcli.exact.isolating import isolated, precision
+from garkcli.exact.enclosing import isolated
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
 
 MAX_POLYNOMIAL_DEGREE = 12
@@ -57,7 +57,7 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
     _, factors = p.numer().factor()
     bits = BITS
     while bits <= MOST_BITS:
-        with precision(bits):
+        with ctx.workprec(bits):
             found = []
             for factor, _ in factors:
                 roots = isolated(tuple(int(a) for a in factor.coeffs()), bits)
@@ -167,7 +167,7 @@ def approximate(root: AlgebraicRoot) -> str:
         bits = 4 * digits + BITS
         roots = isolated(root.coefficients, bits)
         text = str(roots[root.number].str(digits, radius=False))
-        with precision(bits):
+        with ctx.workprec(bits):
             distances = [abs(x - arb(text)) for x in roots]
             mine = distances.pop(root.number)
             if all(mine < other for other in distances):

@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import total_ordering
+from itertools import pairwise
 
-from flint import arb, fmpq, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.deadline import check_time
-from garkcli.exact.isolating import isolated, precision
+from garkcli.exact.display import to_ball
+from garkcli.exact.domain import Domain
+from garkcli.exact.enclosing import isolated
+from garkcli.exact.field import ZERO, Algebraic, Number
+from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.exact.signs import FIRST_BITS as FIRST_BITS
-from garkcli.exact.signs import sign as sign
 from garkcli.upward import answered
 
 
@@ -52,10 +55,9 @@ class RealRoot:
         """An enclosure with about ``bits`` correct bits."""
         value = self.exact
         if value is not None:
-            with precision(bits):
+            with ctx.workprec(bits):
                 return arb(value)
-        balls = isolated(_integers(self.polynomial), bits)
-        return balls[self.number]
+        return isolated(_integers(self.polynomial), bits)[self.number]
 
     def __float__(self) -> float:
         """A float next to it; nothing is decided with it."""
@@ -128,7 +130,7 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
         return sign(p(value))
     if not p:
         return 0
-    with precision(FIRST_BITS):
+    with ctx.workprec(FIRST_BITS):
         ball = p.enclosed_at(root.ball(FIRST_BITS))
     if ball > 0 or ball < 0:  # most often; no gcd is needed
         return 1 if ball > 0 else -1
@@ -137,7 +139,7 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
     bits = 2 * FIRST_BITS
     while True:
         check_time()
-        with precision(bits):
+        with ctx.workprec(bits):
             ball = p.enclosed_at(root.ball(bits))
         if ball > 0 or ball < 0:
             return 1 if ball > 0 else -1
@@ -160,10 +162,71 @@ def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
     bits = FIRST_BITS
     while True:
         check_time()
-        with precision(bits):
+        with ctx.workprec(bits):
             ball = root.ball(bits)
             if not g.enclosed_at(ball).contains(0):
                 return False
             if not other.enclosed_at(ball).contains(0):
                 return True
         bits *= 2
+
+
+FIRST_BITS = 64
+"""The precision at which signs are tried first; it doubles until they are decided."""
+
+
+def sign(number: Number) -> int:
+    """The sign of an exact number, −1, 0 or 1: zero is known exactly, the rest by enclosures."""
+    if not isinstance(number, Algebraic):
+        return (number > 0) - (number < 0)
+    digits = FIRST_BITS * 3 // 10
+    while True:
+        check_time()
+        ball = to_ball(number, digits)
+        if ball > 0 or ball < 0:
+            return 1 if ball > 0 else -1
+        digits *= 2
+
+
+def roots_below(M: fmpq_poly, x: fmpq) -> int:
+    """How many roots of a polynomial with real roots only are smaller than x, by Descartes' rule,
+    which is exact for these.
+
+    >>> roots_below(fmpq_poly([0, 2, -3, 1]), fmpq(2))  # the roots 0, 1, 2
+    2
+    """
+    mirrored = M(fmpq_poly([x, -1]))
+    signs = [a > 0 for a in mirrored.coeffs() if a]
+    return sum(1 for a, b in pairwise(signs) if a != b)
+
+
+def number_of(root: RealRoot, most_degree: int) -> Number | None:
+    """A root as an exact number; None where its field would be of a larger degree.
+
+    >>> from flint import fmpz_poly
+    >>> theta = number_of(RealRoot(fmpz_poly([-2, 0, 1]), 1), 4)
+    >>> theta * theta
+    2
+    """
+    if root.exact is not None:
+        return root.exact
+    if root.polynomial.degree() > most_degree:
+        return None
+    meant = AlgebraicRoot(tuple(int(c) for c in root.polynomial.coeffs()), root.number)
+    return Domain([meant]).evaluate(meant)
+
+
+def square_root(x: RealRoot) -> RealRoot:
+    """The square root of a number ≥ 0: squaring keeps the order of positive numbers.
+
+    >>> from flint import fmpq
+    >>> square_root(RealRoot.rational(fmpq(9, 4))).exact
+    3/2
+    """
+    origin = RealRoot.rational(ZERO)
+    if x == origin:
+        return origin
+    p = Polynomial.from_flint(x.polynomial)
+    smaller = sum(1 for root, _ in real_roots(p) if origin < root < x)
+    squares = Polynomial([p[k // 2] if k % 2 == 0 else ZERO for k in range(2 * p.degree + 1)])
+    return [root for root, _ in real_roots(squares) if root > origin][smaller]

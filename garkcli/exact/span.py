@@ -1,4 +1,4 @@
-"""Affine spans over ℚ, grown by exact elimination.
+"""Affine spans over ℚ, grown by exact elimination, and where the pivots of matrices are.
 
 A point joins the span when it is not an affine combination of the members: when the vector (1,
 point) is linearly independent of those before. Elimination is done for many candidates at once in
@@ -12,8 +12,23 @@ from collections.abc import Sequence
 from flint import fmpq, fmpq_mat
 
 from garkcli.deadline import check_time
-from garkcli.exact.echelon import leading_columns, pivot_columns
-from garkcli.exact.field import ONE
+
+
+def pivot_columns(matrix: fmpq_mat) -> list[int]:
+    """The columns that are independent of those to their left."""
+    reduced, _ = matrix.rref()
+    return leading_columns(reduced)
+
+
+def leading_columns(reduced: fmpq_mat) -> list[int]:
+    """Where each row of a reduced echelon form that is not zero has its first entry."""
+    columns = []
+    for row in reduced.tolist():
+        entries = (j for j, x in enumerate(row) if x)
+        first = next(entries, None)
+        if first is not None:
+            columns.append(first)
+    return columns
 
 
 class AffineSpan:
@@ -45,17 +60,15 @@ class AffineSpan:
         check_time()
         if not points or self.is_full:
             return []
-        candidates = fmpq_mat([[ONE, *point] for point in points])
+        candidates = fmpq_mat([[fmpq(1), *point] for point in points])
         remainders = self._reduce(candidates).tolist()
         outside = [i for i, row in enumerate(remainders) if any(row)]
         if not outside:
             return []
         directions = fmpq_mat([remainders[i] for i in outside])
-        independent = pivot_columns(directions.transpose())
-        chosen = [outside[i] for i in independent]
+        chosen = [outside[i] for i in pivot_columns(directions.transpose())]
         added = [remainders[i] for i in chosen]
-        grown = fmpq_mat([*self._echelon.tolist(), *added])
-        self._echelon, _ = grown.rref()
+        self._echelon, _ = fmpq_mat([*self._echelon.tolist(), *added]).rref()
         self._pivots = leading_columns(self._echelon)
         return chosen
 
@@ -65,7 +78,5 @@ class AffineSpan:
         """
         if not self._pivots:
             return candidates
-        rows = candidates.tolist()
-        at_pivots = [[row[p] for p in self._pivots] for row in rows]
-        along = fmpq_mat(at_pivots)
-        return candidates - along * self._echelon
+        at_pivots = [[row[p] for p in self._pivots] for row in candidates.tolist()]
+        return candidates - fmpq_mat(at_pivots) * self._echelon

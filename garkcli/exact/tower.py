@@ -17,6 +17,7 @@ from itertools import count
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
 
 from garkcli.deadline import check_time
+from garkcli.exact.enclosing import value
 
 _X = fmpq_poly([0, 1])
 
@@ -52,11 +53,9 @@ class Tower:
             check_time()
             generator = multiply_y + multiply_theta * k
             characteristic = fmpq_poly(generator.charpoly().coeffs())
-            common = characteristic.gcd(characteristic.derivative())
-            if common.degree() == 0:
+            if characteristic.gcd(characteristic.derivative()).degree() == 0:
                 break
-        multiples = [k * x for x in self.combination]
-        combination = (*multiples, 1)
+        combination = (*[k * x for x in self.combination], 1)
         factor = _vanishing_factor(characteristic, combination, values)
         old_theta, y = _as_polynomials(generator, [multiply_theta, multiply_y])
         elements = tuple(f(old_theta) % factor for f in self.elements)
@@ -101,10 +100,8 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
         powers.append(power.entries())
         power = generator * power
     targets = [(matrix * one).entries() for matrix in wanted]
-    basis = fmpq_mat(powers).transpose()
-    solution = basis.solve(fmpq_mat(targets).transpose())
-    coefficients = solution.transpose().tolist()
-    return [fmpq_poly(row) for row in coefficients]
+    solution = fmpq_mat(powers).transpose().solve(fmpq_mat(targets).transpose())
+    return [fmpq_poly(row) for row in solution.transpose().tolist()]
 
 
 def _vanishing_factor(
@@ -116,22 +113,12 @@ def _vanishing_factor(
     """
     _, factors = characteristic.factor()
     candidates = [fmpq_poly(factor) for factor, _ in factors]
-    precision = ctx.prec
-    try:
+    with ctx.workprec(ctx.prec):
         while len(candidates) > 1:
             ctx.prec *= 2
             theta = arb(0)
             for k, x in zip(combination, values(), strict=True):
                 theta += k * x
-            candidates = [f for f in candidates if _at(f, theta).contains(0)]
-    finally:
-        ctx.prec = precision
-    found = candidates[0]
-    return found / found.leading_coefficient()
-
-
-def _at(poly: fmpq_poly, x: arb) -> arb:
-    total = arb(0)
-    for coefficient in reversed(poly.coeffs()):
-        total = total * x + arb(coefficient)
-    return total
+            candidates = [f for f in candidates if value(f.coeffs(), theta).contains(0)]
+    [factor] = candidates
+    return factor / factor.leading_coefficient()

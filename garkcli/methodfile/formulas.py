@@ -10,10 +10,9 @@ from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
-from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
+from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, value_of
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import names_in, size_of
-from garkcli.exact.values import Value, value_of
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import MAX_SIZE
 from garkcli.methodfile.source import Source

@@ -19,7 +19,7 @@ from flint import fmpq, fmpq_poly, nmod_poly
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.signs import roots_below
+from garkcli.exact.roots import roots_below
 from garkcli.properties.shape import Shape
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau

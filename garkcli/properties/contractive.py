@@ -8,7 +8,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO
-from garkcli.exact.signs import sign
+from garkcli.exact.roots import sign
 from garkcli.properties.naming import number_text, weight_name
 from garkcli.properties.reduction import are_positive
 from garkcli.stability.algebraic import contractivity, negative_pivot

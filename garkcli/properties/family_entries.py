@@ -10,8 +10,7 @@ from flint import fmpq, fmpq_poly
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector, apply, apply_left
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.exact.roots import RealRoot, real_roots, vanishes_at
-from garkcli.exact.signs import roots_below
+from garkcli.exact.roots import RealRoot, real_roots, roots_below, vanishes_at
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 

@@ -15,7 +15,7 @@ from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
-from garkcli.exact.signs import roots_below
+from garkcli.exact.roots import roots_below
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.point_space import PointSpace

@@ -15,7 +15,7 @@ from itertools import chain
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, outer, subtract, transpose
 from garkcli.exact.matrix import add as add_matrices
-from garkcli.exact.signs import sign
+from garkcli.exact.roots import sign
 from garkcli.tableau.tableau import Tableau
 
 

@@ -19,13 +19,12 @@ from functools import cached_property
 from math import comb
 from typing import TypeAlias
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
-from garkcli.exact.ball_polynomial import root_count
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball
+from garkcli.exact.enclosing import root_count
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.isolating import precision
 from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
@@ -109,7 +108,7 @@ class ImexPair:
 
     def _is_bounded(self, a: fmpq, b: fmpq) -> bool:
         """Whether E(a, b, ·) ≥ 0."""
-        with precision(BITS):
+        with ctx.workprec(BITS):
             E = _values(self._enclosed.E, a, b)
             roots = root_count(E) if len(E) > 1 else None
         if roots is None:
@@ -120,7 +119,7 @@ class ImexPair:
     def _poles_are_right(self, a: fmpq, b: fmpq) -> bool:
         if self.has_fixed_poles:
             return self.fixed_poles_are_right
-        with precision(BITS):
+        with ctx.workprec(BITS):
             u = _values(self._enclosed.u, a, b)
             v = _values(self._enclosed.v, a, b)
             found = ball_roots_are_right(u, v)

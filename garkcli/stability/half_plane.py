@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import arb
 
-from garkcli.exact.ball_polynomial import cauchy_index
+from garkcli.exact.enclosing import cauchy_index
 from garkcli.exact.field import ZERO
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.stability.linear import exact_cauchy_index

@@ -22,8 +22,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import PLANE, curves, projected
-from garkcli.exact.root_number import number_of
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.roots import RealRoot, number_of
 from garkcli.stability.two_frequencies import SplitSprings, plane_of_determinants, stable_where
 from garkcli.tableau.tableau import Tableau
 

@@ -18,9 +18,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, apply, scale, transpose
+from garkcli.exact.matrix import Matrix, apply, reciprocal_characteristic, scale, transpose
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.tableau.pointwise import in_points

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Vector, apply, transpose
+from garkcli.exact.matrix import Vector, apply, reciprocal_characteristic, transpose
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.stepping.stage_system import StageSystem
 

@@ -16,9 +16,8 @@ from flint import fmpq
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval
-from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, outer, subtract
+from garkcli.exact.matrix import Matrix, outer, reciprocal_characteristic, subtract
 from garkcli.exact.multivariate import Multivariate, lattice, through_points
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of

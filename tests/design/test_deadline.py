@@ -31,11 +31,18 @@ from garkcli.design.springs_kind import TwoSprings
 from garkcli.design.stable_values import stable_values
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import apart, first_of
-from garkcli.exact.definite import is_nowhere_negative, kept_sign
 from garkcli.exact.fibre import Fibre
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import PLANE, curves, discriminant, projected, resultant
+from garkcli.exact.projection import (
+    PLANE,
+    curves,
+    discriminant,
+    is_nowhere_negative,
+    kept_sign,
+    projected,
+    resultant,
+)
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.family import loads_family
 from garkcli.order.certificate import find_order

@@ -8,8 +8,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.exact.fibre import Fibre
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import PLANE, curves
-from garkcli.exact.root_number import number_of
-from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.exact.roots import RealRoot, number_of, real_roots
 
 Y, T = PLANE.gens()
 SQRT2 = real_roots(Polynomial([-2, 0, 1]))[1][0]

@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.expression import parse
-from garkcli.exact.formula import FUNCTIONS, Call, RealPower, parse_formula
-from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.formula import FUNCTIONS, exponent_of, parse_formula, value_of
+from garkcli.exact.nodes import Call, Chain, Expression, Literal, Name, Power, RealPower, Root
 from garkcli.exact.rewriting import format_expression, names_in, roots_in, size_of, substitute
-from garkcli.exact.values import exponent_of, value_of
 
 FORMULAS: st.SearchStrategy[Expression] = st.recursive(
     st.one_of(

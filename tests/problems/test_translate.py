@@ -8,9 +8,8 @@ from flint import arb, ctx, fmpq
 from hypothesis import assume, given, settings
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
-from garkcli.exact.formula import parse_formula
+from garkcli.exact.formula import parse_formula, value_of
 from garkcli.exact.nodes import Expression
-from garkcli.exact.values import value_of
 from garkcli.problems.straightline import function
 from garkcli.problems.translate import Translator, size_of_derivatives
 from tests.exact.test_formula import FORMULAS, NAMES

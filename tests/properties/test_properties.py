@@ -14,7 +14,7 @@ from garkcli import find_property
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import identity
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.signs import roots_below
+from garkcli.exact.roots import roots_below
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order

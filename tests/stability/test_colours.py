@@ -8,8 +8,8 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from garkcli.exact.ball_polynomial import root_count
 from garkcli.exact.display import to_ball, to_float
+from garkcli.exact.enclosing import root_count
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import SingularMatrixError, solve
 from garkcli.exact.multivariate import Multivariate

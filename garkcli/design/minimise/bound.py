@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.exact.definite import MOST_DEGREE, is_nowhere_negative
-from garkcli.exact.projection import PLANE, curves
+from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, is_nowhere_negative
 
 
 def is_nowhere_less(numerator: fmpq_mpoly, denominator: fmpq_mpoly, m: fmpq) -> bool | None:

@@ -17,7 +17,7 @@ from garkcli.design.solutions import Solution
 from garkcli.design.step import Found
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.root_number import number_of
+from garkcli.exact.roots import number_of
 
 
 @dataclass

@@ -11,8 +11,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.design.minimise.squared_error import Quotient
 from garkcli.exact.fibre import Holds
 from garkcli.exact.parametric import Parameters
-from garkcli.exact.root_number import square_root
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.roots import RealRoot, square_root
 from garkcli.tableau.tableau import Tableau
 
 Formula: TypeAlias = Callable[[Tableau, int, "Parameters | None"], Quotient]

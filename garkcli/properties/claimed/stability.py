@@ -6,9 +6,7 @@ from flint import fmpq
 
 from garkcli.exact.cells import Interval, first_end
 from garkcli.exact.field import ZERO
-from garkcli.exact.root_number import square_root
-from garkcli.exact.roots import RealRoot
-from garkcli.exact.signs import sign
+from garkcli.exact.roots import RealRoot, sign, square_root
 from garkcli.properties.linear import (
     decide_within,
     ends_text,

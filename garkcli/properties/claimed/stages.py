@@ -7,7 +7,7 @@ from dataclasses import replace
 from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.signs import roots_below, sign
+from garkcli.exact.roots import roots_below, sign
 from garkcli.properties.contractive import obstacle, obstacle_within
 from garkcli.properties.last_stage import (
     first_same_as_last,
