@@ -16,10 +16,9 @@ from garkcli.check.agreement import agrees
 from garkcli.check.explained import repair_text, witness_text
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.methodfile.expectations import AtLeast
-from garkcli.order.blame import blame_of
+from garkcli.order.blame import Missed, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
-from garkcli.order.repairs import Missed
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau

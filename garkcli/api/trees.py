@@ -10,7 +10,6 @@ from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.errors import MethodError, counted
 from garkcli.exact.field import Number as Exact
 from garkcli.order import conditions as by_tree
-from garkcli.order import listing
 from garkcli.order.conditions import Condition
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees import count, notation
@@ -141,7 +140,7 @@ def all_conditions(
     """
     order = whole(order, "order", 1)
     _, known_as = meant_of(method, tolerance)
-    return listing.all_conditions(known_as, order)
+    return by_tree.all_conditions(known_as, order)
 
 
 def elementary_weight(method: AnyMethod, tree: AnyTree) -> Exact:

@@ -215,8 +215,7 @@ def _repair(subject: Subject, tableau: Tableau, found: Judged, declared: int) ->
     stages = sum(space.stages for space in tableau.spaces)
     if stages > MAX_BLAMED or found.witness is None:
         return ""
-    from garkcli.order.blame import blame_of
-    from garkcli.order.repairs import Missed
+    from garkcli.order.blame import Missed, blame_of
 
     near = 100 * subject.rounded.tolerance
     missed = Missed(found.witness.tree.order, declared, tolerance=near, near=near)

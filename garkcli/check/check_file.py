@@ -128,8 +128,10 @@ def _blame_for(
     tableau: Tableau, found: AnyOrder, claimed: int, key: str, which: str = ""
 ) -> Blame | None:
     """What is to blame for an order that is smaller than claimed."""
-    from garkcli.order.blame import blame_of  # paid for by failures alone
-    from garkcli.order.repairs import Missed
+    from garkcli.order.blame import (
+        Missed,
+        blame_of,  # paid for by failures alone
+    )
 
     missed = Missed(found.order + 1, claimed, key, which)
     if not isinstance(found, Order):

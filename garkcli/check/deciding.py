@@ -19,8 +19,7 @@ from garkcli.check.analysis import (
 from garkcli.doing import doing
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.defects import is_symplectic
-from garkcli.order.simplifying import Simplifying, simplifying
+from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.meant import meant, printed

@@ -17,9 +17,9 @@ from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
+    from garkcli.order.blame import Repair
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
-    from garkcli.order.repairs import Repair
     from garkcli.order.simplifying import Simplifying
     from garkcli.tableau.tableau import Tableau
 

@@ -9,7 +9,7 @@ from garkcli.check.analysis import nonautonomous
 from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
-from garkcli.order.estimator import Estimator, Orders, estimator
+from garkcli.order.functionals import Estimator, Orders, estimator
 from garkcli.tableau.embedded import DenseOutput, Further, Weights, with_weights
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau

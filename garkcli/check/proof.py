@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from garkcli.check.analysis import conjugate_and_pair
 from garkcli.doing import doing
 from garkcli.errors import MethodError
-from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.proof import Proof, prove
+from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import printed
 from garkcli.upward import Shown

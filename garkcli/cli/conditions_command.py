@@ -235,7 +235,7 @@ def _table(wanted: Wanted, format: str) -> Iterator[ConditionRow]:
 
 
 def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
-    from garkcli.order.listing import all_conditions
+    from garkcli.order.conditions import all_conditions
     from garkcli.report.conditions_data import ConditionRow
 
     for n in orders:

@@ -14,7 +14,7 @@ from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import fraction
-from garkcli.order.defects import Defects
+from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.family import Stability
 from garkcli.tableau.forms import pair

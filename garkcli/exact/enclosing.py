@@ -11,7 +11,7 @@ import operator
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpz_poly
 
@@ -152,3 +152,27 @@ def _variations(chain: Sequence[Sequence[arb]], at_plus: bool) -> int:
             is_positive = not is_positive
         signs.append(is_positive)
     return sum(1 for a, b in pairwise(signs) if a != b)
+
+
+Entries: TypeAlias = list[arb]
+_Vector: TypeAlias = Sequence[arb]
+
+
+def plus(u: _Vector, v: _Vector) -> Entries:
+    """The sum u + v."""
+    return [x + y for x, y in zip(u, v, strict=True)]
+
+
+def times(u: _Vector, v: _Vector) -> Entries:
+    """The product u ⊙ v."""
+    return [x * y for x, y in zip(u, v, strict=True)]
+
+
+def entrywise_max(u: _Vector, v: _Vector) -> Entries:
+    """The larger of each two entries."""
+    return [x.max(y) for x, y in zip(u, v, strict=True)]
+
+
+def scalar_product(u: _Vector, v: _Vector) -> arb:
+    """uᵀ v."""
+    return sum(times(u, v), arb(0))

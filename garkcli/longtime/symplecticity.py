@@ -17,7 +17,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.longtime.history import State
-from garkcli.order.defects import is_symplectic
+from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import Integrator, bind

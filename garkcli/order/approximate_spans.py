@@ -27,7 +27,7 @@ from operator import add
 
 from flint import arb, arb_mat, ctx
 
-from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
+from garkcli.exact.enclosing import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.order.recursion import Forest, OrderByOrder
 from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
@@ -82,8 +82,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         self._absolute: dict[Edge, arb_mat] = {}
         for key, A in enclosure.A.items():
             self._absolute[key] = _absolute_matrix(A)
-        single_vertices = [_unit(s) for s in enclosure.stages]
-        super().__init__(tableau, single_vertices)
+        super().__init__(tableau, [_unit(s) for s in enclosure.stages])
 
     def sizes(self, order: int) -> HullSizes:
         """A bound on all |bᵀψ(u) − 1/ρ| of an order, and the members with their |residuals|."""
@@ -110,8 +109,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         members = []
         for x in trees.members:
             branch = Tree(m, x.branches)
-            vector = _image(A, x.vector)
-            members.append(Forest(vector, (branch,)))
+            members.append(Forest(_image(A, x.vector), (branch,)))
         absolute = self._absolute[k, m] * order
         return _Hull(
             members, trees.weight, _image(absolute, trees.error), _image(absolute, trees.size)
@@ -143,20 +141,13 @@ def _unit(stages: int) -> _Hull:
 
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
-    members = []
-    for v in x.members:
-        for w in y.members:
-            vector = times(v.vector, w.vector)
-            branches = v.branches + w.branches
-            members.append(Forest(vector, branches))
-    weight = x.weight * y.weight
-    size = times(x.size, y.size)
-    of_second = times(x.size, y.error)
-    of_first = times(x.error, y.size)
-    one_side = plus(of_second, of_first)
-    both_sides = times(x.error, y.error)
-    error = plus(one_side, both_sides)
-    return _Hull(members, weight, error, size)
+    members = [
+        Forest(times(v.vector, w.vector), v.branches + w.branches)
+        for v in x.members
+        for w in y.members
+    ]
+    error = plus(plus(times(x.size, y.error), times(x.error, y.size)), times(x.error, y.error))
+    return _Hull(members, x.weight * y.weight, error, times(x.size, y.size))
 
 
 def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
@@ -165,8 +156,7 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
     points: Rows = [[arb(1), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
     kept = [members[i] for i in chosen]
-    corners = arb_mat([points[i] for i in chosen])
-    misses = arb_mat(points) - weights * corners
+    misses = arb_mat(points) - weights * arb_mat([points[i] for i in chosen])
     weight_rows = weights.tolist()
     miss_rows = misses.tolist()
     around = []
@@ -186,22 +176,17 @@ def _around(kept: Sequence[Forest], hull: _Hull, weights: Rows, misses: Rows) ->
     """
     amount = arb(0)
     for row in weights:
-        total = reduce(add, _absolute(row))
-        amount = amount.max(total)
+        amount = amount.max(reduce(add, _absolute(row)))
     distances = [_absolute(row[1:]) for row in misses]
-    farthest = reduce(entrywise_max, distances)
-    beyond = [hull.weight * d for d in farthest]
-    error = plus(hull.error, beyond)
-    weight = hull.weight * amount
-    return _Hull(kept, weight, error, hull.size)
+    error = plus(hull.error, [hull.weight * d for d in reduce(entrywise_max, distances)])
+    return _Hull(kept, hull.weight * amount, error, hull.size)
 
 
 def _in_both(one: _Hull, other: _Hull) -> _Hull:
     """Bounds that hold in both of two hulls with the same members."""
     weight = one.weight.max(other.weight)
     error = entrywise_max(one.error, other.error)
-    size = entrywise_max(one.size, other.size)
-    return _Hull(other.members, weight, error, size)
+    return _Hull(other.members, weight, error, entrywise_max(one.size, other.size))
 
 
 def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
@@ -238,18 +223,15 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
         j = columns[-1]
         entries = rest.tolist()
         column = arb_mat([[row[j]] for row in entries])
-        pivot = rest[i, j]
-        pivot_row = arb_mat([entries[i]]) / pivot
+        pivot_row = arb_mat([entries[i]]) / rest[i, j]
         rest = (rest - column * pivot_row).mid()
-        most = min(rest.nrows(), rest.ncols())
-        if len(rows) == most:
+        if len(rows) == min(rest.nrows(), rest.ncols()):
             return rows, columns
         sizes = [*map(float, _absolute(rest.entries()))]
         largest = max(sizes)
         if largest <= float(grain):
             return rows, columns
-        place = sizes.index(largest)
-        i, j = divmod(place, rest.ncols())
+        i, j = divmod(sizes.index(largest), rest.ncols())
         rows.append(i)
         columns.append(j)
 
@@ -260,8 +242,7 @@ def _absolute(row: Sequence[arb]) -> Entries:
 
 def _absolute_matrix(A: arb_mat) -> arb_mat:
     """|A|, entry by entry."""
-    rows = [_absolute(row) for row in A.tolist()]
-    return arb_mat(rows)
+    return arb_mat([_absolute(row) for row in A.tolist()])
 
 
 def _image(A: arb_mat, vector: Sequence[arb]) -> Entries:

@@ -1,27 +1,259 @@
-"""Which block is to blame for a failing order.
+"""Which block is to blame for a failing order, and which single entry, changed, would restore it.
 
-It is a hint drawn from the failing conditions, never a fact about what a source meant to print.
+Both are hints drawn from the failing conditions, never facts about what a source meant to print.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from flint import fmpq
 
 from garkcli.doing import doing
-from garkcli.exact.field import ZERO
-from garkcli.order.conditions import Condition
-from garkcli.order.listing import all_conditions, count_conditions
-from garkcli.order.repairs import Missed, Repair, named_block, named_blocks, repairs
-from garkcli.tableau.meant import printed
+from garkcli.errors import ZeroWeight
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
+from garkcli.order.deciding import order_of
+from garkcli.tableau.meant import AnyTableau, derived, meant, printed
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
 MAX_CONDITIONS = 20_000
 """Most conditions that are evaluated to find a culprit."""
+MAX_ENTRIES = 2_000
+"""Most entries that are tried."""
+FEW_CONDITIONS = 4
+"""So many failing conditions are solved for an entry of rounded coefficients; the best is kept."""
+FEW_CHECKED = 20
+"""So many failing conditions are looked at before the order is found."""
+NEWTON_STEPS = 3
+"""Steps of the simplified Newton's method; each squares a small misprint, nearly."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One entry of a method.
+
+    ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
+    (``j`` of the weights; then ``i`` is None). All count from 0.
+    """
+
+    l: int
+    m: int | None
+    i: int | None
+    j: int
+    old: Number
+
+    def put(self, method: Tableau, value: Number) -> Tableau:
+        """The method with another value there.
+
+        Weights are changed together with those that are the same row: of colours with the same
+        stages.
+        """
+        if self.m is None or self.i is None:
+            old = method.colours[self.l]
+            b = _with_value(old.b, self.j, value)
+            colours = (
+                replace(x, b=b) if x.space == old.space and x.b == old.b else x
+                for x in method.colours
+            )
+            return replace(method, colours=tuple(colours))
+        key = method.colours[self.l].space, self.m
+        block = list(method.blocks[key])
+        block[self.i] = _with_value(block[self.i], self.j, value)
+        return replace(method, blocks={**method.blocks, key: tuple(block)})
+
+
+@dataclass(frozen=True)
+class Repair(Entry):
+    """An entry that restores the claimed order when it is changed alone.
+
+    ``is_embedded`` tells embedded weights from b.
+    """
+
+    new: Number
+    is_embedded: bool = False
+
+    def carried_out(self, method: Tableau) -> Tableau:
+        """The method with this entry changed."""
+        return self.put(method, self.new)
+
+
+@dataclass(frozen=True)
+class Missed:
+    """A claimed order that is missed, and how conditions are judged.
+
+    Attributes:
+        order: the first failing order.
+        claimed: the order that was meant.
+        of: what claims it, as it is called in a file.
+        which: ``conjugate`` or ``pair`` where it is claimed of that; empty for the method.
+        tolerance: the rounding of the coefficients; conditions fail beyond what it explains.
+        near: the rounding with which they are restored: more than ``tolerance`` where coefficients
+            are rounded, as the entry that is changed carries the rounding of all others.
+    """
+
+    order: int
+    claimed: int
+    of: str = "order"
+    which: str = ""
+    tolerance: fmpq = ZERO
+    near: fmpq = ZERO
+
+    def judged(self, method: Tableau) -> AnyTableau:
+        """What the order is claimed of, as its conditions fail.
+
+        Raises:
+            ZeroWeight: there is no such thing.
+        """
+        return derived(meant(method, self.tolerance), self.which)
+
+    def restored(self, method: Tableau) -> AnyTableau | None:
+        """The same, as its conditions are restored; None where there is no such thing, or rounding
+        may leave none.
+        """
+        try:
+            made = derived(meant(method, self.near), self.which)
+        except ZeroWeight:
+            return None
+        return made if isinstance(made, Tableau) or not made.obstacle else None
+
+
+def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:
+    """Entries whose change restores what is claimed: each must solve a failing condition.
+
+    Of exact coefficients one condition tells as much as all; of rounded ones the entry that solves
+    it carries their rounding, so that the condition that depends on it most is solved.
+    """
+    solved = failing[:1]
+    if missed.tolerance:
+        solved = sorted(failing, key=lambda x: _size(x.residual), reverse=True)[:FEW_CONDITIONS]
+    if not solved:
+        return
+    for tried, entry in enumerate(_entries(method)):
+        if tried >= MAX_ENTRIES:
+            return
+        new = _solution(method, missed, entry, solved)
+        if new is None:
+            continue
+        changed = missed.restored(entry.put(method, new))
+        if changed is None:
+            continue
+        few = [condition.tree for condition in failing[:FEW_CHECKED]]  # takes less than the order
+        if not all(condition.holds for condition in conditions(changed, few)):
+            continue
+        if order_of(changed, missed.claimed).order >= missed.claimed:
+            yield Repair(entry.l, entry.m, entry.i, entry.j, entry.old, new)
+
+
+def named_block(tableau: Tableau, edge: Edge) -> Edge:
+    """The edge named after the first colour that has these stages: one name for each block."""
+    l, m = edge
+    spaces = [colour.space for colour in tableau.colours]
+    return spaces.index(spaces[l]), m
+
+
+def named_blocks(tableau: Tableau) -> list[Edge]:
+    """The names of all blocks, in order."""
+    return sorted({named_block(tableau, edge) for edge in tableau.edges()})
+
+
+def _size(number: Number) -> float:
+    """|number|, to compare by: what is chosen is then verified exactly."""
+    return float(abs(to_ball(number, 20)))
+
+
+def _entries(method: Tableau) -> Iterator[Entry]:
+    """The entries that are entries of stages: those of stage spaces of points."""
+    for l, m in named_blocks(method):
+        if not (_has_points(method, l) and _has_points(method, m)):
+            continue
+        for i, row in enumerate(method.blocks[method.colours[l].space, m]):
+            for j, old in enumerate(row):
+                yield Entry(l, m, i, j, old)
+    for l, colour in enumerate(method.colours):
+        if not _has_points(method, l):
+            continue
+        for j, old in enumerate(colour.b):
+            yield Entry(l, None, None, j, old)
+
+
+def _has_points(method: Tableau, l: int) -> bool:
+    return isinstance(method.space(l), PointSpace)
+
+
+def _solution(
+    method: Tableau, missed: Missed, entry: Entry, failing: Sequence[Condition]
+) -> Number | None:
+    """The value with which a failing condition holds; None where none depends on the entry.
+
+    Of exact coefficients only conditions that are linear in the entry are solved, by their values
+    at the entry and one beyond; of rounded ones all by a few steps of a simplified Newton's method,
+    as a misprint is a small change.
+    """
+    step = missed.near if missed.near else ONE
+    trees = [condition.tree for condition in failing]
+    beyond = _weights(missed, entry.put(method, entry.old + step), trees)
+    if beyond is None:
+        return None
+    slopes: list[Number] = []
+    for moved, condition in zip(beyond, failing, strict=True):
+        slopes.append((moved - condition.value) / step)
+    sizes = [_size(slope) for slope in slopes]
+    best = sizes.index(max(sizes))
+    condition, slope = failing[best], slopes[best]
+    if not slope:
+        return None
+    value = entry.old - condition.residual / slope
+    if missed.near:
+        return _refined(method, missed, entry, condition, value, slope)
+    twice = _weights(missed, entry.put(method, entry.old + step + step), [condition.tree])
+    if twice is None:
+        return None
+    is_linear = twice[0] - beyond[best] == slope
+    return value if is_linear else None
+
+
+def _refined(
+    method: Tableau,
+    missed: Missed,
+    entry: Entry,
+    condition: Condition,
+    value: Number,
+    slope: Number,
+) -> Number:
+    """The root of a condition near ``value``.
+
+    To a hundredth of what the condition is to be restored within.
+    """
+    grid = missed.near / 100
+    for _ in range(NEWTON_STEPS):
+        if isinstance(value, fmpq):
+            value = (value / grid).floor() * grid
+        found = _weights(missed, entry.put(method, value), [condition.tree])
+        if found is None:
+            break
+        value = value - (found[0] - condition.required) / slope
+    return value
+
+
+def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
+    """The elementary weights of some trees; None where the changed method has none."""
+    made = missed.restored(method)
+    if made is None:
+        return None
+    return [condition.value for condition in conditions(printed(made), trees)]
+
+
+def _with_value(row: Vector, j: int, value: Number) -> Vector:
+    changed = list(row)
+    changed[j] = value
+    return tuple(changed)
 
 
 @dataclass(frozen=True)
@@ -89,8 +321,8 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     tableau = printed(judged)
     if count_conditions(tableau, missed.order) > MAX_CONDITIONS:
         return None
-    found = list(all_conditions(judged, missed.order))
-    failing = [condition for condition in found if not condition.holds]
+    of_order = list(all_conditions(judged, missed.order))
+    failing = [condition for condition in of_order if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     in_every: list[Edge] = []
     in_none: list[Edge] = []
@@ -103,10 +335,10 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     return Blame(
         order=missed.order,
         failing=len(failing),
-        total=len(found),
+        total=len(of_order),
         in_every=tuple(in_every),
         in_none=tuple(in_none),
-        culprit=_culprit(tableau, found, in_every),
+        culprit=_culprit(tableau, of_order, in_every),
         only_coupling=all(condition.is_coupling for condition in failing),
         repairs=tuple(repairs(method, missed, failing)),
         of=missed.of,
@@ -124,15 +356,14 @@ def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:
     )
 
 
-def _culprit(tableau: Tableau, found: list[Condition], candidates: Sequence[Edge]) -> Edge | None:
+def _culprit(
+    tableau: Tableau, of_order: list[Condition], candidates: Sequence[Edge]
+) -> Edge | None:
     """The candidate whose conditions fail most often; None where several do alike."""
     share: dict[Edge, float] = {}
     for block in candidates:
-        with_block = [x for x in found if block in _blocks_in(tableau, x.tree)]
-        failing = [x for x in with_block if not x.holds]
-        share[block] = len(failing) / len(with_block)
+        with_block = [x for x in of_order if block in _blocks_in(tableau, x.tree)]
+        share[block] = sum(not x.holds for x in with_block) / len(with_block)
     most = max(share.values(), default=0.0)
     best = [block for block in candidates if share[block] == most]
-    if len(best) != 1:
-        return None
-    return best[0]
+    return best[0] if len(best) == 1 else None

@@ -109,8 +109,7 @@ def find_order(
 
 def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
     """The witness whose tree has b_lᵀ ψ(u) = ``normalised`` instead of share/ρ(u)."""
-    weight = normalised * fmpq(tree.order, tree.density)
-    return Witness(tree, weight, fmpq(share, tree.density))
+    return Witness(tree, normalised * fmpq(tree.order, tree.density), fmpq(share, tree.density))
 
 
 class StageSpans(Spans):
@@ -156,3 +155,29 @@ def all_spanning_trees(
             tuple(Tree(l, forest.branches) for forest in spans.of_trees(l, order))
             for l in range(tableau.size)
         )
+
+
+@dataclass(frozen=True)
+class Proof:
+    """The order of a tableau with what decides it.
+
+    Attributes:
+        tableau: whose order it is.
+        order: the order, with the tree that fails one higher.
+        spanning: ``spanning[k − 1][l]`` are trees of order k with root colour l whose ψ span those
+            of all such trees, for k up to the order.
+    """
+
+    tableau: Tableau
+    order: Order
+    spanning: tuple[tuple[tuple[Tree, ...], ...], ...]
+
+    def __repr__(self) -> str:
+        return f"<Proof of {self.order!r}>"
+
+
+def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
+    """The exact order of a tableau and what decides it; no order beyond ``limit`` is looked for."""
+    found = find_order(tableau, limit)
+    orders = range(1, found.order + 1)
+    return Proof(tableau, found, tuple(all_spanning_trees(tableau, orders)))

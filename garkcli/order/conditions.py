@@ -1,9 +1,9 @@
-"""One order condition at a time: elementary weight, required value, residual."""
+"""Order conditions of a tableau, each with its elementary weight, required value and residual."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -15,6 +15,7 @@ from garkcli.order.tolerance import within
 from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
+from garkcli.trees.count import count_by_root
 from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
@@ -63,8 +64,7 @@ class Condition(Shown):
     @property
     def trees(self) -> tuple[Tree, ...]:
         """The tree with its own root colour and with those of its twins."""
-        others = [Tree(l, self.tree.branches) for l in self.twins]
-        return (self.tree, *others)
+        return (self.tree, *[Tree(l, self.tree.branches) for l in self.twins])
 
     @property
     def is_coupling(self) -> bool:
@@ -90,8 +90,7 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     vectors = TreeVectors(tableau)
     allowed = _exactly if isinstance(method, Tableau) else _effects(method)
     for tree in trees:
-        b = tableau.colours[tree.root].b
-        value = dot(b, vectors.of(tree))
+        value = dot(tableau.colours[tree.root].b, vectors.of(tree))
         is_met = value == fmpq(1, tree.density)
         yield Condition(tree, value, ZERO if is_met else allowed(tree))
 
@@ -120,8 +119,7 @@ def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
 
 def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     """Whether every parent sees its branches and no linear colour has two branches."""
-    colour = tableau.colours[tree.root]
-    if colour.is_linear and len(tree.branches) > 1:
+    if tableau.colours[tree.root].is_linear and len(tree.branches) > 1:
         return False
     for branch in tree.branches:
         if tableau.block(tree.root, branch.root) is None:
@@ -163,3 +161,35 @@ def _are_twins(one: Colour, other: Colour) -> bool:
     if one.space != other.space or one.is_linear != other.is_linear:
         return False
     return one.b == other.b
+
+
+def count_conditions(tableau: Tableau, order: int) -> int:
+    """How many conditions of ``order`` a tableau has, those of twin roots counted once."""
+    edges, linear = coupling_graph(tableau)
+    by_root = count_by_root(tableau.size, order, edges, linear)
+    return sum(by_root[root] for root in twin_roots(tableau))
+
+
+def all_conditions(method: AnyTableau, order: int) -> Iterator[Condition]:
+    """Every condition of ``order``, its value exact, with the twins of its root: identical ones
+    come once.
+    """
+    tableau = printed(method)
+    twins = twin_roots(tableau)
+    for condition in conditions(method, admissible_trees(tableau, order)):
+        yield replace(condition, twins=twins[condition.tree.root][1:])
+
+
+def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
+    """The trees of ``order`` that the coupling graph admits, one root colour of each group of
+    twins.
+    """
+    from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
+
+    edges, linear = coupling_graph(tableau)
+    twins = twin_roots(tableau)
+    blocks = iter_blocks(
+        tableau.size, order, edges=edges, linear=linear, roots=twins, block_size=1 << 14
+    )
+    for block in blocks:
+        yield from block.trees()

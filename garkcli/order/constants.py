@@ -15,8 +15,7 @@ from flint import arb, ctx
 from garkcli.doing import doing
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
-from garkcli.order.conditions import coupling_graph
-from garkcli.order.listing import all_conditions, count_conditions
+from garkcli.order.conditions import all_conditions, count_conditions, coupling_graph
 from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import count_trees
@@ -117,8 +116,7 @@ def _exact(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     everything: list[_Coefficient] = []
     coupling: list[_Coefficient] = []
     for condition in all_conditions(tableau, order):
-        off = condition.value - share * condition.required
-        e = off / condition.tree.symmetry
+        e = (condition.value - share * condition.required) / condition.tree.symmetry
         mixed = [u for u in condition.trees if len(u.colours) > 1]
         everything.append((e, condition.trees))
         if mixed:
@@ -165,24 +163,20 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     blocks = {}
     for l, m in tableau.edges():
         A = entries.A[l][m] or ()
-        matrix = [_floats(row) for row in A]
-        blocks[rows[l], m] = np.array(matrix)
+        blocks[rows[l], m] = np.array([_floats(row) for row in A])
     weights = [np.array(_floats(row)) for row in entries.b]
     ids = table.ids(order)
     last = slice(ids.start, ids.stop)
     values = elementary_weights(table, rows, blocks, weights)[last]
     gamma = table.gamma[last].astype(float)
-    sigma = table.sigma[last].astype(float)
-    residuals = values - share / gamma
-    coefficients = np.abs(residuals / sigma)
+    coefficients = np.abs((values - share / gamma) / table.sigma[last].astype(float))
     mixes = _mixes(table)[last]
 
     def norms(chosen: Mask) -> Norms:
         sizes = np.where(chosen, coefficients, 0.0)
         worst = None
         if sizes.any():
-            place = int(sizes.argmax())
-            worst = table.tree(ids.start + place)
+            worst = table.tree(ids.start + int(sizes.argmax()))
         sum_of_squares = (sizes**2).sum()
         return Norms(
             trees=int(chosen.sum()),
@@ -212,13 +206,11 @@ def _mixes(table: TreeTable) -> Mask:
     import numpy as np
 
     mixes = np.zeros(len(table), dtype=bool)
-    last = int(table.order[-1])
-    for n in range(2, last + 1):
+    for n in range(2, int(table.order[-1]) + 1):
         of_order = table.ids(n)
         ids = slice(of_order.start, of_order.stop)
         stem = table.stem[ids]
         branch = table.branch[ids]
         differs = table.root[stem] != table.root[branch]
-        inherited = mixes[stem] | mixes[branch]
-        mixes[ids] = inherited | differs
+        mixes[ids] = (mixes[stem] | mixes[branch]) | differs
     return mixes

@@ -76,8 +76,7 @@ def dense_order(
         limit: the order at which to stop.
         spans: of the stage vectors, where some are known.
     """
-    powers = range(1, dense.degree + 1)
-    functionals = [Functional(dense.coefficients(k), k) for k in powers]
+    functionals = [Functional(dense.coefficients(k), k) for k in range(1, dense.degree + 1)]
     # the next power has no coefficients, and its order should have one
     beyond = dense.degree + 1
     functionals.append(Functional(_zeros(printed(method)), beyond))
@@ -91,8 +90,7 @@ def dense_order(
         # where no tree is that large, none is larger
         return DenseOrder(limit, None, False, tolerance)
     witness = DenseWitness(failure.number + 1, failure.witness)
-    order = failure.witness.tree.order - 1
-    return DenseOrder(order, witness, False, tolerance)
+    return DenseOrder(failure.witness.tree.order - 1, witness, False, tolerance)
 
 
 def _zeros(tableau: Tableau) -> Weights:
@@ -162,17 +160,14 @@ def _ones(rows: Sequence[Vector]) -> tuple[Vector, ...]:
 def _with_ends(tableau: Tableau) -> Tableau:
     """The tableau with two more stages in each space: at x_0 and at x_1, without weights."""
     spaces = [PointSpace((*x.nodes, ZERO, ONE)) for x in tableau.spaces]
-    colours = []
-    for colour in tableau.colours:
-        b = (*colour.b, ZERO, ZERO)
-        c = (*colour.c, ZERO, ONE)
-        colours.append(replace(colour, b=b, c=c))
+    colours = [
+        replace(colour, b=(*colour.b, ZERO, ZERO), c=(*colour.c, ZERO, ONE))
+        for colour in tableau.colours
+    ]
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         weights = colours[m].b
-        rows = [(*row, ZERO, ZERO) for row in block]
-        nothing = (ZERO,) * len(weights)
-        blocks[k, m] = (*rows, nothing, weights)
+        blocks[k, m] = (*[(*row, ZERO, ZERO) for row in block], (ZERO,) * len(weights), weights)
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.exact.enclosing import scalar_product
 from garkcli.exact.matrix import Vector
-from garkcli.order.entries import scalar_product
 from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.rounded import RoundedTableau, Row
 from garkcli.tableau.tableau import Edge

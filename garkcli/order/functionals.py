@@ -5,6 +5,11 @@ be those of the exact solution, 1/γ(u), and at all others they should vanish: o
 two rows of weights, of the coefficients of one power of θ in dense output, of a slope. As with b
 that is a condition on all trees of an order at once, decided on the spanning ones
 (``order.certificate``), and of rounded coefficients on all trees (``order.rounded``).
+
+The error estimate h Σ (b_i − b̂_i) k_i of a method and its embedded weights b̂ has the B-series
+coefficients (b − b̂)_lᵀ 𝒜^[u] / σ(u); they vanish up to the smaller of the two orders, and the first
+that do not are its leading term. Hairer, Nørsett & Wanner, *Solving Ordinary Differential
+Equations I*, II.4.
 """
 
 from __future__ import annotations
@@ -15,15 +20,18 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.exact.matrix import dot
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Vector, dot
 from garkcli.order.certificate import StageSpans, Witness, witness_of
-from garkcli.tableau.embedded import Weights
-from garkcli.tableau.meant import AnyTableau
+from garkcli.order.constants import ErrorConstants, estimate_constants
+from garkcli.tableau.embedded import Weights, with_weights
+from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
     from garkcli.tableau.rounded import RoundedTableau
+
 
 MOST_TREES = 50_000
 """Most trees of an order whose weights are enclosed one by one."""
@@ -112,8 +120,7 @@ def _first_exact(
                 value = dot(functional.weights[l], forest.vector)
                 share = functional.share(order)
                 if value != fmpq(share, order):
-                    tree = Tree(l, forest.branches)
-                    return Failure(number, witness_of(tree, value, share))
+                    return Failure(number, witness_of(Tree(l, forest.branches), value, share))
     return None
 
 
@@ -134,3 +141,83 @@ def _first_within(
             if verdict.witness is not None:
                 return Failure(number, verdict.witness)
     return None
+
+
+@dataclass(frozen=True)
+class Estimator:
+    """The estimate of the error.
+
+    Attributes:
+        sums: Σ (b_i − b̂_i) of each colour, zero where both rows meet the condition of order 1.
+        order: of the first trees at which the estimate is not zero, so that it is O(h^order); None
+            where none was found.
+        constants: the norms of its coefficients at that order; None where there are too many trees.
+        is_zero: whether b̂ is b, and the estimate always zero.
+    """
+
+    sums: Vector
+    order: int | None
+    constants: ErrorConstants | None
+    is_zero: bool
+
+
+@dataclass(frozen=True)
+class Orders:
+    """What is known of the orders of b and b̂ when their difference is looked at.
+
+    Attributes:
+        least: the smaller one; up to it the estimate vanishes.
+        differ: whether one of them is known to be larger: then the next order shows in it.
+        limit: the largest order of trees that are looked at.
+    """
+
+    least: int
+    differ: bool
+    limit: int
+
+
+def estimator(
+    method: AnyTableau, embedded: Weights, orders: Orders, spans: StageSpans | None = None
+) -> Estimator:
+    """The estimate that embedded weights give.
+
+    Args:
+        method: the tableau, with its rounding where it is rounded, which the estimate has to
+            exceed.
+        embedded: a row of weights a colour.
+        orders: of both rows of weights.
+        spans: of the stage vectors, where some are known.
+    """
+    tableau = printed(method)
+    rows, terms = [], []
+    for colour, row in zip(tableau.colours, embedded, strict=True):
+        pairs = list(zip(colour.b, row, strict=True))
+        rows.append(tuple(b - other for b, other in pairs))
+        terms.append(tuple(fmpq(bool(b) + bool(other)) for b, other in pairs))
+    sums = tuple(_sum(row) for row in rows)
+    if not any(x for row in rows for x in row):
+        return Estimator(sums, None, None, is_zero=True)
+    difference = with_weights(tableau, tuple(rows))
+    order: int | None = orders.least + 1
+    if not orders.differ:
+        larger = range(orders.least + 1, orders.limit + 1)
+        order = _leading(method, Functional(tuple(rows), terms=tuple(terms)), larger, spans)
+    constants = None
+    if order is not None:
+        constants = estimate_constants(difference, order, is_rounded=method is not tableau)
+    return Estimator(sums, order, constants, is_zero=False)
+
+
+def _sum(row: Vector) -> Number:
+    return sum(row, start=ZERO)
+
+
+def _leading(
+    method: AnyTableau, difference: Functional, orders: range, spans: StageSpans | None
+) -> int | None:
+    """The first order of trees at which the estimate does not vanish."""
+    try:
+        failure = first_failure(method, [difference], orders, spans)
+    except Undecided:
+        return None
+    return None if failure is None else failure.witness.tree.order

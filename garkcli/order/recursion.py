@@ -133,8 +133,7 @@ class Spans(OrderByOrder[Forests]):
                 yield l, forest
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
-        scaled = [tuple(order * y for y in x.vector) for x in trees]
-        images = self._maps[k, m].images(scaled)
+        images = self._maps[k, m].images([tuple(order * y for y in x.vector) for x in trees])
         return [
             Forest(image, (Tree(m, x.branches),), self._scale * x.scale)
             for image, x in zip(images, trees, strict=True)

@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, arb_mat, ctx
 
+from garkcli.exact.enclosing import times
 from garkcli.order.conditions import coupling_graph, twin_roots
-from garkcli.order.entries import times
 from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible
@@ -96,10 +96,8 @@ class TreeResiduals(StageVectors[Rows]):
             values = self._values(table, segment)
             ids = slice(segment.ids.start, segment.ids.stop)
             stems = table.stem[ids] - segment.stems.start
-            branches = table.branch[ids] - segment.branches.start
-            where = stems * len(segment.branches) + branches
-            densities = table.gamma[ids].tolist()
-            trees = zip(where.tolist(), segment.ids, densities, strict=True)
+            where = stems * len(segment.branches) + table.branch[ids] - segment.branches.start
+            trees = zip(where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True)
             for i, u, gamma in trees:
                 if gamma not in required:
                     required[gamma] = share / arb(gamma)
@@ -109,8 +107,7 @@ class TreeResiduals(StageVectors[Rows]):
         """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
         b = self.enclosure.b[segment.root].entries()
         weighted = arb_mat([times(row, b) for row in self.stems(table, segment)])
-        branches = arb_mat(self.branches(table, segment)).transpose()
-        return (weighted * branches).entries()
+        return (weighted * arb_mat(self.branches(table, segment)).transpose()).entries()
 
     def _part(self, vectors: Rows, places: Column) -> Rows:
         return [vectors[i] for i in places.tolist()]

@@ -169,8 +169,7 @@ class Conditions:
     def spans(self) -> ApproximateSpans:
         # members as short as the tolerance cost bits
         enclosure = enclose_tableau(self.rounded.tableau, 6 * self.rounded.bits)
-        grain = arb(self.rounded.tolerance)
-        return ApproximateSpans(self.rounded.tableau, enclosure, grain)
+        return ApproximateSpans(self.rounded.tableau, enclosure, arb(self.rounded.tolerance))
 
     def fails(self, witness: Witness) -> bool:
         """Whether rounding does not explain the residual of a tree."""

@@ -10,13 +10,11 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
 from garkcli.order.approximate_spans import ApproximateSpans
-from garkcli.order.blame import blame_of
+from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.conditions import count_conditions, coupling_graph
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.effects import Effects
-from garkcli.order.listing import count_conditions
-from garkcli.order.repairs import Missed, Repair
 from garkcli.order.residuals import Sizes, TreeResiduals
 from garkcli.order.rounded import FEW_TREES, RoundedOrder
 from garkcli.order.tolerance import unnatural, within
@@ -163,16 +161,14 @@ def suggest_tolerance(
     Returns:
         None where nothing speaks for rounding, or where it takes too many trees to tell.
     """
-    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if exact.witness is None or not spelled_out:
+    if exact.witness is None or not any(isinstance(space, PointSpace) for space in tableau.spaces):
         return None
     first = abs(to_ball(exact.witness.residual))
     if not first <= unnatural(exact.order + 1):
         return None
     rounding, worst = first, exact.order + 1
     failing = exact.order + 1
-    orders = range(failing, limit + 1)
-    for order, sizes in _sizes(tableau, first, orders):
+    for order, sizes in _sizes(tableau, first, range(failing, limit + 1)):
         if sizes.bound <= unnatural(order):
             if sizes.bound > rounding:
                 rounding, worst = sizes.bound, order
@@ -242,8 +238,7 @@ def enough(tableau: Tableau, order: int, rounding: arb) -> int:
     while fmpq(10) ** (exponent - 1) >= 2 * rounding:
         exponent -= 1
     while exponent < -1:
-        rounded = RoundedTableau.within(tableau, fmpq(10) ** exponent)
-        if order_of(rounded, order).order >= order:
+        if order_of(RoundedTableau.within(tableau, fmpq(10) ** exponent), order).order >= order:
             break
         exponent += 1
     return exponent

@@ -33,8 +33,7 @@ def unnatural(order: int) -> fmpq:
     (s!)⁴ / ((2s+1) ((2s)!)²), and 10⁻⁶ at most.
     """
     s = order // 2
-    squares = (2 * s + 1) * factorial(2 * s) ** 2
-    best = fmpq(factorial(s) ** 4, squares)
+    best = fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
     return min(TINY, best * UNNATURAL)
 
 
@@ -48,10 +47,8 @@ def rounded_up(size: arb) -> fmpq:
     if upper == 0:
         return fmpq(0)
     decades = upper.log() / arb(10).log()
-    exponent = _whole(decades.mid().floor())
-    step = fmpq(10) ** (exponent - 1)
-    steps = (upper / arb(step)).abs_upper()
-    return _whole(steps.ceil()) * step
+    step = fmpq(10) ** (_whole(decades.mid().floor()) - 1)
+    return _whole((upper / arb(step)).abs_upper().ceil()) * step
 
 
 def _whole(number: arb) -> int:

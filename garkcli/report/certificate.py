@@ -20,7 +20,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
-from garkcli.order.proof import Proof
+from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace

@@ -8,8 +8,7 @@ from flint import arb, fmpq
 
 from garkcli.check.explained import block_text, repair_text
 from garkcli.exact.display import decimal
-from garkcli.order.blame import Blame
-from garkcli.order.repairs import Repair
+from garkcli.order.blame import Blame, Repair
 from garkcli.order.suggestion import Misprint, Suggestion
 
 MOST_REPAIRS = 3

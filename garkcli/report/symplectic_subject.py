@@ -184,7 +184,7 @@ def subject_of_method(method: AnyTableau, orders: range) -> Subject:
             momenta only.
         ZeroWeight: the pair would divide by zero.
     """
-    from garkcli.order.defects import is_symplectic
+    from garkcli.order.simplifying import is_symplectic
     from garkcli.tableau.meant import derived
 
     if not is_symplectic(method):

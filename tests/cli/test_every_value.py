@@ -14,8 +14,7 @@ from garkcli.design.member import member
 from garkcli.design.stability_functions import family_functions
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
-from garkcli.order.conditions import elementary_weight
-from garkcli.order.listing import all_conditions
+from garkcli.order.conditions import all_conditions, elementary_weight
 from garkcli.report.schemas import report_schema
 from garkcli.stability.linear import e_polynomial, stability_function
 from garkcli.tableau.forms import pair

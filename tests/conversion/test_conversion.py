@@ -21,8 +21,7 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import can_spell_out, write_tableau_file
-from garkcli.order.conditions import elementary_weight, is_admissible
-from garkcli.order.listing import admissible_trees
+from garkcli.order.conditions import admissible_trees, elementary_weight, is_admissible
 from garkcli.tableau.embedded import Further, with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau

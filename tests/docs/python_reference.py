@@ -45,7 +45,7 @@ VALUES = (
     "exact.cells:Interval",
     "exact.roots:RealRoot",
     "check.proof:MethodProof",
-    "order.proof:Proof",
+    "order.certificate:Proof",
     "comparison.comparison:Comparison",
     "conversion.convert:Converted",
     "tableau.bycolour:ByColour",

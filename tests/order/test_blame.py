@@ -10,8 +10,7 @@ from flint import fmpq
 
 from garkcli import Tableau, conjugate, find_order, load
 from garkcli.check.check_file import check_file
-from garkcli.order.blame import find_blame
-from garkcli.order.repairs import Repair
+from garkcli.order.blame import Repair, find_blame
 from garkcli.order.tolerance import within
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -10,8 +10,8 @@ from flint import fmpq
 from garkcli import Tableau, Tree, conditions, find_order, load
 from garkcli.families.registry import diagonal_method
 from garkcli.order import constants
+from garkcli.order.conditions import all_conditions
 from garkcli.order.constants import error_constants
-from garkcli.order.listing import all_conditions
 from garkcli.tableau.forms import gark, pair
 from tests.oracles.brute import Plain, Trees
 

@@ -15,8 +15,13 @@ from garkcli.exact.display import to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
-from garkcli.order.defects import Defects, RoundedDefects, is_symplectic
-from garkcli.order.simplifying import consistent_blocks, simplifying
+from garkcli.order.simplifying import (
+    Defects,
+    RoundedDefects,
+    consistent_blocks,
+    is_symplectic,
+    simplifying,
+)
 from garkcli.order.tolerance import within
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.forms import gark, pair

@@ -22,7 +22,7 @@ from hypothesis import given, settings, strategies
 import garkcli
 from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError, printable
-from garkcli.order.listing import count_conditions
+from garkcli.order.conditions import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.keys import KEYS
 from garkcli.report.checked import REPORT

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from garkcli.order.conditions import Condition
-from garkcli.order.listing import all_conditions, count_conditions
+from garkcli.order.conditions import Condition, all_conditions, count_conditions
 from garkcli.report.conditions import is_parametric
 from garkcli.report.conditions_data import ConditionRow, row_data
 from garkcli.tableau.meant import meant
