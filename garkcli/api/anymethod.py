@@ -15,8 +15,7 @@ from garkcli.methodfile.load import load
 from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import AnyTableau, meant
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 
 AnyMethod: TypeAlias = (
     "GarkMethod | Tableau | Method | str | os.PathLike[str] | Sequence[Any] | Mapping[str, Any]"

@@ -12,7 +12,7 @@ from garkcli.errors import MethodError, did_you_mean
 from garkcli.families import registry
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 from garkcli.transfer import RULES
 
 Blocks: TypeAlias = "Mapping[tuple[int, int], Any]"

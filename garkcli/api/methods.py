@@ -30,8 +30,7 @@ from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import Derivation, GarkMethod, derived_name
 from garkcli.tableau.meant import meant
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 
 
 def find_order(

@@ -10,8 +10,8 @@ from garkcli.exact.display import decimal
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import consistent_blocks
+from garkcli.tableau.forms import with_time
 from garkcli.tableau.meant import meant
-from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 
 

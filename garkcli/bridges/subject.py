@@ -11,7 +11,7 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.simplifying import RoundedDefects
-from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.forms import with_time
 from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 

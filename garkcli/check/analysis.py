@@ -13,8 +13,8 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
+from garkcli.tableau.forms import with_time
 from garkcli.tableau.meant import derived, printed
-from garkcli.tableau.nonautonomous import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 

@@ -19,7 +19,7 @@ from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.roots import RealRoot
-from garkcli.tableau.family_points import ring_of
+from garkcli.tableau.family import ring_of
 from garkcli.tableau.tableau import Tableau
 
 MOST_SPECIAL = 60

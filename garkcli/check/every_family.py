@@ -25,8 +25,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parameters, Parametric
 from garkcli.exact.polynomial import in_one
 from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
-from garkcli.tableau.family import Family
-from garkcli.tableau.family_points import family_in_points
+from garkcli.tableau.family import Family, family_in_points
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 

@@ -20,8 +20,7 @@ from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import is_symplectic, symplectic_defects
 from garkcli.tableau.embedded import with_weights
-from garkcli.tableau.forms import pair
-from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.forms import pair, with_time
 from garkcli.tableau.tableau import Tableau
 
 TOLD = ("stiffly-accurate", "fsal", "symmetric")

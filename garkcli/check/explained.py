@@ -12,7 +12,7 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
-from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.forms import with_time
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:

@@ -23,9 +23,8 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
 from garkcli.properties.reduction import merged
 from garkcli.tableau.forms import gark
-from garkcli.tableau.method import Method
 from garkcli.tableau.polynomial_space import antiderivative
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import Rule
 
 FAST, SLOW = 0, 1

@@ -12,9 +12,8 @@ from garkcli.constructions.composition import Substep, composed
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.tableau.forms import separable_prk, with_linear
-from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Colour, Edge, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Method, Tableau
 
 Flow = tuple[int, Number]
 """A part of the problem, counted from 0, and for which fraction of the step it flows."""

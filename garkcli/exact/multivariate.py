@@ -132,9 +132,7 @@ def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) 
     axes = len(next(iter(lines)))
     terms: dict[Exponents, Number] = {}
     for k in range(degree + 1):
-        values = {}
-        for point in lattice(axes, k):
-            values[point] = lines[point][k]
+        values = {point: lines[point][k] for point in lattice(axes, k)}
         for exponents, a in _interpolated(values, axes, offset, k).items():
             terms[k - sum(exponents), *exponents] = a
     return Multivariate.of(axes + 1, terms)

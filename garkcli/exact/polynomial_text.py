@@ -50,9 +50,7 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     >>> polynomial_text(Polynomial([48, -22, 1]), "x")
     'x^2 - 22*x + 48'
     """
-    terms = []
-    for k, a in enumerate(p.coefficients):
-        terms.append((a, power_text(variable, k)))
+    terms = [(a, power_text(variable, k)) for k, a in enumerate(p.coefficients)]
     return _sum_text(terms[::-1])
 
 

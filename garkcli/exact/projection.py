@@ -105,10 +105,9 @@ def leading(p: fmpq_mpoly) -> fmpq_mpoly:
 
 def coefficient_of(p: fmpq_mpoly, power: int) -> fmpq_mpoly:
     """The coefficient of a power of y, a polynomial in t."""
-    terms: dict[tuple[int, ...], fmpq] = {}
-    for (j, k), coefficient in p.to_dict().items():
-        if j == power:
-            terms[0, k] = coefficient
+    terms: dict[tuple[int, ...], fmpq] = {
+        (0, k): coefficient for (j, k), coefficient in p.to_dict().items() if j == power
+    }
     return PLANE.from_dict(terms)
 
 

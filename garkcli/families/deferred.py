@@ -21,10 +21,9 @@ from garkcli.exact.nodes import Expression, Literal
 from garkcli.families import gauss, lobatto, radau
 from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
-from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative
-from garkcli.tableau.simple_nodes import simple_nodes
+from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative, simple_nodes
+from garkcli.tableau.tableau import Method
 
 _COLLOCATION: Mapping[str, Callable[[int], Method]] = {
     "radau-iia": radau.radau_iia,

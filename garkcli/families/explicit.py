@@ -13,7 +13,7 @@ from flint import fmpq
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.family import Family, by_stages, of_stages
-from garkcli.tableau.method import Method, butcher
+from garkcli.tableau.tableau import Method, butcher
 
 _ROWS: dict[str, tuple[str, str]] = {
     "explicit-euler": ("", "1"),

@@ -17,7 +17,7 @@ from garkcli.errors import UnknownFamily
 from garkcli.exact.matrix import solve
 from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 SEQUENCES = ("harmonic", "romberg", "bulirsch")
 """How many parts the basic steps have: 1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 Given: TypeAlias = "str | int | Expression"
 """What an option is set to: a word, a whole number or a coefficient."""

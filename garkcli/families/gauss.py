@@ -2,7 +2,7 @@
 
 from garkcli.families.family import of_stages
 from garkcli.families.polynomials import collocation_method, legendre
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 
 def gauss(s: int) -> Method:

@@ -20,7 +20,7 @@ from garkcli.families.polynomials import (
     legendre,
     with_first_column,
 )
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 
 def lobatto_iiia(s: int) -> Method:

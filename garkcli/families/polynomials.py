@@ -6,8 +6,8 @@ from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Vector, add, apply, dot, multiply, outer, scale, subtract
-from garkcli.tableau.method import Method
 from garkcli.tableau.polynomial_space import PolynomialSpace, integral, integration
+from garkcli.tableau.tableau import Method
 
 X = fmpq_poly([0, 1])
 

@@ -6,7 +6,7 @@ way constructing symplectic Runge–Kutta methods*, J. Comput. Math. 18 (2000).
 
 from garkcli.families.family import of_stages
 from garkcli.families.polynomials import average, collocation_method, conjugate_method, legendre
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 
 def radau_ia(s: int) -> Method:

@@ -11,7 +11,7 @@ from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.family import MAX_STAGES, Family, Given, Option, Options, Recipe
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 NO_OPTIONS: Options = {}
 _FIRST = ("gauss", "radau", "lobatto", "explicit", "ssp3", "sdirk2", "extrapolated", "deferred")

@@ -14,7 +14,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
 from garkcli.families.family import Family, Option, Options, Recipe
-from garkcli.tableau.method import Method, butcher
+from garkcli.tableau.tableau import Method, butcher
 
 GAMMA = Option(
     "gamma", "The diagonal entry γ that chooses a method of the family.", shown="(3 + sqrt(3))/6"

@@ -13,7 +13,7 @@ from flint import fmpq
 from garkcli.errors import UnknownFamily
 from garkcli.families.family import MAX_STAGES, Family, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 
 
 def ssp3(s: int, _: Options) -> Recipe:

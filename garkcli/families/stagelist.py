@@ -13,7 +13,7 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
-from garkcli.tableau.method import Method, butcher
+from garkcli.tableau.tableau import Method, butcher
 
 Weights: TypeAlias = Mapping[int, Number]
 """How much of each stage is in a value; zeros are left out."""

@@ -12,7 +12,7 @@ from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
 from garkcli.tableau.forms import gark
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]

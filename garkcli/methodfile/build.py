@@ -43,10 +43,9 @@ from garkcli.tableau.forms import (
     with_linear,
 )
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.method import Method, butcher
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau, butcher
 
 if TYPE_CHECKING:
     from garkcli.methodfile.printed import Printed
@@ -302,7 +301,7 @@ def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers, why: st
     """
     if not isinstance(space, PolynomialSpace):
         return None
-    from garkcli.tableau.simple_nodes import simple_nodes  # few files need it
+    from garkcli.tableau.polynomial_space import simple_nodes  # few files need it
 
     nodes = simple_nodes(space)
     if nodes is None:

@@ -13,8 +13,7 @@ from garkcli.families.family import Recipe
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.reference import Reference
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
     from garkcli.methodfile.values import Values

@@ -12,7 +12,7 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock
 from garkcli.problems.vectorfield import GROUPS, TIME, Group, VectorField, is_constant
-from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
 Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]

@@ -62,15 +62,18 @@ def conjugate(tableau: Tableau) -> Tableau:
         ZeroWeight: a conjugate would divide by zero.
     """
     if tableau.is_partitioned:
-        return replace(tableau, blocks=_exchanged(tableau))
+        exchanged: dict[Edge, Matrix] = {}  # blocks of positions from those of momenta, and back
+        for m, l in tableau.edges():
+            here = tableau.colours[l]
+            if are_opposite(here, tableau.colours[m]):
+                exchanged[here.space, m] = conjugate_of(tableau, l, m)
+        return replace(tableau, blocks=exchanged)
     spaces = []
     colours = []
     for l, colour in enumerate(tableau.colours):
         spaces.append(tableau.space(l))
         colours.append(replace(colour, space=l))
-    blocks: dict[Edge, Matrix] = {}
-    for m, l in tableau.edges():
-        blocks[l, m] = conjugate_of(tableau, l, m)
+    blocks: dict[Edge, Matrix] = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
@@ -90,21 +93,9 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
         raise ZeroWeight(message, error.help) from None
 
 
-def _exchanged(tableau: Tableau) -> dict[Edge, Matrix]:
-    """The blocks of positions made from those of momenta, and the other way round."""
-    blocks: dict[Edge, Matrix] = {}
-    for m, l in tableau.edges():
-        here = tableau.colours[l]
-        other = tableau.colours[m]
-        if are_opposite(here, other):
-            blocks[here.space, m] = conjugate_of(tableau, l, m)
-    return blocks
-
-
 def are_opposite(one: Colour, other: Colour) -> bool:
     """Whether the symplectic form pairs what the two vector fields drive."""
-    parts = {one.part, other.part}
-    return parts in ({"q", "p"}, {"y"})
+    return {one.part, other.part} in ({"q", "p"}, {"y"})
 
 
 def is_symplectic(tableau: Tableau) -> bool:
@@ -133,8 +124,7 @@ def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
 
 def _share_stages(one: Colour, other: Colour) -> bool:
     """Whether a velocity and a force are evaluated at the same stages."""
-    parts = {one.part, other.part}
-    return one.space == other.space and parts == {"q", "p"}
+    return one.space == other.space and {one.part, other.part} == {"q", "p"}
 
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
@@ -147,7 +137,5 @@ def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
         raise KeyError((l, m))
     b_l = tableau.colours[l].b
     b_m = tableau.colours[m].b
-    form_forth = tableau.space(l).form(b_l, forth)
-    form_back = tableau.space(m).form(b_m, back)
-    both = add(form_forth, transpose(form_back))
+    both = add(tableau.space(l).form(b_l, forth), transpose(tableau.space(m).form(b_m, back)))
     return subtract(both, outer(b_l, b_m))

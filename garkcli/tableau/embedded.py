@@ -82,8 +82,7 @@ class Further:
         if embedded is not None:
             embedded = rows(embedded)
         if dense is not None:
-            blocks = tuple(map(rows, dense.weights))
-            dense = DenseOutput(blocks)
+            dense = DenseOutput(tuple(map(rows, dense.weights)))
         return Further(embedded, dense)
 
 
@@ -102,8 +101,7 @@ def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
     """Polynomials of dense output with zeros up to a degree."""
     longer = []
     for row in rows:
-        missing = degree - len(row)
-        zeros = [ZERO] * missing
+        zeros = [ZERO] * (degree - len(row))
         longer.append((*row, *zeros))
     return tuple(longer)
 
@@ -118,7 +116,7 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
     >>> from garkcli.tableau.forms import gark
-    >>> from garkcli.tableau.method import butcher
+    >>> from garkcli.tableau.tableau import butcher
     >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
     >>> heun = gark([butcher(((zero, zero), (one, zero)), (half, half))], {})
     >>> euler = with_weights(heun, ((one, zero),))
@@ -133,10 +131,7 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
         message = "the weights are those of single stages, "
         message += "and a family is kept in the algebra of its nodes"
         raise ShapeMismatch(message, "spell the method out")
-    colours = []
-    for colour, row in zip(tableau.colours, weights, strict=True):
-        changed = replace(colour, b=row)
-        colours.append(changed)
+    colours = [replace(colour, b=row) for colour, row in zip(tableau.colours, weights, strict=True)]
     return replace(tableau, colours=tuple(colours))
 
 
@@ -159,12 +154,11 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
         tableau: with colours for them.
         further: the weights as they were, for their kinds.
     """
-    kinds = len(_rows(further))
-    size = tableau.size // (kinds + 1)
-    rows = []
-    for start in range(size, tableau.size, size):
-        colours = tableau.colours[start : start + size]
-        rows.append(tuple(colour.b for colour in colours))
+    size = tableau.size // (len(_rows(further)) + 1)
+    rows = [
+        tuple(colour.b for colour in tableau.colours[start : start + size])
+        for start in range(size, tableau.size, size)
+    ]
     embedded, dense = None, None
     if further.embedded is not None:
         embedded = rows.pop(0)
@@ -175,8 +169,7 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
             stages = zip(*of_colour, strict=True)
             blocks.append(tuple(stages))
         dense = DenseOutput(tuple(blocks))
-    own = replace(tableau, colours=tableau.colours[:size])
-    return own, Further(embedded, dense)
+    return replace(tableau, colours=tableau.colours[:size]), Further(embedded, dense)
 
 
 def _rows(further: Further) -> list[Weights]:
@@ -186,6 +179,5 @@ def _rows(further: Further) -> list[Weights]:
         rows.append(further.embedded)
     dense = further.dense
     if dense is not None:
-        powers = range(1, dense.degree + 1)
-        rows += [dense.coefficients(power) for power in powers]
+        rows += [dense.coefficients(power) for power in range(1, dense.degree + 1)]
     return rows

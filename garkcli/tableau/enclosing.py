@@ -62,8 +62,7 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
             A, b = _spelled_out(tableau, digits)
         else:
             A, b = _at_nodes(tableau, min(digits, MAX_DIGITS))
-    stages = tuple(space.stages for space in tableau.spaces)
-    return Enclosure(bits, stages, A, tuple(b))
+    return Enclosure(bits, tuple(space.stages for space in tableau.spaces), A, tuple(b))
 
 
 def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
@@ -74,36 +73,27 @@ def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
     with ctx.workprec(bits + GUARD):
         if all(isinstance(space, PointSpace) for space in tableau.spaces):
             return [_balls([colour.c], digits).entries() for colour in tableau.colours]
-        found = numeric_entries(tableau, min(digits, MAX_DIGITS))
-        return [[cast("arb", x) for x in row] for row in found.c]
+        entries = numeric_entries(tableau, min(digits, MAX_DIGITS))
+        return [[cast("arb", x) for x in row] for row in entries.c]
 
 
 def _spelled_out(tableau: Tableau, digits: int) -> _Enclosed:
     """A and b of coefficients that are given one by one."""
-    A: _Blocks = {}
-    for key, block in tableau.blocks.items():
-        A[key] = _balls(block, digits)
-    b = []
-    for colour in tableau.colours:
-        row = _balls([colour.b], digits)
-        b.append(row.transpose())
-    return A, b
+    A: _Blocks = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
+    return A, [_balls([colour.b], digits).transpose() for colour in tableau.colours]
 
 
 def _at_nodes(tableau: Tableau, digits: int) -> _Enclosed:
     """A and b where stages of families are among them: coordinates become values at nodes."""
-    found = numeric_entries(tableau, digits)
+    entries = numeric_entries(tableau, digits)
     # Colours that share a stage space have the same rows, so any of them will do.
-    colour_of: dict[int, int] = {}
-    for l, colour in enumerate(tableau.colours):
-        colour_of[colour.space] = l
+    colour_of: dict[int, int] = {colour.space: l for l, colour in enumerate(tableau.colours)}
     A: _Blocks = {}
     for k, m in tableau.blocks:
-        row = found.A[colour_of[k]]
+        row = entries.A[colour_of[k]]
         block = row[m] or ()
         A[k, m] = _matrix(block)
-    b = [_matrix([row]).transpose() for row in found.b]
-    return A, b
+    return A, [_matrix([row]).transpose() for row in entries.b]
 
 
 def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:

@@ -1,5 +1,5 @@
 """Every kind of method as one tableau: RK, GARK, ARK, PRK, the symplectic pair and its special
-cases.
+cases; a tableau with time as a colour.
 """
 
 from __future__ import annotations
@@ -9,12 +9,11 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from garkcli.errors import MethodError
-from garkcli.exact.field import ZERO
+from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.tableau.conjugate import conjugate_of
-from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Colour, Edge, Part, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau
 
 Blocks: TypeAlias = Mapping[Edge, Matrix]
 """Blocks by stage space and colour, as in ``Tableau.blocks``."""
@@ -31,8 +30,7 @@ def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
     colours = []
     blocks: _NewBlocks = {}
     for l, method in enumerate(methods):
-        name = str(l + 1)
-        colour = Colour(name, l, method.b, method.c, l)
+        colour = Colour(str(l + 1), l, method.b, method.c, l)
         spaces.append(method.space)
         colours.append(colour)
         blocks[l, l] = method.A
@@ -84,24 +82,16 @@ def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tabl
     nodes = c
     if nodes is None:
         nodes = _row_sums(0, A, len(A[0]))
-    colours = []
-    for l, weights in enumerate(b):
-        name = str(l + 1)
-        colour = Colour(name, 0, weights, nodes, l)
-        colours.append(colour)
-    blocks: _NewBlocks = {}
-    for m, block in enumerate(A):
-        blocks[0, m] = block
-    space = PointSpace(nodes)
-    return Tableau((space,), tuple(colours), blocks)
+    colours = [Colour(str(l + 1), 0, weights, nodes, l) for l, weights in enumerate(b)]
+    blocks: _NewBlocks = {(0, m): block for m, block in enumerate(A)}
+    return Tableau((PointSpace(nodes),), tuple(colours), blocks)
 
 
 def partitioned(q: Method, p: Method) -> Tableau:
     """A partitioned method for q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
     velocity = Colour("q", 0, q.b, q.c, 0, "q")
     force = Colour("p", 0, p.b, p.c, 1, "p")
-    blocks = {(0, 0): q.A, (0, 1): p.A}
-    return Tableau((q.space,), (velocity, force), blocks)
+    return Tableau((q.space,), (velocity, force), {(0, 0): q.A, (0, 1): p.A})
 
 
 def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
@@ -122,8 +112,7 @@ def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
     spaces = (PointSpace(at_momenta), PointSpace(at_positions))
     velocity = Colour("q", 0, b_q, at_momenta, 0, "q")
     force = Colour("p", 1, b_p, at_positions, 1, "p")
-    blocks = {(0, 1): A_p, (1, 0): A_q}
-    return Tableau(spaces, (velocity, force), blocks)
+    return Tableau(spaces, (velocity, force), {(0, 1): A_p, (1, 0): A_q})
 
 
 def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
@@ -185,8 +174,7 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
 
 def _driving(colour: Colour, letter: str, space: int, part: Part) -> Colour:
     """The colour V^l or F^l of a pair, with stages in ``space``."""
-    name = letter + colour.name
-    return replace(colour, name=name, space=space, part=part)
+    return replace(colour, name=letter + colour.name, space=space, part=part)
 
 
 def pair(tableau: Tableau) -> Tableau:
@@ -202,12 +190,45 @@ def pair(tableau: Tableau) -> Tableau:
         everything = range(tableau.size)
         return symplectic_pair(tableau, everything, everything)
     is_q = [colour.part == "q" for colour in tableau.colours]
-    blocks: _NewBlocks = {}
-    for (k, m), block in tableau.blocks.items():
-        if is_q[m]:
-            blocks[k, m] = block
+    blocks: _NewBlocks = {(k, m): block for (k, m), block in tableau.blocks.items() if is_q[m]}
     for m, l in tableau.edges():
         if is_q[l] and not is_q[m]:
             k = tableau.colours[l].space
             blocks[k, m] = conjugate_of(tableau, l, m)
     return replace(tableau, blocks=blocks)
+
+
+TIME = "t"
+"""The name of the colour of time."""
+
+
+def with_time(tableau: Tableau) -> Tableau | None:
+    """The tableau with time as its last colour: of problems ẏ = f(t, y), with its nodes as printed.
+
+    With ṫ = 1 the problem is autonomous. A method evaluates f at t + c_i h, so the block of time is
+    c, whatever the row sums of A are; its vector field is constant, so its vertices have no
+    branches: its stages see no colour. Where A^{l,m} 𝟙 = c^{l} for every block a vertex of time has
+    the same weight as any other leaf, and nothing changes.
+
+    Returns:
+        None where it has no meaning: a vector field that is linear has no time in it, and colours
+        that share stages need the same nodes.
+
+    >>> from flint import fmpq
+    >>> from garkcli.tableau.forms import gark
+    >>> from garkcli.tableau.tableau import butcher
+    >>> from garkcli.order.certificate import find_order
+    >>> midpoint = gark([butcher(((fmpq(1, 2),),), (fmpq(1),), (fmpq(0),))], {})
+    >>> find_order(midpoint).order, find_order(with_time(midpoint)).order
+    (2, 1)
+    """
+    nodes: dict[int, Vector] = {}
+    for colour in tableau.colours:
+        first = nodes.setdefault(colour.space, colour.c)
+        if colour.is_linear or first != colour.c:
+            return None
+    time = tableau.size
+    columns = {(k, time): tuple((c_i,) for c_i in c) for k, c in nodes.items()}
+    clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=time)
+    spaces = (*tableau.spaces, PointSpace((ZERO,)))
+    return Tableau(spaces, (*tableau.colours, clock), {**tableau.blocks, **columns})

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar
 
 from flint import fmpq
 
-from garkcli.errors import counted
-from garkcli.tableau.bycolour import ByColour
+from garkcli.errors import MethodError, counted
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.meant import AnyTableau, derived, meant
 from garkcli.tableau.tableau import Tableau
@@ -18,6 +17,60 @@ from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
+
+
+K = TypeVar("K", int, tuple[int, int])
+
+
+class NoSuchColour(MethodError, KeyError):
+    """There is nothing of this colour."""
+
+    __str__ = MethodError.__str__
+
+
+class ByColour(Mapping[K, Any], Generic[K]):
+    """What a method has for each colour, or for each pair of them; colours count from 1.
+
+    >>> from garkcli.tableau.garkmethod import ByColour
+    >>> rows = ByColour({1: (1,), 2: ("1/2", "1/2")})
+    >>> rows[2], list(rows), rows.get(3)
+    (('1/2', '1/2'), [1, 2], None)
+    """
+
+    __slots__ = ("_parts",)
+
+    def __init__(self, parts: Mapping[K, Any]) -> None:
+        self._parts: dict[K, Any] = dict(parts)
+
+    def __getitem__(self, key: K) -> Any:
+        """The part of a colour, or of a pair (l, m) of colours.
+
+        Raises:
+            NoSuchColour: there is none.
+        """
+        try:
+            return self._parts[key]
+        except (KeyError, TypeError):
+            *_, last = self._parts
+            what = "pair of colours" if isinstance(last, tuple) else "colour"
+            raise NoSuchColour(
+                f"{key!r} is no {what} of the method",
+                f"they count from 1, the last is {last!r}",
+                code="arrays",
+            ) from None
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._parts)
+
+    def __len__(self) -> int:
+        return len(self._parts)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._parts.items()))
+
+    def __repr__(self) -> str:
+        return repr(self._parts)
+
 
 Derivation: TypeAlias = Literal["", "conjugate", "pair"]
 """What a method was made as from another one; empty for a method as it was given."""
@@ -171,8 +224,7 @@ class GarkMethod(Shown):
     @property
     def stages(self) -> tuple[int, ...]:
         """The number of stages s_l of each colour, in their order."""
-        colours = range(self.tableau.size)
-        return tuple(self.tableau.space(l).stages for l in colours)
+        return tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
 
     def __repr__(self) -> str:
         name = f"{self.name}: " if self.name else ""

@@ -39,8 +39,7 @@ class PointSpace(StageSpace):
         return self.points
 
     def product(self, u: Vector, v: Vector) -> Vector:
-        product = [x * y for x, y in zip(u, v, strict=True)]
-        return tuple(product)
+        return tuple(x * y for x, y in zip(u, v, strict=True))
 
     def times(self, functional: Vector, v: Vector) -> Vector:
         return self.product(functional, v)
@@ -51,8 +50,7 @@ class PointSpace(StageSpace):
     def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
         if is_rational((coefficients, self.points)):
             polynomial = in_flint(coefficients)
-            nodes = cast("tuple[fmpq, ...]", self.points)
-            return tuple(polynomial(c) for c in nodes)
+            return tuple(polynomial(c) for c in cast("tuple[fmpq, ...]", self.points))
         return tuple(_value(coefficients, c) for c in self.points)
 
     def interpolation_bits(self, enough: int) -> int:
@@ -65,14 +63,12 @@ class PointSpace(StageSpace):
         Returns:
             Bits, summed over the coordinates of irrational nodes.
         """
-        pairs = combinations(self.points, 2)
-        bound = sum(_bits(x - y) for x, y in pairs)
+        bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
         if bound <= enough or bound > MAX_BITS_COMPARED:
             return bound
         if not is_rational((self.points,)):
             return bound
-        nodes = cast("tuple[fmpq, ...]", self.points)
-        return _common_denominator(nodes).bit_length()
+        return _common_denominator(cast("tuple[fmpq, ...]", self.points)).bit_length()
 
     def basis_polynomials(self) -> Iterator[Vector]:
         self._check_distinct()
@@ -99,8 +95,7 @@ class PointSpace(StageSpace):
         return transpose(tuple(self.basis_polynomials()))
 
     def zero_weights(self, weights: Vector) -> str:
-        numbered = enumerate(weights, start=1)
-        names = [f"b_{i}" for i, weight in numbered if not weight]
+        names = [f"b_{i}" for i, weight in enumerate(weights, start=1) if not weight]
         if len(names) > 4:
             names = [*names[:3], "…"]
         return " = ".join([*names, "0"])
@@ -118,10 +113,7 @@ class PointSpace(StageSpace):
 
 def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
     """The product of a diagonal matrix and another."""
-    scaled = []
-    for factor, row in zip(factors, rows, strict=True):
-        scaled.append(tuple(factor * x for x in row))
-    return tuple(scaled)
+    return tuple(tuple(factor * x for x in row) for factor, row in zip(factors, rows, strict=True))
 
 
 @lru_cache(maxsize=16)  # blocks both ways, and to many colours, ask again
@@ -133,16 +125,13 @@ def _common_denominator(nodes: tuple[fmpq, ...]) -> fmpz:
     """
     common = fmpz(1)
     for c in nodes:
-        differences = [c - x for x in nodes if x != c]
-        scale = prod(differences, start=ONE)
-        common = common.lcm(scale.p)
+        common = common.lcm(prod([c - x for x in nodes if x != c], start=ONE).p)
     return common
 
 
 def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
-        bits = [int(x.height_bits()) for x in number.poly.coeffs()]
-        return sum(bits)
+        return sum(int(x.height_bits()) for x in number.poly.coeffs())
     return int(number.height_bits())
 
 
@@ -173,9 +162,7 @@ def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
     """The same in any domain, dividing w by x − c_j with Horner's scheme."""
     w: list[Number] = [ONE]
     for c in nodes:
-        times_x = [ZERO, *w]
-        padded = [*w, ZERO]
-        w = [a - c * b for a, b in zip(times_x, padded, strict=True)]
+        w = [a - c * b for a, b in zip([ZERO, *w], [*w, ZERO], strict=True)]
     for c in nodes:
         others: list[Number] = []
         carried: Number = ZERO

@@ -21,13 +21,15 @@ from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.simple_nodes import simple_nodes
+from garkcli.tableau.polynomial_space import (
+    PolynomialSpace,
+    coordinates_at_nodes,
+    powers_of_nodes,
+    simple_nodes,
+)
 from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.tableau import Edge, Tableau
-from garkcli.tableau.vandermonde import coordinates_at_nodes, powers_of_nodes
+from garkcli.tableau.tableau import Edge, Method, Tableau
 
 Cell: TypeAlias = Number | arb
 Row: TypeAlias = tuple[Cell, ...]
@@ -94,8 +96,7 @@ class Entries:
                 return cell
             return to_ball(cell, digits)
 
-        changed = self.changed(enclosed)
-        return replace(changed, is_exact=False, digits=digits)
+        return replace(self.changed(enclosed), is_exact=False, digits=digits)
 
 
 @doing("entries")
@@ -125,8 +126,7 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
     V = space.reductions(space.stages)
     inverse = space.lifts()
     A = multiply(V, multiply(method.A, inverse))
-    b = apply_left(method.b, inverse)
-    return replace(method, space=space, A=A, b=b)
+    return replace(method, space=space, A=A, b=apply_left(method.b, inverse))
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
@@ -224,30 +224,22 @@ def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
 @doing("entries")
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
     """All entries as enclosures narrower than 10^(−digits)."""
-    precision = ctx.prec
     goal = int(digits * BITS_OF_A_DIGIT) + 8
-    try:
-        ctx.prec = goal + 64
+    with ctx.workprec(goal + 64):
         while True:
-            found = _numeric(tableau, digits)
-            if found is not None and _is_narrow(found, digits):
-                return found
+            enclosed = _numeric(tableau, digits)
+            if enclosed is not None and _is_narrow(enclosed, digits):
+                return enclosed
             ctx.prec *= 2
-    finally:
-        ctx.prec = precision
 
 
-def _is_narrow(found: Entries, digits: int) -> bool:
+def _is_narrow(enclosed: Entries, digits: int) -> bool:
     bound = arb(10) ** -digits
-    rows = [*found.c, *found.b]
-    for blocks in found.A:
+    rows = [*enclosed.c, *enclosed.b]
+    for blocks in enclosed.A:
         for block in blocks:
             rows += block or ()
-    for row in rows:
-        for x in row:
-            if isinstance(x, arb) and not x.rad() < bound:
-                return False
-    return True
+    return all(x.rad() < bound for row in rows for x in row if isinstance(x, arb))
 
 
 def _numeric(tableau: Tableau, digits: int) -> Entries | None:
@@ -271,16 +263,11 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
             if exact is None:
                 blocks.append(None)
                 continue
-            _, back = frames[other.space]
-            blocks.append(_in_values(V, exact, back))
+            _, inverse_of_other = frames[other.space]
+            values = V * _to_arb(exact) * inverse_of_other
+            blocks.append(tuple(map(tuple, values.tolist())))
         A.append(tuple(blocks))
     return Entries(tuple(c), tuple(A), tuple(b), is_exact=False, digits=digits, have_radicals=False)
-
-
-def _in_values(V: arb_mat, block: Matrix, back: arb_mat) -> Block:
-    """V A V_m⁻¹, ``back`` being V_m⁻¹."""
-    values = V * _to_arb(block) * back
-    return tuple(map(tuple, values.tolist()))
 
 
 def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
@@ -294,5 +281,4 @@ def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
 
 def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:
     digits = int(ctx.prec / BITS_OF_A_DIGIT)
-    balls = [[to_ball(x, digits) for x in row] for row in rows]
-    return arb_mat(balls)
+    return arb_mat([[to_ball(x, digits) for x in row] for row in rows])

@@ -1,13 +1,19 @@
-"""The stage space ℚ[x]/(M) of a family whose node polynomial M is rational, and integrals there."""
+"""The stage space ℚ[x]/(M) of a family whose node polynomial M is rational, and integrals there.
+
+Its nodes are written down where they have simple radicals; elsewhere Vandermonde matrices in balls
+lead from coordinates to values at the nodes, and back.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
-from flint import fmpq, fmpq_mat, fmpq_poly
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpq_poly
 
+from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import (
     Matrix,
@@ -22,6 +28,8 @@ from garkcli.exact.matrix import (
     to_flint,
     transpose,
 )
+from garkcli.exact.nodes import Chain, Expression, Literal, Root
+from garkcli.exact.radicands import square_free
 from garkcli.tableau.stages import StageSpace, in_flint
 
 MAX_BITS_OF_ROW = 20_000
@@ -153,8 +161,7 @@ class PolynomialSpace(StageSpace):
         rows = gram[:degree]
         square = to_flint([row[:degree] for row in rows], degree)
         last = [(-row[degree],) for row in rows]
-        right = to_flint(last, 1)
-        lower = square.solve(right).entries()
+        lower = square.solve(to_flint(last, 1)).entries()
         return fmpq_poly([*lower, fmpq(1)])
 
 
@@ -165,14 +172,12 @@ def _inverse_gram(space: PolynomialSpace, weights: Vector) -> Matrix:
 
 
 def _has_long_denominators(row: Vector) -> bool:
-    lengths = (int(x.q).bit_length() for x in row if isinstance(x, fmpq))
-    return sum(lengths) > MAX_BITS_OF_ROW
+    return sum(int(x.q).bit_length() for x in row if isinstance(x, fmpq)) > MAX_BITS_OF_ROW
 
 
 def convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
     """The product of two polynomials, lowest coefficients first."""
-    length = len(u) + len(v) - 1
-    out: list[Number] = [ZERO] * length
+    out: list[Number] = [ZERO] * (len(u) + len(v) - 1)
     for i, x in enumerate(u):
         for j, y in enumerate(v):
             if x and y:
@@ -199,9 +204,85 @@ def antiderivative(coefficients: Sequence[Number]) -> Vector:
 
 def integration(degree: int) -> Matrix:
     """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
-    columns = []
-    for j in range(degree):
-        monomial = (ZERO,) * j + (ONE,)
-        padding = (ZERO,) * (degree - 1 - j)
-        columns.append(antiderivative(monomial) + padding)
+    columns = [
+        antiderivative((ZERO,) * j + (ONE,)) + (ZERO,) * (degree - 1 - j) for j in range(degree)
+    ]
     return transpose(tuple(columns))
+
+
+def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
+    """The nodes in ascending order, as expressions with at most a square root each; None if they
+    need more.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.exact.rewriting import format_expression
+    >>> [format_expression(c) for c in simple_nodes(diagonal_method("gauss", 2).space)]
+    ['1/2-((1/6)*sqrt(3))', '1/2+(1/6)*sqrt(3)']
+    """
+    nodes: list[Expression] = []
+    _, factors = space.modulus.factor()
+    for factor, _ in factors:
+        if factor.degree() > 2:
+            return None
+        nodes += _roots(fmpq_poly(factor))
+    return tuple(sorted(nodes, key=lambda node: float(enclose(node))))
+
+
+def _roots(factor: fmpq_poly) -> list[Expression]:
+    """The roots of a linear factor, or of a quadratic one as m ± r√d with rational m, r and d."""
+    if factor.degree() == 1:
+        return [Literal(-factor[0] / factor[1])]
+    constant, linear, leading = factor.coeffs()
+    middle = -linear / (2 * leading)
+    radicand = middle * middle - constant / leading
+    d = square_free(radicand)
+    scale = Literal((radicand / d).sqrt())
+    root = Root(Literal(d), 2)
+    operands = (Literal(middle), Chain("**", (scale, root)))
+    return [Chain("+-", operands), Chain("++", operands)]
+
+
+_BITS_OF_A_STAGE = 16
+
+
+def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
+    """The Vandermonde matrix of the nodes, a row for each in ascending order, at the current
+    precision.
+    """
+    return _powers_of_nodes(space, ctx.prec)
+
+
+def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
+    """The inverse of the Vandermonde matrix: values at the nodes to coordinates, at the current
+    precision.
+
+    Raises:
+        ZeroDivisionError: the precision is too small.
+    """
+    found = _coordinates_at_nodes(space, ctx.prec)
+    if found is None:
+        raise ZeroDivisionError
+    return found
+
+
+@lru_cache(maxsize=32)
+def _powers_of_nodes(space: PolynomialSpace, bits: int) -> arb_mat:
+    # isolating the roots takes long, and hardly longer with the bits that the inverse needs
+    nodes = _nodes(space, max(bits, _BITS_OF_A_STAGE * space.stages))
+    exponents = range(space.stages)
+    return arb_mat([[node**k for k in exponents] for node in nodes])
+
+
+@lru_cache(maxsize=32)
+def _nodes(space: PolynomialSpace, bits: int) -> list[arb]:
+    with ctx.workprec(bits):
+        roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
+        return sorted((root.real for root, _ in roots), key=float)
+
+
+@lru_cache(maxsize=32)
+def _coordinates_at_nodes(space: PolynomialSpace, bits: int) -> arb_mat | None:
+    try:
+        return _powers_of_nodes(space, bits).inv()
+    except ZeroDivisionError:
+        return None

@@ -22,8 +22,7 @@ from garkcli.exact.matrix import apply
 from garkcli.tableau.conjugate import are_opposite, conjugate
 from garkcli.tableau.embedded import Weights, with_weights
 from garkcli.tableau.enclosing import Enclosure, enclose_nodes, enclose_tableau
-from garkcli.tableau.forms import pair
-from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.forms import pair, with_time
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
@@ -96,8 +95,7 @@ class RoundedTableau:
     def bits(self) -> int:
         """Bits of residuals, so that no radius that is not 0 is lost among them."""
         radii = [x for rows in (*self.A.values(), self.b, self.c) for row in rows for x in row]
-        below = [-_binary_exponent(x) for x in radii if not x.is_zero()]
-        return GUARD + max(below, default=0)
+        return GUARD + max([-_binary_exponent(x) for x in radii if not x.is_zero()], default=0)
 
     @cached_property
     def enclosure(self) -> Enclosure:

@@ -113,8 +113,7 @@ class StageSpace(ABC):
         Raises:
             SingularMatrixError: a weight of ``source`` is zero.
         """
-        right = transpose(self.form(weights, block))
-        return source.divide_by_weights(source_weights, right)
+        return source.divide_by_weights(source_weights, transpose(self.form(weights, block)))
 
     @abstractmethod
     def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:

@@ -1,4 +1,4 @@
-"""The tableau: colours, the graph of who sees whom, and the blocks on its edges."""
+"""The tableau: colours, the graph of who sees whom, the blocks on its edges; diagonal methods."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from typing import Literal, TypeAlias
 
 from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, NumberField
-from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.stages import StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
@@ -122,8 +123,7 @@ class Tableau:
         These are the rows of the paper's tableaus Q and P: in eq. (rectangular) three stages for q
         and two for p, although two velocities and three forces are evaluated.
         """
-        numbered = enumerate(self.colours)
-        drivers = [m for m, colour in numbered if colour.part == part]
+        drivers = [m for m, colour in enumerate(self.colours) if colour.part == part]
         stages = []
         for k, space in enumerate(self.spaces):
             if any((k, m) in self.blocks for m in drivers):
@@ -147,8 +147,7 @@ class Tableau:
     @cached_property
     def has_parameters(self) -> bool:
         """Whether a coefficient is a rational function of free parameters."""
-        numbers = chain.from_iterable(self._rows())
-        return any(isinstance(x, Parametric) for x in numbers)
+        return any(isinstance(x, Parametric) for x in chain.from_iterable(self._rows()))
 
     def _rows(self) -> Iterator[Vector]:
         """All coefficients."""
@@ -172,3 +171,38 @@ def _check_length(name: str, row: Vector, stages: int) -> None:
     of_stages = counted(stages, "stage")
     message = f"{name} has {found} for {of_stages}"
     raise ShapeMismatch(message, f"give {due}")
+
+
+@dataclass(frozen=True)
+class Method:
+    """A Runge–Kutta method over a stage space with s stages.
+
+    Attributes:
+        name: for people.
+        space: where its stage values live; its nodes are those that transfer rules interpolate at.
+        A: a map of the space into itself, shape (s, s).
+        b: the weights functional, length s.
+    """
+
+    name: str
+    space: StageSpace
+    A: Matrix
+    b: Vector
+
+    @property
+    def stages(self) -> int:
+        """The number of stages, s."""
+        return self.space.stages
+
+    @property
+    def c(self) -> Vector:
+        """The nodes, as an element of the stage space."""
+        return self.space.nodes
+
+
+def butcher(A: Matrix, b: Vector, c: Vector | None = None, name: str = "") -> Method:
+    """The method with a spelled-out Butcher tableau; ``c`` defaults to the row sums of ``A``."""
+    nodes = c
+    if nodes is None:
+        nodes = apply(A, PointSpace(b).one)
+    return Method(name, PointSpace(nodes), A, b)

@@ -20,8 +20,7 @@ from garkcli.methodfile.printed import printed_units
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.tableau.forms import gark
-from garkcli.tableau.method import butcher
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles import samples
 from tests.order.rounded_samples import in_decimals
 

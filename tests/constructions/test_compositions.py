@@ -27,8 +27,7 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.properties.reduction import reduced
 from garkcli.properties.symmetry import is_symmetric
 from garkcli.tableau.forms import gark
-from garkcli.tableau.method import Method, butcher
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau, butcher
 from tests.oracles.brute import brute_order
 from tests.oracles.series import series_order
 

@@ -13,8 +13,7 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import loads
 from garkcli.problems.builtin import hamiltonian
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 from tests.oracles.series import series_order
 
 ERK33 = (

@@ -48,7 +48,7 @@ VALUES = (
     "order.certificate:Proof",
     "comparison.comparison:Comparison",
     "conversion.convert:Converted",
-    "tableau.bycolour:ByColour",
+    "tableau.garkmethod:ByColour",
     "tableau.embedded:DenseOutput",
     "problems.hamiltonian:Hamiltonian",
     "problems.righthandside:RightHandSide",

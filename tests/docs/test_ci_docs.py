@@ -17,7 +17,7 @@ import yaml
 from garkcli import load
 from garkcli.methodfile.load import loads
 from garkcli.report.check_formats import FORMATS
-from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Method
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]

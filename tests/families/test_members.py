@@ -15,8 +15,7 @@ from garkcli.properties.symmetry import is_symmetric
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.forms import gark
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 from tests.oracles.series import series_order
 
 MEMBERS: list[tuple[str, int | None, dict[str, object], int, int]] = [

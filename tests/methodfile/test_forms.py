@@ -21,8 +21,7 @@ from garkcli.tableau.forms import (
     symplectic_pair,
     with_linear,
 )
-from garkcli.tableau.method import butcher
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Tableau, butcher
 from garkcli.transfer import PAIR_RULES, RULES, combination, symplectic_blocks
 
 GAUSS, LOBATTO = (diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3))

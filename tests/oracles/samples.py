@@ -22,9 +22,8 @@ from garkcli.tableau.forms import (
     symplectic_pair,
     with_linear,
 )
-from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Colour, Tableau
+from garkcli.tableau.tableau import Colour, Method, Tableau
 from garkcli.transfer import (
     RULES,
     Rule,

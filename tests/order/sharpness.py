@@ -18,8 +18,7 @@ from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.problems.draw import Draw
 from garkcli.tableau.forms import gark, pair
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES, combination
 from tests.oracles.samples import method
 

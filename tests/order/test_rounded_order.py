@@ -23,9 +23,8 @@ from garkcli.order.residuals import TreeResiduals
 from garkcli.order.rounded import RoundedOrder, find_order_within
 from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.forms import gark, pair
-from garkcli.tableau.method import butcher
 from garkcli.tableau.rounded import RoundedTableau
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Tableau, butcher
 from garkcli.transfer import collocation
 from garkcli.trees.table import TreeTable
 from tests.oracles import samples

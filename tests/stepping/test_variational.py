@@ -31,9 +31,8 @@ from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair
-from garkcli.tableau.method import Method
 from garkcli.tableau.pointwise import numeric_entries
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import collocation, interpolation, symplectic_blocks
 
 H = fmpq(1, 10)

@@ -14,10 +14,8 @@ from hypothesis import strategies as st
 from garkcli import loads
 from garkcli.check.deciding import analyse
 from garkcli.order.certificate import find_order
-from garkcli.tableau.forms import gark
-from garkcli.tableau.method import butcher
-from garkcli.tableau.nonautonomous import with_time
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.forms import gark, with_time
+from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles import samples
 from tests.oracles.brute import brute_order
 

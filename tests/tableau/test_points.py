@@ -19,11 +19,10 @@ from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.families.registry import diagonal_method
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
-from garkcli.tableau import vandermonde
+from garkcli.tableau import polynomial_space
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
 from garkcli.tableau.meant import meant
-from garkcli.tableau.method import butcher
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import (
     Cell,
@@ -34,7 +33,7 @@ from garkcli.tableau.pointwise import (
     powers_of_nodes,
 )
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.tableau import Colour, Tableau
+from garkcli.tableau.tableau import Colour, Tableau, butcher
 from garkcli.transfer import collocation
 from tests.oracles import samples
 from tests.oracles.draws import fractions
@@ -365,8 +364,8 @@ def test_nodes_are_isolated_once() -> None:
     longest, are found once with enough of it.
     """
     tableau = gark([diagonal_method("gauss", 40)], {})
-    vandermonde._nodes.cache_clear()
-    vandermonde._powers_of_nodes.cache_clear()
+    polynomial_space._nodes.cache_clear()
+    polynomial_space._powers_of_nodes.cache_clear()
     numeric_entries(tableau)
-    assert vandermonde._powers_of_nodes.cache_info().misses > 1
-    assert vandermonde._nodes.cache_info().misses == 1
+    assert polynomial_space._powers_of_nodes.cache_info().misses > 1
+    assert polynomial_space._nodes.cache_info().misses == 1

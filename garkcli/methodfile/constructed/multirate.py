@@ -38,8 +38,7 @@ from garkcli.methodfile.grammar import (
 )
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.values import Values
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
 
 _FORM = "write for instance {mis: kutta, fast: rk4, steps: 4}"

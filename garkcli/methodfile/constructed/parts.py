@@ -16,8 +16,7 @@ from garkcli.methodfile.description import ConstructionText, Description, Make, 
 from garkcli.methodfile.grammar import defined
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Source
-from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Method, Tableau
 
 _FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
 _NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"

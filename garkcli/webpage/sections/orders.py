@@ -16,7 +16,7 @@ from garkcli.order.dense import DenseOrder
 from garkcli.report.check import dense_words, estimate_words, hints
 from garkcli.report.every import higher_text
 from garkcli.report.hints import size
-from garkcli.tableau.nonautonomous import with_time
+from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Row
