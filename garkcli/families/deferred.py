@@ -18,7 +18,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector, dot
 from garkcli.exact.nodes import Expression, Literal
-from garkcli.families import gauss, lobatto, radau
+from garkcli.families.collocation import gauss, lobatto_iiia, radau_ia, radau_iia
 from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.point_space import PointSpace
@@ -26,10 +26,10 @@ from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative, si
 from garkcli.tableau.tableau import Method
 
 _COLLOCATION: Mapping[str, Callable[[int], Method]] = {
-    "radau-iia": radau.radau_iia,
-    "lobatto": lobatto.lobatto_iiia,
-    "gauss": gauss.gauss,
-    "radau-ia": radau.radau_ia,
+    "radau-iia": radau_iia,
+    "lobatto": lobatto_iiia,
+    "gauss": gauss,
+    "radau-ia": radau_ia,
 }
 POINTS = Option(
     "points", "How many nodes spectral deferred corrections have.", smallest=1, shown="3"
@@ -115,8 +115,7 @@ class _Corrections:
 
     def method(self, name: str, sweeps: int) -> Method:
         """The method after so many sweeps."""
-        begin = self.stages.slope_at(START)
-        slopes = [begin] * len(self.nodes)
+        slopes = [self.stages.slope_at(START)] * len(self.nodes)
         value = START
         for _ in range(sweeps):
             value, slopes = self._swept(slopes)
@@ -165,8 +164,7 @@ class _Corrections:
 
 def _integrals(nodes: Sequence[Number]) -> tuple[Vector, ...]:
     """∫ L_j from 0 to each node, and to 1: a row for each end."""
-    bases = PointSpace(tuple(nodes)).basis_polynomials()
-    polynomials = [antiderivative(basis) for basis in bases]
+    polynomials = [antiderivative(basis) for basis in PointSpace(tuple(nodes)).basis_polynomials()]
     rows = []
     for end in (*nodes, ONE):
         powers: list[Number] = [ONE]

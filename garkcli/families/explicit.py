@@ -1,18 +1,23 @@
-"""Explicit methods known by name, and the optimal strong-stability-preserving methods of order 2.
+"""Explicit methods known by name, and optimal strong-stability-preserving methods.
 
 Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.1; Gottlieb, Ketcheson &
-Shu, *Strong Stability Preserving Runge–Kutta and Multistep Time Discretizations*, section 6.1.
+Shu, *Strong Stability Preserving Runge–Kutta and Multistep Time Discretizations*, section 6.1, of
+order 2; of order 3, with n² stages: D. Ketcheson, *Highly efficient strong stability-preserving
+Runge–Kutta methods with low-storage implementations*, SIAM J. Sci. Comput. 30 (2008), section 4.2.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isqrt
 
 from flint import fmpq
 
+from garkcli.errors import UnknownFamily
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.families.family import Family, by_stages, of_stages
+from garkcli.families.family import MAX_STAGES, Family, Options, Recipe, by_stages, of_stages
+from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.tableau import Method, butcher
 
 _ROWS: dict[str, tuple[str, str]] = {
@@ -47,23 +52,53 @@ def ssp2(s: int) -> Method:
     """SSPRK(s, 2): a_{ij} = 1/(s − 1) below the diagonal, b_i = 1/s; it needs s ≥ 2."""
     a = fmpq(1, s - 1)
     rows = [(a,) * i for i in range(1, s)]
-    b = (fmpq(1, s),) * s
-    return butcher(_lower(rows), b, name=f"SSPRK({s},2)")
+    return butcher(_lower(rows), (fmpq(1, s),) * s, name=f"SSPRK({s},2)")
 
 
 def _lower(rows: Sequence[Vector]) -> Matrix:
     """The strictly lower triangular matrix with these rows below its first, which is zero."""
     s = len(rows) + 1
     matrix: list[Vector] = [(ZERO,) * s]
-    for row in rows:
-        padding = (ZERO,) * (s - len(row))
-        matrix.append(row + padding)
+    matrix.extend(row + (ZERO,) * (s - len(row)) for row in rows)
     return tuple(matrix)
 
 
 def _single(name: str, order: str, summary: str) -> Family:
     stages = STAGES[name]
     return Family(name, by_stages(lambda _: named(name)), stages, stages, order, summary)
+
+
+def ssp3(s: int, _: Options) -> Recipe:
+    """SSPRK(n², 3).
+
+    Raises:
+        UnknownFamily: s is no square.
+    """
+    n = isqrt(s)
+    if n * n != s:
+        message = f"ssp3 with {s} stages does not exist"
+        raise UnknownFamily(message, "it has 4, 9, 16, … stages", code="wrong-value")
+    return Recipe(s, lambda _: _ssp3(n))
+
+
+def _ssp3(n: int) -> Method:
+    """Euler steps of length 1/(n² − n); in the middle the mean with an earlier value."""
+    s = n * n
+    length = fmpq(1, s - n)
+    middle = n * (n + 1) // 2
+    earlier = (n - 1) * (n - 2) // 2
+    stages = StageList()
+    values: list[Weights] = [START]
+    for i in range(1, s + 1):
+        gained = {stages.slope_at(values[-1]): length}
+        value = combined([(1, values[-1]), (1, gained)])
+        if i == middle:
+            whole = 2 * n - 1
+            old = fmpq(n, whole)
+            new = fmpq(n - 1, whole)
+            value = combined([(old, values[earlier]), (new, value)])
+        values.append(value)
+    return stages.method(f"SSPRK({s},3)", values[-1])
 
 
 FAMILIES = (
@@ -73,4 +108,5 @@ FAMILIES = (
     _single("kutta", "3", "Kutta's method of order 3"),
     _single("rk4", "4", "the classical Runge-Kutta method"),
     of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving"),
+    Family("ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving"),
 )

@@ -64,8 +64,7 @@ def extrapolation_weights(parts: Sequence[int], powers: Sequence[int]) -> tuple[
     for k in (0, *powers):
         rows.append(tuple(fmpq(1, n**k) for n in parts))
         right.append((fmpq(k == 0),))
-    found = solve(tuple(rows), tuple(right))
-    weights = [row[0] for row in found]
+    weights = [row[0] for row in solve(tuple(rows), tuple(right))]
     return tuple(w for w in weights if isinstance(w, fmpq))
 
 
@@ -103,21 +102,18 @@ def _extrapolated(name: str, steps: Steps, parts: Sequence[int], powers: Sequenc
     stages = StageList()
     weights = extrapolation_weights(parts, powers)
     results = [steps(stages, n) for n in parts]
-    total = combined(zip(weights, results, strict=True))
-    return stages.method(name, total)
+    return stages.method(name, combined(zip(weights, results, strict=True)))
 
 
 def _explicit(name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]) -> Recipe:
     """The recipe with an explicit basic method: all sequences of parts begin with one stage."""
-    stages = 1 + sum(parts) - len(parts)
-    return Recipe(stages, lambda _: _extrapolated(name, steps, parts, powers))
+    return Recipe(1 + sum(parts) - len(parts), lambda _: _extrapolated(name, steps, parts, powers))
 
 
 def euler(order: int, options: Options) -> Recipe:
     """The explicit Euler method, extrapolated to an order."""
     parts = sequence(str(options["sequence"]), order)
-    name = f"extrapolated Euler {order}"
-    return _explicit(name, _euler, parts, range(1, order))
+    return _explicit(f"extrapolated Euler {order}", _euler, parts, range(1, order))
 
 
 def implicit_euler(order: int, options: Options) -> Recipe:
@@ -139,8 +135,7 @@ def midpoint(order: int, options: Options) -> Recipe:
         raise UnknownFamily(message, "it has even orders", code="cannot-construct")
     half = sequence(str(options["sequence"]), order // 2)
     parts = [2 * n for n in half]
-    name = f"extrapolated midpoint {order}"
-    return _explicit(name, _midpoint, parts, range(2, order, 2))
+    return _explicit(f"extrapolated midpoint {order}", _midpoint, parts, range(2, order, 2))
 
 
 def _family(

@@ -14,14 +14,13 @@ from garkcli.families.family import MAX_STAGES, Family, Given, Option, Options, 
 from garkcli.tableau.tableau import Method
 
 NO_OPTIONS: Options = {}
-_FIRST = ("gauss", "radau", "lobatto", "explicit", "ssp3", "sdirk2", "extrapolated", "deferred")
+_FIRST = ("collocation", "explicit", "sdirk2", "extrapolated", "deferred")
 """The files whose families are told first, in the order of the documentation."""
 
 
 def _families() -> Iterator[Family]:
     """Those of every file here that has some."""
-    files = [file.name for file in pkgutil.iter_modules(families.__path__)]
-    for name in sorted(files, key=_place):
+    for name in sorted([file.name for file in pkgutil.iter_modules(families.__path__)], key=_place):
         if name != "registry":
             yield from getattr(import_module(f"garkcli.families.{name}"), "FAMILIES", ())
 
@@ -92,8 +91,7 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
 
 def _unknown(name: str) -> UnknownFamily:
     """A family that there is not, and what it is called here."""
-    word = name.lower().replace("_", "-").replace(" ", "-")
-    other = OTHER_NAMES.get(word)
+    other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
     cure = did_you_mean(name, FAMILIES)
     if other:
         cure = f"it is called {other} here"

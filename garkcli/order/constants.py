@@ -153,8 +153,8 @@ def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:
 def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     import numpy as np
 
+    from garkcli.trees.stage_vectors import elementary_weights
     from garkcli.trees.table import TreeTable
-    from garkcli.trees.weights import elementary_weights
 
     edges, linear = coupling_graph(tableau)
     table = TreeTable.upto(tableau.size, order, edges, linear)

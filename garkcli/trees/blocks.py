@@ -48,8 +48,7 @@ class Block:
         """The trees, one after the other."""
         stems = self.columns.stem.tolist()
         branches = self.columns.branch.tolist()
-        roots = self.columns.root.tolist()
-        for stem, branch, root in zip(stems, branches, roots, strict=True):
+        for stem, branch, root in zip(stems, branches, self.columns.root.tolist(), strict=True):
             if branch < 0:
                 yield Tree(root)
                 continue
@@ -87,8 +86,7 @@ def iter_blocks(
         return
     starts = first_ids(admissible, order)
     for root in wanted:
-        made = segments_of(admissible, starts, order, lower.columns, root)
-        for _, growth in made:
+        for _, growth in segments_of(admissible, starts, order, lower.columns, root):
             size = len(growth)
             for start in range(0, size, block_size):
                 stop = min(start + block_size, size)
@@ -139,8 +137,7 @@ def select(
     for block in iter_blocks(colours, order, block_size, narrowed, linear, roots):
         if used is None:
             used = _used_by_all(block.lower, bits)
-        occurring = _used(block.columns, bits, used)
-        keep = occurring == bits.sum()
+        keep = _used(block.columns, bits, used) == bits.sum()
         if keep.all():
             yield block
         elif keep.any():
@@ -161,8 +158,7 @@ def _narrowed(colours: int, edges: Edges | None, within: Collection[int]) -> lis
 def _used(trees: Columns, bits: Column, known: Column) -> Column:
     """A bit for each colour that occurs; ``known`` has those of the parents."""
     is_vertex = trees.branch < 0
-    inherited = known[trees.stem] | known[trees.branch]
-    return np.where(is_vertex, bits[trees.root], inherited)
+    return np.where(is_vertex, bits[trees.root], known[trees.stem] | known[trees.branch])
 
 
 def _used_by_all(table: TreeTable, bits: Column) -> Column:
@@ -171,6 +167,5 @@ def _used_by_all(table: TreeTable, bits: Column) -> Column:
     for order in range(1, table.max_order + 1):
         ids = table.ids(order)
         here = slice(ids.start, ids.stop)
-        trees = table.columns.part(here)
-        used[here] = _used(trees, bits, used)
+        used[here] = _used(table.columns.part(here), bits, used)
     return used

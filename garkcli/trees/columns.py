@@ -53,8 +53,7 @@ class Columns:
         """Columns to be filled; ``exact`` is the type of σ and γ."""
         ids = [np.empty(length, np.int64) for _ in range(2)]
         small = [np.empty(length, np.int16) for _ in range(3)]
-        large = [np.empty(length, exact) for _ in range(2)]
-        return cls(*ids, *small, *large)
+        return cls(*ids, *small, *[np.empty(length, exact) for _ in range(2)])
 
     @classmethod
     def vertices(cls, roots: range) -> Columns:
@@ -170,13 +169,11 @@ class Growth:
         exact = exact_dtype(order)
         multiplicity = np.ones(length, np.int16)
         multiplicity[repeated] += lower.multiplicity[stems][again]
-        stem_sigma = lower.sigma[stems].astype(exact, copy=False)
-        sigma = np.repeat(stem_sigma, count) * lower.sigma[branch]
+        sigma = np.repeat(lower.sigma[stems].astype(exact, copy=False), count) * lower.sigma[branch]
         sigma[repeated] *= multiplicity[repeated]
         # γ of the stem with the order of the new tree in the place of its own
         stem_order = int(lower.order[stems.start])
-        stem_gamma = lower.gamma[stems].astype(exact, copy=False)
-        with_order = stem_gamma // stem_order * order
+        with_order = lower.gamma[stems].astype(exact, copy=False) // stem_order * order
         gamma = np.repeat(with_order, count) * lower.gamma[branch]
         stem_ids = np.arange(stems.start, stems.stop)
         root = lower.root[stems.start]

@@ -64,16 +64,12 @@ class Admissible:
         everything = range(colours)
         rows: list[Colours] = [tuple(everything)] * colours
         if edges is not None:
-            lengths = {len(edges), *map(len, edges)}
-            if lengths != {colours}:
+            if {len(edges), *map(len, edges)} != {colours}:
                 shape = f"a {colours} by {colours} matrix"
                 raise TreeError(
                     f"edges must be {shape}, one row for each colour", code="pasted-tableau"
                 )
-            rows = []
-            for row in edges:
-                below = [m for m in everything if row[m]]
-                rows.append(tuple(below))
+            rows = [tuple(m for m in everything if row[m]) for row in edges]
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
@@ -112,9 +108,7 @@ def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
     """
     leaders = admissible.leaders
     forests = _forests(admissible, leaders, order)
-    of_leader: dict[int, list[int]] = {}
-    for leader, f in forests.items():
-        of_leader[leader] = [*map(int, f)]
+    of_leader: dict[int, list[int]] = {leader: [*map(int, f)] for leader, f in forests.items()}
     by_root = [of_leader[leader] for leader in leaders]
     return [*zip(*by_root, strict=True)]
 
@@ -142,8 +136,7 @@ def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict
         raise TreeError(f"the order of a tree is at least 1, not {order}")
     growing: dict[int, _Growing] = {}
     for leader in dict.fromkeys(leaders):
-        below = admissible.branches[leader]
-        branches = Counter(leaders[m] for m in below)
+        branches = Counter(leaders[m] for m in admissible.branches[leader])
         is_linear = admissible.is_linear(leader)
         growing[leader] = _Growing(order, branches, is_linear)
     block = order
@@ -179,8 +172,7 @@ class _Growing:
         """Note the trees of order n, each a root on a forest of n - 1 vertices."""
         t = fmpz(0)
         for leader, many in self.branches.items():
-            forests = growing[leader].f
-            t += many * forests[n - 1]
+            t += many * growing[leader].f[n - 1]
         self.t.append(t)
         if not self.is_linear:
             for multiple in range(n, len(self.c), n):

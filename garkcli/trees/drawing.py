@@ -66,8 +66,7 @@ def layout(tree: Tree) -> list[Vertex]:
         columns = [place(branch, above, here) for branch in written_order(u)]
         # a leaf takes the next place; a vertex with branches the middle of theirs
         if columns:
-            ends = columns[0] + columns[-1]
-            x = ends / 2
+            x = (columns[0] + columns[-1]) / 2
         else:
             x = float(leaves)
             leaves += 1
@@ -116,20 +115,16 @@ def _upright(tree: Tree, colours: bool) -> tuple[list[str], int]:
     if not tree.branches:
         return [label], 0
     parts = [_upright(u, colours) for u in written_order(tree)]
-    heights = [len(lines) for lines, _ in parts]
-    height = max(heights)
+    height = max(len(lines) for lines, _ in parts)
     left = 0
     dots = []
     rows = [""] * height
     for lines, dot in parts:
         dots.append(left + dot)
-        top = height - len(lines)
-        for i, line in enumerate(lines, top):
-            beside = rows[i].ljust(left)
-            rows[i] = beside + line
+        for i, line in enumerate(lines, height - len(lines)):
+            rows[i] = rows[i].ljust(left) + line
         left += text_width(lines) + 1
-    ends = dots[0] + dots[-1]
-    root = ends // 2
+    root = (dots[0] + dots[-1]) // 2
     indent = " " * root
     rows.append(_fork(dots, root))
     rows.append(indent + label)
@@ -148,10 +143,8 @@ def _fork(dots: Sequence[int], root: int) -> str:
         signs[column] = "┴"
     signs[first] = "╰"
     signs[last] = "╯"
-    above = signs[root]
-    signs[root] = _WITH_ROOT[above]
-    line = signs[first:]
-    return indent + "".join(line)
+    signs[root] = _WITH_ROOT[signs[root]]
+    return indent + "".join(signs[first:])
 
 
 def _lying(tree: Tree, colours: bool) -> list[str]:

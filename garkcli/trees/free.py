@@ -111,8 +111,7 @@ class Structure:
         """
         term, _ = self.colours[above]
         _, part = self.colours[below]
-        turned = term, _PARTNER[part]
-        return self._number.get(turned)
+        return self._number.get((term, _PARTNER[part]))
 
     def is_forward(self, colour: int) -> bool:
         """Whether an edge down to this colour points down: through A, not through the conjugate
@@ -149,8 +148,7 @@ class Structure:
             raise ValueError(f"colour {tree.root + 1} does not see colour {branch.root + 1}")
         others = list(tree.branches)
         del others[index]
-        rest = Tree(colour, others)
-        moved = Tree(branch.root, (*branch.branches, rest))
+        moved = Tree(branch.root, (*branch.branches, Tree(colour, others)))
         return self.lead(moved)
 
     def rootings(self, tree: Tree) -> Iterator[Tree]:
@@ -162,8 +160,7 @@ class Structure:
             here, onward = waiting.pop()
             yield here
             for u in onward:
-                index = here.branches.index(u)
-                moved = self.move_root(here, index)
+                moved = self.move_root(here, here.branches.index(u))
                 waiting.append((moved, u.branches))
 
     def is_admissible(self, tree: Tree) -> bool:
@@ -183,16 +180,14 @@ class Structure:
         """
         here = self.lead(tree)
         while _twice_largest(here) > here.order:
-            last = len(here.branches) - 1
-            here = self.move_root(here, last)
+            here = self.move_root(here, len(here.branches) - 1)
         if _twice_largest(here) < here.order:
             return here
         *rest, half = here.branches
         if self.is_directed:
             is_first = self.is_forward(half.root)
         else:
-            other = Tree(here.root, rest)
-            is_first = other.sort_key() <= half.sort_key()
+            is_first = Tree(here.root, rest).sort_key() <= half.sort_key()
         if is_first:
             return here
         return self.move_root(here, len(rest))
@@ -222,8 +217,7 @@ class Grower:
         is_linear = self.structure.admissible.is_linear(root)
         edges = 2 if is_linear else order
         total = order - 1
-        largest = total // 2
-        for branches in self._forests(root, total, largest, edges):
+        for branches in self._forests(root, total, total // 2, edges):
             yield Tree(root, branches)
 
     def two_centroids(self, root: int, order: int) -> Iterator[Tree]:
@@ -240,8 +234,7 @@ class Grower:
                 continue  # listed from the other half
             is_mirrored = colour == root and not is_directed
             halves = self.planted(colour, order // 2)
-            own = self.planted(root, order // 2)
-            for position, u in enumerate(own):
+            for position, u in enumerate(self.planted(root, order // 2)):
                 first = position + 1 if is_mirrored else 0
                 for v in halves[first:]:
                     yield Tree(root, (*u.branches, v))
@@ -255,8 +248,7 @@ class Grower:
             is_linear = self.structure.admissible.is_linear(root)
             edges = 1 if is_linear else order
             total = order - 1
-            forests = self._forests(root, total, total, edges)
-            trees = [Tree(root, branches) for branches in forests]
+            trees = [Tree(root, branches) for branches in self._forests(root, total, total, edges)]
             self._planted[key] = tuple(trees)
         return self._planted[key]
 
@@ -265,8 +257,7 @@ class Grower:
         most.
         """
         colours = self.structure.admissible.branches[root]
-        bound = largest, max(colours, default=0)
-        for outline in _outlines(total, bound, colours, edges):
+        for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):
             choices = []
             for kind, alike in groupby(reversed(outline)):
                 order, colour = kind
@@ -288,12 +279,10 @@ def _outlines(
         return
     if edges == 0:
         return
-    largest = min(total, bound[0])
-    for order in range(1, largest + 1):
+    for order in range(1, min(total, bound[0]) + 1):
         for colour in colours:
             kind = order, colour
             if kind > bound:
                 continue
-            others = _outlines(total - order, kind, colours, edges - 1)
-            for rest in others:
+            for rest in _outlines(total - order, kind, colours, edges - 1):
                 yield (kind, *rest)

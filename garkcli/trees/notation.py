@@ -176,8 +176,7 @@ def format_tree(tree: Tree, colours: bool = True) -> str:
     >>> format_tree(Tree(0, [Tree(0), Tree(0)]), colours=False)
     '[[],[]]'
     """
-    branches = [format_tree(u, colours) for u in written_order(tree)]
-    inside = ",".join(branches)
+    inside = ",".join([format_tree(u, colours) for u in written_order(tree)])
     if not colours:
         return f"[{inside}]"
     number = tree.root + 1
@@ -211,8 +210,7 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
     letters = []
     for i in range(tree.order):
         primes, which = divmod(i, len(LETTERS))
-        letter = LETTERS[which]
-        letters.append(letter + "'" * primes)
+        letters.append(LETTERS[which] + "'" * primes)
     return tuple(letters)
 
 
@@ -231,8 +229,7 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bo
     >>> condition_text(u, vertex_letters(u))
     'b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙)) = 1/8'
     """
-    formula = _Formula("A{%s,%s}" if colours else "A", "𝟙", " ⊙ ", letters)
-    root, weight = formula.of(tree)
+    root, weight = _Formula("A{%s,%s}" if colours else "A", "𝟙", " ⊙ ", letters).of(tree)
     density = tree.density
     required = "1" if density == 1 else f"1/{density}"
     return f"{f'b{{{root}}}' if colours else 'b'}ᵀ{weight} = {required}"
@@ -298,6 +295,5 @@ class _Formula:
             factors.append(block + vector)
         if len(factors) == 1:
             return name, factors[0]
-        bracketed = [f"({factor})" for factor in factors]
-        product = self.times.join(bracketed)
+        product = self.times.join([f"({factor})" for factor in factors])
         return name, f"({product})"

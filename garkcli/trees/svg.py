@@ -48,24 +48,16 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
         lines[k].insert(0, caption)
     columns = max(1, min(columns, count))
     widths, heights = _grid(placed, lines, columns)
-    most_lines = max(map(len, lines), default=0)
-    foot = CAPTION_STEP * most_lines + 2 * MARGIN + ROW_GAP
+    foot = CAPTION_STEP * max(map(len, lines), default=0) + 2 * MARGIN + ROW_GAP
     body: list[str] = []
     for k, vertices in enumerate(placed):
         row, column = divmod(k, columns)
-        left = sum(widths[:column])
-        middle = left + widths[column] / 2
-        rows = sum(heights[: row + 1])
-        base = MARGIN + rows + row * foot
-        ground = base - RADIUS
-        body += _svg_tree(vertices, middle, ground)
+        middle = sum(widths[:column]) + widths[column] / 2
+        base = MARGIN + sum(heights[: row + 1]) + row * foot
+        body += _svg_tree(vertices, middle, base - RADIUS)
         body += _svg_caption(lines[k], middle, base)
-    feet = len(heights) * foot - ROW_GAP
-    width = sum(widths)
-    height = MARGIN + sum(heights) + feet
-    head = _svg_head(width, height)
-    document = [*head, *body, "</svg>", ""]
-    return "\n".join(document)
+    head = _svg_head(sum(widths), MARGIN + sum(heights) + (len(heights) * foot - ROW_GAP))
+    return "\n".join([*head, *body, "</svg>", ""])
 
 
 def _numbers(tree: Tree) -> str:
@@ -84,9 +76,7 @@ def _grid(
         row, column = divmod(k, columns)
         right = max(v.x for v in vertices)
         top = max(v.y for v in vertices)
-        drawn = right * STEP_X + DIAMETER
-        written = text_width(captions[k]) * CHARACTER
-        wide = max(drawn, written) + 2 * MARGIN
+        wide = max(right * STEP_X + DIAMETER, text_width(captions[k]) * CHARACTER) + 2 * MARGIN
         high = top * STEP_Y + DIAMETER
         widths[column] = max(widths[column], wide)
         heights[row] = max(heights[row], high)
@@ -108,8 +98,7 @@ def _svg_head(width: float, height: float) -> list[str]:
 
 def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:
     """Edges first, so that the dots lie on them; the drawing is centred at ``middle``."""
-    right = max(v.x for v in vertices)
-    left = middle - right * STEP_X / 2
+    left = middle - max(v.x for v in vertices) * STEP_X / 2
     xs = [left + v.x * STEP_X for v in vertices]
     ys = [ground - v.y * STEP_Y for v in vertices]
     edges: list[str] = []

@@ -128,8 +128,7 @@ class ConditionClass:
 
     def _admissible_rootings(self) -> Iterator[Tree]:
         """The rootings that have a condition, with repeats where vertices are alike."""
-        rootings = self.structure.rootings(self.centred)
-        return filter(self.structure.is_admissible, rootings)
+        return filter(self.structure.is_admissible, self.structure.rootings(self.centred))
 
     @property
     def is_superfluous(self) -> bool:
@@ -184,8 +183,7 @@ def class_of(structure: Structure, tree: Tree) -> ConditionClass:
     Raises:
         ValueError: the structure has no such tree.
     """
-    known = set(range(len(structure.colours)))
-    is_known = tree.colours <= known
+    is_known = tree.colours <= set(range(len(structure.colours)))
     if not is_known or not structure.is_admissible(tree):
         raise ValueError("the method has no order condition for this tree")
     return ConditionClass(structure.centred(tree), structure)
@@ -213,18 +211,14 @@ def count_classes(structure: Structure, order: int) -> int:
         upper = [row[leader] for row in halves]
         vertices += upper[order - 1]
         if admissible.is_linear(leader):
-            branches = []
-            for row in halves:
-                hanging = [row[m] for m in below]
-                branches.append(sum(hanging))
+            branches = [sum(row[m] for m in below) for row in halves]
             vertices += _pairs(branches, branches, order - 1, same=True)
         for m in below:
             is_from_here = structure.is_directed or m >= leader
             if not (is_from_here and structure.is_forward(m)):
                 continue
             same = m == leader and not structure.is_directed
-            lower = [row[m] for row in halves]
-            edges += _pairs(upper, lower, order, same)
+            edges += _pairs(upper, [row[m] for row in halves], order, same)
     return vertices - edges
 
 
@@ -234,8 +228,7 @@ def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
     """
     ordered = 0
     for k in range(1, total):
-        rest = total - k
-        ordered += ones[k - 1] * others[rest - 1]
+        ordered += ones[k - 1] * others[(total - k) - 1]
     if not same:
         return ordered
     twice = 0  # pairs of a tree with itself

@@ -19,13 +19,99 @@ import numpy as np
 from garkcli.errors import UsageProblem, counted
 from garkcli.trees.columns import Columns, Growth, Segment, exact_dtype
 from garkcli.trees.count import Admissible, Edges, counts_upto
-from garkcli.trees.texts import Texts
 from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
     from garkcli.trees.columns import Column
+
+
+Inside = tuple[str, int, int]
+"""The text between a root's brackets, the offset where its largest branches end, and their
+order.
+"""
+_VERTEX: Inside = ("", 0, 0)
+
+
+class Texts:
+    """Makes text of trees and remembers the text of every tree that was a parent.
+
+    ``columns`` are the trees of the table, ``colours`` whether colours are written.
+    """
+
+    def __init__(self, columns: Columns, colours: bool) -> None:
+        self.columns = columns
+        self.colours = colours
+        self._insides: dict[int, Inside] = {}
+
+    def of(self, trees: Columns) -> list[str]:
+        """The text of trees whose parents are in the table, as ``format_tree`` writes it."""
+        parents = np.concatenate([trees.stem, trees.branch])
+        self._remember(parents[parents >= 0])
+        insides = self._of_children(trees)
+        roots = trees.root.tolist()
+        texts = []
+        for made, root in zip(insides, roots, strict=True):
+            inside, _, _ = made
+            texts.append(self._closed(inside, root))
+        return texts
+
+    def _remember(self, ids: Column) -> None:
+        """Make the insides of these trees and of all their ancestors, the smaller first."""
+        columns = self.columns
+        wanted = generation = np.unique(ids)
+        while len(generation):
+            parents = np.concatenate([columns.stem[generation], columns.branch[generation]])
+            generation = np.unique(parents[parents >= 0])
+            wanted = np.union1d(wanted, generation)
+        known = self._insides
+        missing = np.array([u for u in wanted.tolist() if u not in known], np.int64)
+        orders = columns.order[missing]
+        for order in np.unique(orders):
+            ids = missing[orders == order]
+            named = zip(ids.tolist(), self._of_children(columns.part(ids)), strict=True)
+            self._insides.update(named)
+
+    def _of_children(self, trees: Columns) -> list[Inside]:
+        """The insides of trees whose parents' insides are known."""
+        insides = self._insides
+        root = self.columns.root
+        order = self.columns.order
+        stems = trees.stem.tolist()
+        branches = trees.branch.tolist()
+        made = []
+        for stem, branch in zip(stems, branches, strict=True):
+            if branch < 0:
+                made.append(_VERTEX)
+                continue
+            inside, _, _ = insides[branch]
+            text = self._closed(inside, int(root[branch]))
+            size = int(order[branch])
+            made.append(_inserted(insides[stem], text, size))
+        return made
+
+    def _closed(self, inside: str, root: int) -> str:
+        if not self.colours:
+            return f"[{inside}]"
+        return f"[{inside}]_{root + 1}"
+
+
+def _inserted(stem: Inside, text: str, order: int) -> Inside:
+    """Put a branch where it is written: before all smaller ones, after those of its own order.
+
+    A last branch is never smaller than the others, so that there are these two cases only.
+    """
+    inside, end, largest = stem
+    length = len(text)
+    if not inside:
+        return text, length, order
+    if order > largest:
+        return f"{text},{inside}", length, order
+    larger = inside[:end]
+    smaller = inside[end:]
+    return f"{larger},{text}{smaller}", end + 1 + length, largest
+
 
 MAX_TREES = 40_000_000
 """The largest table that is made, in trees: some 35 bytes each."""
@@ -146,8 +232,7 @@ class TreeTable:
         while (last := int(branch[u])) >= 0:
             branches.append(self._branch_tree(last))
             u = int(stem[u])
-        root = int(self.columns.root[u])
-        return Tree(root, branches)
+        return Tree(int(self.columns.root[u]), branches)
 
     def _branch_tree(self, tree_id: int) -> Tree:
         """The tree with an id; one that many trees have as a branch is made once."""
@@ -165,8 +250,7 @@ class TreeTable:
         which = ids
         if not isinstance(which, np.ndarray):
             which = np.fromiter(which, np.int64)
-        trees = self.columns.part(which)
-        return self.texts(trees, colours)
+        return self.texts(self.columns.part(which), colours)
 
     def texts(self, trees: Columns, colours: bool = True) -> list[str]:
         """Bracket text of trees whose parents are in this table, such as those of a block."""
@@ -217,8 +301,7 @@ def segments_of(
             if not len(growth):
                 continue
             ids = range(start, start + len(growth))
-            segment = Segment(order, root, branch_order, colour, ids, stems, branches)
-            made.append((segment, growth))
+            made.append((Segment(order, root, branch_order, colour, ids, stems, branches), growth))
             start = ids.stop
     return made
 
@@ -229,9 +312,7 @@ def _fill(
     """Write the trees of one order into the table; the lower orders are there already."""
     segments = []
     for root in range(admissible.colours):
-        made = segments_of(admissible, starts, order, columns, root)
-        for segment, growth in made:
-            trees = growth.make(0, len(growth))
-            columns.write(segment.ids.start, trees)
+        for segment, growth in segments_of(admissible, starts, order, columns, root):
+            columns.write(segment.ids.start, growth.make(0, len(growth)))
             segments.append(segment)
     return segments

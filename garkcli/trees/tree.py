@@ -54,22 +54,18 @@ class Tree(Shown):
     @cached_property
     def _key(self) -> tuple[object, ...]:
         outline = tuple((u.order, u.root) for u in reversed(self.branches))
-        keys = tuple(u._key for u in self.branches)
-        return self.order, self.root, outline, keys
+        return self.order, self.root, outline, tuple(u._key for u in self.branches)
 
     @cached_property
     def density(self) -> int:
         """γ(u) = ρ(u) γ(u_1) … γ(u_m)."""
-        densities = [u.density for u in self.branches]
-        return self.order * prod(densities)
+        return self.order * prod([u.density for u in self.branches])
 
     @cached_property
     def symmetry(self) -> int:
         """σ(u): the number of automorphisms that keep the root and every colour."""
         repeats = [len(list(alike)) for _, alike in groupby(self.branches)]
-        swaps = prod(map(factorial, repeats))
-        symmetries = [u.symmetry for u in self.branches]
-        return swaps * prod(symmetries)
+        return prod(map(factorial, repeats)) * prod([u.symmetry for u in self.branches])
 
     def vertices(self) -> Iterator[Tree]:
         """Every vertex, as the subtree hanging from it, the root first."""

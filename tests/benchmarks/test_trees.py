@@ -7,8 +7,8 @@ import numpy as np
 from garkcli import load, pair
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
+from garkcli.trees.stage_vectors import elementary_weights
 from garkcli.trees.table import TreeTable
-from garkcli.trees.weights import elementary_weights
 from tests.benchmarks.measuring import ROOT, assert_ratio, peak_megabytes, seconds
 
 

@@ -11,8 +11,8 @@ import pytest
 from garkcli.methodfile.load import loads
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
+from garkcli.trees.stage_vectors import elementary_weights
 from garkcli.trees.table import TreeTable
-from garkcli.trees.weights import elementary_weights
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 

@@ -76,7 +76,7 @@ def test_a_family_is_one_file(copy: Copy) -> None:
         "garkcli/families/gaussian.py",
         '"""Gauss methods by another name."""\n\n'
         "from garkcli.families.family import of_stages\n"
-        "from garkcli.families.gauss import gauss\n\n"
+        "from garkcli.families.collocation import gauss\n\n"
         'FAMILIES = (of_stages("gaussian", gauss, 1, "2s", "of a test"),)\n',
     )
     copy.write("two.yaml", "methods: [{family: gaussian, stages: 2}]\nexpect: {order: 4}\n")

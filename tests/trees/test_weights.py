@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.trees import stage_vectors as module
+from garkcli.trees.stage_vectors import elementary_weights
 from garkcli.trees.table import TreeTable
 from garkcli.trees.tree import Tree
-from garkcli.trees.weights import elementary_weights
 
 if TYPE_CHECKING:
     from typing import TypeAlias
