@@ -136,8 +136,7 @@ def _key(kind: str, keys: Mapping[str, Key], path: str) -> Meaning:
 
 def _choices() -> Iterator[Sense]:
     """What keys and options can be set to: families, rules, schemes, shapes, problems."""
-    from garkcli.constructions.schemes.flows import SPLITTINGS
-    from garkcli.constructions.schemes.registry import SCHEMES
+    from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
     from garkcli.families.registry import FAMILIES
     from garkcli.methodfile.shapes import SHAPES
     from garkcli.problems.builtin import PROBLEMS

@@ -31,8 +31,7 @@ def command(what: str | None, output: Output, **options: Any) -> int:
 
         output.tell(EXPORTS, [bridges()])
         return 0
-    from garkcli.constructions.schemes.flows import SPLITTINGS
-    from garkcli.constructions.schemes.registry import SCHEMES
+    from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
     from garkcli.families.registry import FAMILIES
     from garkcli.problems.builtin import PROBLEMS
     from garkcli.report.listing import REPORT, Lists

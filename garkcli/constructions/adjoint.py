@@ -26,7 +26,7 @@ from garkcli.exact.matrix import (
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.tableau import Colour, Edge, Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 
 def adjoint(tableau: Tableau) -> Tableau:
@@ -34,31 +34,22 @@ def adjoint(tableau: Tableau) -> Tableau:
     turns = [_turn(space) for space in tableau.spaces]
     colours = []
     for l, colour in enumerate(tableau.colours):
-        turned = _turned_colour(colour, turns[colour.space])
+        turn = turns[colour.space]
         end = advance(tableau, l)
         own = tableau.spaces[colour.space].one
-        rest_of_time = []
-        for one, c in zip(own, colour.c, strict=True):
-            rest_of_time.append(end * one - c)
-        turn = turns[colour.space]
-        nodes = apply(turn, tuple(rest_of_time))
-        colours.append(replace(turned, c=nodes))
+        rest_of_time = [end * one - c for one, c in zip(own, colour.c, strict=True)]
+        b, c = apply_left(colour.b, turn), apply(turn, rest_of_time)
+        colours.append(replace(colour, b=b, c=c))
     blocks: dict[Edge, Matrix] = {}
     for (k, m), block in tableau.blocks.items():
         colour = tableau.colours[m]
-        whole = outer(tableau.spaces[k].one, colour.b)
-        rest = subtract(whole, block)
-        onto = multiply(rest, turns[colour.space])
-        blocks[k, m] = multiply(turns[k], onto)
+        rest = subtract(outer(tableau.spaces[k].one, colour.b), block)
+        blocks[k, m] = multiply(turns[k], multiply(rest, turns[colour.space]))
     spaces: list[StageSpace] = []
     for k, space in enumerate(tableau.spaces):
         nodes_of = next((x.c for x in colours if x.space == k), space.nodes)
         spaces.append(_turned_space(space, nodes_of))
     return Tableau(tuple(spaces), tuple(colours), blocks)
-
-
-def _turned_colour(colour: Colour, turn: Matrix) -> Colour:
-    return replace(colour, b=apply_left(colour.b, turn))
 
 
 def _turned_space(space: StageSpace, nodes: Vector) -> StageSpace:

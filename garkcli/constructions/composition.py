@@ -1,9 +1,13 @@
-"""Compositions: the substeps of several methods, one after the other, as one tableau.
+"""Compositions: the substeps of several methods, one after the other, as one tableau; splittings.
 
 A stage of a substep begins where the substeps before it ended, so its row has their weights and
 then its own row, all times the fraction of the step: E. Hairer, C. Lubich, G. Wanner, *Geometric
 Numerical Integration*, section II.4. The methods are for the same vector fields; a colour that a
 method does not use has no stages there.
+
+In a splitting method the parts of a problem flow in turn. For q̇ = v(p), ṗ = f(q) the flows are
+exact, as they are Euler steps: drifts of q and kicks of p. For ẏ = Σ f^{l}(y) each flow is one step
+of a method.
 """
 
 from __future__ import annotations
@@ -11,13 +15,27 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from garkcli.constructions.limits import refuse_large
 from garkcli.errors import MethodError, counted
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
 from garkcli.properties.reduction import merged
+from garkcli.tableau.forms import separable_prk, with_linear
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Colour, Edge, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Method, Tableau
+
+MAX_STAGES = 400
+"""Most stages of all colours together, before equal ones are put together."""
+
+
+def refuse_large(stages: int, cure: str) -> None:
+    """Refuse a method before it is made.
+
+    Raises:
+        MethodError: it would have more stages than ``MAX_STAGES``.
+    """
+    if stages > MAX_STAGES:
+        message = f"a method of {stages} stages (limit {MAX_STAGES})"
+        raise MethodError(message, cure, code="too-many")
 
 
 @dataclass(frozen=True)
@@ -100,8 +118,7 @@ _CURE = "compose methods of the same form and structure"
 
 def _fields(tableau: Tableau) -> tuple[object, ...]:
     """For which vector fields a method is."""
-    colours = [(x.part, x.term, x.is_linear) for x in tableau.colours]
-    return tuple(colours), frozenset(tableau.edges())
+    return tuple((x.part, x.term, x.is_linear) for x in tableau.colours), frozenset(tableau.edges())
 
 
 class _Composition:
@@ -125,16 +142,13 @@ class _Composition:
     def tableau(self) -> Tableau:
         """The tableau, stage by stage."""
         colours = tuple(map(self._colour, range(len(self.colours))))
-        spaces = []
-        for k in range(len(self.places)):
-            nodes = next(x.c for x in colours if x.space == k)
-            spaces.append(PointSpace(nodes))
+        nodes = (next(x.c for x in colours if x.space == k) for k in range(len(self.places)))
         blocks: dict[Edge, Matrix] = {}
         for l, m in self.substeps[0].tableau.edges():
             place = self.space_of[l], m
             if place not in blocks:
                 blocks[place] = tuple(self._rows(l, m))
-        return Tableau(tuple(spaces), colours, blocks)
+        return Tableau(tuple(map(PointSpace, nodes)), colours, blocks)
 
     def _colour(self, l: int) -> Colour:
         weights: list[Number] = []
@@ -145,9 +159,8 @@ class _Composition:
             weights += [g * x for x in colour.b]
             nodes += [begin + g * x for x in colour.c]
             begin = begin + g * advance(substep.tableau, l)
-        space = self.space_of[l]
         b, c = tuple(weights), tuple(nodes)
-        return replace(self.colours[l], space=space, b=b, c=c)
+        return replace(self.colours[l], space=self.space_of[l], b=b, c=c)
 
     def _rows(self, l: int, m: int) -> Iterator[Vector]:
         """The rows of A^{l,m}: weights of what was before, the method's own row, zeros."""
@@ -160,3 +173,50 @@ class _Composition:
                 own = [g * x for x in row]
                 yield (*before, *own, *after)
             before += [g * x for x in substep.tableau.colours[m].b]
+
+
+Flow = tuple[int, Number]
+"""A part of the problem, counted from 0, and for which fraction of the step it flows."""
+
+
+def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
+    """A splitting method of a separable Hamiltonian: part 0 moves q, part 1 moves p.
+
+    Args:
+        flows: one after the other; those of length 0 are left out.
+        is_nystrom: whether velocities are linear in the momenta.
+    """
+    nothing: Vector = ()
+    drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
+    kick = separable_prk((((),), nothing, (ZERO,)), ((), (ONE,), ()))
+    parts = [drift, kick]
+    substeps = [Substep(parts[l], g) for l, g in flows if g]
+    made = composed(substeps)
+    return with_linear(made, ["q"]) if is_nystrom else made
+
+
+def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
+    """A splitting method for ẏ = Σ f^{l}(y), a colour each part.
+
+    Args:
+        methods: what takes the steps of each part, its stages at points.
+        flows: one after the other; those of length 0 are left out.
+    """
+    parts = [alone(methods, l) for l in range(len(methods))]
+    return composed([Substep(parts[l], g) for l, g in flows if g])
+
+
+def alone(methods: Sequence[Method], l: int) -> Tableau:
+    """The step of one part: the other colours have no stages."""
+    own = methods[l]
+    spaces = []
+    colours = []
+    blocks: dict[Edge, Matrix] = {}
+    for k in range(len(methods)):
+        nodes = own.c if k == l else ()
+        weights = own.b if k == l else ()
+        spaces.append(PointSpace(nodes))
+        colours.append(Colour(str(k + 1), k, weights, nodes, k))
+        for m in range(len(methods)):
+            blocks[k, m] = own.A if k == m == l else ((),) * len(nodes)
+    return Tableau(tuple(spaces), tuple(colours), blocks)

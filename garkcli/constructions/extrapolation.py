@@ -12,8 +12,7 @@ from dataclasses import replace
 
 from flint import fmpq
 
-from garkcli.constructions.composition import Substep, composed, count_stages
-from garkcli.constructions.limits import refuse_large
+from garkcli.constructions.composition import Substep, composed, count_stages, refuse_large
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.extrapolated import extrapolation_weights
@@ -34,16 +33,11 @@ def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: 
     Raises:
         MethodError: there are too many stages.
     """
-    stages = count_stages(base) * sum(parts)
-    refuse_large(stages, "extrapolate fewer times, or a smaller method")
+    refuse_large(count_stages(base) * sum(parts), "extrapolate fewer times, or a smaller method")
     gap = 2 if is_symmetric else 1
-    taken_out = len(parts) - 1
-    powers = range(order, order + gap * taken_out, gap)
+    powers = range(order, order + gap * (len(parts) - 1), gap)
     weights = extrapolation_weights(parts, powers)
-    rows = []
-    for n in parts:
-        part = Substep(base, fmpq(1, n))
-        rows.append(composed([part] * n))
+    rows = [composed([Substep(base, fmpq(1, n))] * n) for n in parts]
     return merged(side_by_side(rows, weights))
 
 
@@ -51,17 +45,14 @@ def side_by_side(tableaus: Sequence[Tableau], weights: Vector) -> Tableau:
     """The method Σ w_j Φ_j: every method on its own from the same value, their results combined."""
     first = tableaus[0]
     colours = [_side_by_side(tableaus, weights, l) for l in range(first.size)]
-    spaces = []
-    for k in range(len(first.spaces)):
-        nodes = next(x.c for x in colours if x.space == k)
-        spaces.append(PointSpace(nodes))
+    nodes = (next(x.c for x in colours if x.space == k) for k in range(len(first.spaces)))
     blocks: dict[Edge, Matrix] = {}
     for place in first.blocks:
         _, m = place
         widths = [len(x.colours[m].b) for x in tableaus]
         parts = [x.blocks[place] for x in tableaus]
         blocks[place] = tuple(_diagonal(parts, widths))
-    return Tableau(tuple(spaces), tuple(colours), blocks)
+    return Tableau(tuple(map(PointSpace, nodes)), tuple(colours), blocks)
 
 
 def _side_by_side(tableaus: Sequence[Tableau], weights: Vector, l: int) -> Colour:
@@ -71,8 +62,7 @@ def _side_by_side(tableaus: Sequence[Tableau], weights: Vector, l: int) -> Colou
         colour = tableau.colours[l]
         b += [weight * x for x in colour.b]
         c += colour.c
-    first = tableaus[0].colours[l]
-    return replace(first, b=tuple(b), c=tuple(c))
+    return replace(tableaus[0].colours[l], b=tuple(b), c=tuple(c))
 
 
 def _diagonal(blocks: Sequence[Matrix], widths: Sequence[int]) -> Iterator[Vector]:

@@ -9,23 +9,85 @@ the fast problem is solved by small steps of a method. With coupling matrices: M
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.constructions.composition import Substep, composed, in_turn
-from garkcli.constructions.limits import refuse_large
-from garkcli.constructions.program import START, Program, Value, of_slopes, summed
+from garkcli.constructions.composition import Substep, composed, in_turn, refuse_large
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
 from garkcli.properties.reduction import merged
 from garkcli.tableau.forms import gark
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import antiderivative
-from garkcli.tableau.tableau import Method, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Method, Tableau
 from garkcli.transfer import Rule
+
+Slope: TypeAlias = tuple[int, int]
+"""A stage of a colour, both counted from 0."""
+Value: TypeAlias = Mapping[Slope, Number]
+"""How much of each slope is in a value."""
+START: Value = {}
+"""The value at the beginning of the step."""
+
+
+def summed(*values: Value) -> Value:
+    """The sum of combinations of slopes."""
+    total: dict[Slope, Number] = {}
+    for value in values:
+        for slope, weight in value.items():
+            total[slope] = total.get(slope, ZERO) + weight
+    return total
+
+
+def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> Value:
+    """Weights for stages of one colour."""
+    return {(colour, i): weight for i, weight in zip(stages, weights, strict=True)}
+
+
+class Program:
+    """The stages of a method, space by space.
+
+    Args:
+        spaces: for each colour the space of its stages.
+    """
+
+    def __init__(self, spaces: Sequence[int]) -> None:
+        self.spaces = tuple(spaces)
+        count = max(spaces) + 1
+        self._rows: list[list[Value]] = [[] for _ in range(count)]
+        self._nodes: list[list[Number]] = [[] for _ in range(count)]
+
+    def count(self, space: int) -> int:
+        """How many stages a space has so far."""
+        return len(self._rows[space])
+
+    def add(self, space: int, value: Value, node: Number) -> None:
+        """One stage more."""
+        self._rows[space].append(value)
+        self._nodes[space].append(node)
+
+    def tableau(self, result: Value) -> Tableau:
+        """The method whose step ends at a value; every colour sees every other."""
+        colours = []
+        blocks: dict[Edge, Matrix] = {}
+        for m, space in enumerate(self.spaces):
+            b = self._row(result, m)
+            nodes = tuple(self._nodes[space])
+            colours.append(Colour(str(m + 1), space, b, nodes, m))
+            for k, rows in enumerate(self._rows):
+                blocks[k, m] = tuple(self._row(row, m) for row in rows)
+        spaces = tuple(PointSpace(tuple(nodes)) for nodes in self._nodes)
+        return Tableau(spaces, tuple(colours), blocks)
+
+    def _row(self, value: Value, colour: int) -> Vector:
+        stages = range(self.count(self.spaces[colour]))
+        return tuple(value.get((colour, i), ZERO) for i in stages)
+
 
 FAST, SLOW = 0, 1
 """The colours of the parts."""
@@ -51,8 +113,7 @@ def mis_coupling(base: Method) -> Coupling:
     rows = [*base.A, base.b]
     differences = []
     for before, row in pairwise(rows):
-        pairs = zip(row, before, strict=True)
-        row_of_differences = [x - y for x, y in pairs]
+        row_of_differences = [x - y for x, y in zip(row, before, strict=True)]
         differences.append((*row_of_differences, ZERO))
     nodes = (*base.c, ONE)
     return Coupling(nodes, ((tuple(differences),),))
@@ -76,8 +137,7 @@ def mri(coupling: Coupling, fast: Method, steps: int) -> Tableau:
     if last != ONE:
         message = f"the slow stages end at {last}, not at 1"
         raise MethodError(message, "give the end of the step as last node", code="cannot-construct")
-    apart = len(coupling.nodes) - 1
-    refuse_large(apart * (steps * fast.stages + 2), _SMALLER)
+    refuse_large((len(coupling.nodes) - 1) * (steps * fast.stages + 2), _SMALLER)
     return merged(_Infinitesimal(coupling, fast, steps).tableau())
 
 
@@ -88,8 +148,7 @@ class _Infinitesimal:
         self.coupling = coupling
         self.fast = fast
         self.steps = steps
-        slow = len(coupling.matrices)
-        self.program = Program([FAST, *[SLOW] * slow])
+        self.program = Program([FAST, *[SLOW] * len(coupling.matrices)])
 
     def tableau(self) -> Tableau:
         """The whole; a last slow stage that nothing looks at is left out."""
@@ -111,13 +170,11 @@ class _Infinitesimal:
     def _after(self, i: int, value: Value) -> Value:
         """The value at slow stage i + 1, from that at stage i."""
         nodes = self.coupling.nodes
-        width = nodes[i + 1] - nodes[i]
-        if not width:
+        if nodes[i + 1] == nodes[i]:
             return summed(value, self._integrated(i))
         length = fmpq(1, self.steps)
         for n in range(self.steps):
-            begin = n * length
-            value = self._small_step(i, value, begin, length)
+            value = self._small_step(i, value, n * length, length)
         return value
 
     def _small_step(self, i: int, value: Value, begin: Number, length: fmpq) -> Value:
@@ -131,8 +188,7 @@ class _Infinitesimal:
             inner = self._moved(i, row, times, stages, length)
             node = nodes[i] + width * time
             self.program.add(FAST, summed(value, inner), node)
-        step = self._moved(i, self.fast.b, times, stages, length)
-        return summed(value, step)
+        return summed(value, self._moved(i, self.fast.b, times, stages, length))
 
     def _moved(
         self, i: int, weights: Vector, times: Sequence[Number], stages: range, length: fmpq
@@ -145,8 +201,7 @@ class _Infinitesimal:
         moved = of_slopes(FAST, stages, own)
         for colour, powers in enumerate(self.coupling.matrices, start=SLOW):
             for j in range(len(nodes)):
-                values = [_polynomial(powers, i, j, time) for time in times]
-                total = dot(scaled, values)
+                total = dot(scaled, [_polynomial(powers, i, j, time) for time in times])
                 moved = summed(moved, {(colour, j): total})
         return moved
 
@@ -182,9 +237,7 @@ def small_steps(fast: Method, steps: int) -> Method:
 
 def _alone(tableau: Tableau) -> Method:
     """The method of one colour that a tableau is."""
-    A = tableau.blocks[0, 0]
-    b = tableau.colours[0].b
-    return Method("", tableau.spaces[0], A, b)
+    return Method("", tableau.spaces[0], tableau.blocks[0, 0], tableau.colours[0].b)
 
 
 def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
@@ -194,10 +247,7 @@ def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
         MethodError: the rule asks for distinct nodes, or there are too many stages.
     """
     whole = small_steps(fast, steps)
-    fast_slow = rule(whole, slow)
-    slow_fast = rule(slow, whole)
-    blocks = {(FAST, SLOW): fast_slow, (SLOW, FAST): slow_fast}
-    return gark([whole, slow], blocks)
+    return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
 
 def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
@@ -269,7 +319,5 @@ def by_blocks(slow: Method, fast: Method, blocks: Blocks) -> Tableau:
         for block in blocks.slow_fast:
             row += [length * x for x in block[i]]
         seen_by_slow.append(tuple(row))
-    fast_slow = tuple(seen_by_fast)
-    slow_fast = tuple(seen_by_slow)
-    couplings = {(FAST, SLOW): fast_slow, (SLOW, FAST): slow_fast}
+    couplings = {(FAST, SLOW): tuple(seen_by_fast), (SLOW, FAST): tuple(seen_by_slow)}
     return merged(gark([whole, slow], couplings))

@@ -10,8 +10,7 @@ from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.calls import AnyPath
 from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
-from garkcli.constructions.schemes.flows import SPLITTINGS
-from garkcli.constructions.schemes.registry import SCHEMES
+from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.families.registry import FAMILIES
 from garkcli.problems.builtin import PROBLEMS

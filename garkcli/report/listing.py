@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.bridges.registry import Bridge
-from garkcli.constructions.schemes.flows import Splitting
-from garkcli.constructions.schemes.scheme import Scheme
+from garkcli.constructions.schemes import Scheme, Splitting
 from garkcli.families.family import Family, Option
 from garkcli.page.paint import counted
 from garkcli.tell.facts import SAID, Level, Row, Section, parts, table, told

@@ -56,7 +56,7 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
         base = MARGIN + sum(heights[: row + 1]) + row * foot
         body += _svg_tree(vertices, middle, base - RADIUS)
         body += _svg_caption(lines[k], middle, base)
-    head = _svg_head(sum(widths), MARGIN + sum(heights) + (len(heights) * foot - ROW_GAP))
+    head = _svg_head(sum(widths), MARGIN + sum(heights) + len(heights) * foot - ROW_GAP)
     return "\n".join([*head, *body, "</svg>", ""])
 
 

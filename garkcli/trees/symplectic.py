@@ -228,7 +228,7 @@ def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
     """
     ordered = 0
     for k in range(1, total):
-        ordered += ones[k - 1] * others[(total - k) - 1]
+        ordered += ones[k - 1] * others[total - k - 1]
     if not same:
         return ordered
     twice = 0  # pairs of a tree with itself

@@ -13,10 +13,8 @@ from hypothesis import strategies as st
 
 from garkcli.api.methods import find_order, is_symplectic
 from garkcli.constructions.adjoint import adjoint
-from garkcli.constructions.composition import Substep, composed
-from garkcli.constructions.schemes.flows import SPLITTINGS
-from garkcli.constructions.schemes.registry import SCHEMES
-from garkcli.constructions.splitting import drift_and_kick
+from garkcli.constructions.composition import Substep, composed, drift_and_kick
+from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
 from garkcli.convergence.convergence import converge
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector, identity, scale, solve, subtract

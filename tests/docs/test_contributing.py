@@ -37,8 +37,8 @@ def test_lists_are_in_the_files_that_are_named() -> None:
     """Those that a row of the table names by the name of a variable."""
     for folder, name in (
         ("garkcli/transfer.py", "RULES"),
-        ("garkcli/constructions/schemes/exact.py", "SCHEMES"),
-        ("garkcli/constructions/schemes/rounded.py", "SCHEMES"),
+        ("garkcli/constructions/schemes.py", "SCHEMES"),
+        ("garkcli/constructions/schemes.py", "SPLITTINGS"),
         ("garkcli/cli/table.py", "COMMANDS"),
         ("garkcli/webpage/registry.py", "SECTIONS"),
         ("garkcli/webpage/sections/orders.py", "SECTION"),

@@ -16,8 +16,7 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from garkcli.constructions.schemes.flows import SPLITTINGS
-from garkcli.constructions.schemes.registry import SCHEMES
+from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
 from garkcli.errors import ExpressionError, Fault, MethodFileError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse

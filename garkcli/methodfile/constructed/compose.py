@@ -10,8 +10,7 @@ from yaml.nodes import Node
 
 from garkcli.constructions.adjoint import adjoint
 from garkcli.constructions.composition import Substep, composed
-from garkcli.constructions.schemes.registry import OTHER_NAMES, SCHEMES
-from garkcli.constructions.schemes.scheme import MAX_ORDER, Scheme
+from garkcli.constructions.schemes import MAX_ORDER, OTHER_NAMES, SCHEMES, Scheme
 from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal
 from garkcli.methodfile.coefficients import NUMBER

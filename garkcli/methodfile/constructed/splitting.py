@@ -7,8 +7,8 @@ from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
-from garkcli.constructions.schemes.flows import SPLITTINGS
-from garkcli.constructions.splitting import drift_and_kick, split
+from garkcli.constructions.composition import drift_and_kick, split
+from garkcli.constructions.schemes import SPLITTINGS
 from garkcli.exact.expression import read_decimal
 from garkcli.methodfile.coefficients import NUMBER, ROW
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field

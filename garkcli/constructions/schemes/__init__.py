@@ -1,1 +1,0 @@
-"""Compositions known by name: a file each family of them."""
