@@ -11,15 +11,14 @@ from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_
 from garkcli.deadline import within
 from garkcli.design import design as designing
 from garkcli.design import stable_values as stabilities
-from garkcli.design.chosen import accepted_methods, values_text
+from garkcli.design.choices import accepted_methods, values_text
 from garkcli.design.design import CLAIMS, Design, Whose
 from garkcli.design.minimise import minimise as minimising
-from garkcli.design.minimise.registry import OBJECTIVES
+from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.search import run as searching
-from garkcli.design.search.run import Result
-from garkcli.design.search.told import TOLERANCE
-from garkcli.design.springs_kind import TwoSprings
+from garkcli.design.search.run import TOLERANCE, Result
+from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
     from garkcli.design.minimise.result import Minimum
-    from garkcli.design.springs_kind import TwoSprings
+    from garkcli.design.stability_kinds import TwoSprings
     from garkcli.design.stable_values import StableValues
     from garkcli.design.stable_values import Wanted as Kind
     from garkcli.methodfile.family import FamilyFile
@@ -276,7 +276,7 @@ def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
         return None
     from garkcli.cli.stepping import colour_named, square
     from garkcli.design.design import TABLEAUS
-    from garkcli.design.springs_kind import TwoSprings
+    from garkcli.design.stability_kinds import TwoSprings
 
     tableau = TABLEAUS[wanted.whose](family.tableau)
     slow = square("--slow", wanted.slow)

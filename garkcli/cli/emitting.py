@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from garkcli.cli.options import Output
-from garkcli.design.chosen import Chosen, accepted_methods, first_method
+from garkcli.design.choices import Chosen, accepted_methods, first_method
 from garkcli.design.design import CLAIMS, Design
 from garkcli.errors import MethodError, UsageProblem
 from garkcli.files import STDIN

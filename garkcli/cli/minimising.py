@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from garkcli.cli.streams import say_problem
-from garkcli.design.chosen import values_text
+from garkcli.design.choices import values_text
 from garkcli.design.design import CLAIMS
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level

@@ -12,9 +12,8 @@ from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost
 from garkcli.deadline import until
 from garkcli.design.design import CLAIMS
-from garkcli.design.search.run import MOST, Result, Task, Timed, results
+from garkcli.design.search.run import MOST, TOLERANCE, Method, Result, Task, Timed, results
 from garkcli.design.search.search import Proof, Search
-from garkcli.design.search.told import TOLERANCE, Method
 from garkcli.doing import doing
 from garkcli.errors import NotDecided, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values

@@ -149,7 +149,7 @@ def _kinds() -> Any:
 
 
 def _objectives() -> Any:
-    from garkcli.design.minimise.registry import OBJECTIVES
+    from garkcli.design.minimise.objectives import OBJECTIVES
 
     return OBJECTIVES
 

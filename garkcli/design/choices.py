@@ -1,14 +1,21 @@
-"""Down a family step by step: values for unknowns, and what each of them leaves."""
+"""Down a family step by step: values for unknowns, and what each of them leaves; one method out of
+those found, its parameters as text of method files.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from flint import fmpq
+from flint import fmpq, fmpq_mat, fmpq_poly
 
 from garkcli.design.design import Design
+from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError
+from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+from garkcli.exact.roots import RealRoot
 
 
 @dataclass(frozen=True)
@@ -59,3 +66,109 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
         choices.append(Choice(name, text, order, ideal.dimension, smaller.dimension))
         ideal = smaller
     return choices
+
+
+MAX_DEGREE = 12
+"""Largest degree of root_of in method files."""
+DIGITS = 20
+"""Decimals that tell a root of a polynomial from the others."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A method of a family.
+
+    Attributes:
+        elements: the free parameters as elements of the field of the solution.
+        root: the real root of its modulus that is meant.
+        order: its exact order, of whatever was asked for.
+    """
+
+    elements: dict[str, Number]
+    root: RealRoot
+    order: int
+
+    @property
+    def values(self) -> dict[str, str]:
+        """The free parameters as text.
+
+        Raises:
+            MethodError: they cannot be written in a method file.
+        """
+        return values_text(self.elements, self.root)
+
+
+def accepted_methods(design: Design) -> Iterator[Chosen]:
+    """The real solutions that are taken, of the highest order that has any."""
+    names = design.family.parameters
+    for step in reversed(design.steps):
+        taken = [
+            (found, found.order, found.solution.real[index])
+            for found in step.found
+            for index in found.accepted
+        ]
+        for found, order, root in taken:
+            if order is not None:
+                values = {name: found.solution.values[name] for name in names}
+                yield Chosen(values, root, order.order)
+        if taken:
+            return
+
+
+def first_method(design: Design) -> Chosen | None:
+    """The first of them; None where there is none."""
+    return next(accepted_methods(design), None)
+
+
+def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
+    """Elements of ℚ[u]/modulus at a root of the modulus, in radicals where each has simple ones,
+    else in one root of a polynomial.
+
+    Raises:
+        MethodError: no value generates the field, or its degree is beyond method files.
+    """
+    texts = {}
+    for name, value in values.items():
+        simple = root_text(value_at(value, root))
+        if simple is None:
+            return _in_one_root(values, root)
+        texts[name] = simple
+    return texts
+
+
+def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
+    """Values as polynomials in one of them that generates their field, written as root_of(p, r).
+
+    Raises:
+        MethodError: no value does, or its degree is beyond method files.
+    """
+    algebraic = [x for x in values.values() if isinstance(x, Algebraic)]
+    field = algebraic[0].field
+    candidates = [x for x in algebraic if _powers(x, field).rank() == field.degree]
+    if not candidates or field.degree > MAX_DEGREE:
+        raise MethodError(
+            f"the values are numbers of degree {field.degree} without simple radicals",
+            f"method files hold roots of polynomials up to degree {MAX_DEGREE}",
+            code="number-too-large",
+        )
+    generator = min(candidates, key=lambda x: len(str(value_at(x, root).polynomial)))
+    number = value_at(generator, root)
+    polynomial = polynomial_text(Polynomial.from_flint(number.polynomial), "x")
+    name = f"root_of({polynomial}, {root_decimal(number, DIGITS)})"
+    powers = _powers(generator, field)
+    texts = {}
+    for key, value in values.items():
+        column = fmpq_mat([[a] for a in coordinates(value, field.degree)])
+        solved = powers.solve(column).entries()
+        texts[key] = polynomial_text(Polynomial(solved), name).replace("^", "**")
+    return texts
+
+
+def _powers(generator: Algebraic, field: NumberField) -> fmpq_mat:
+    """1, g, g², … as columns in the basis of the field."""
+    columns = []
+    power = fmpq_poly([1])
+    for _ in range(field.degree):
+        columns.append([power[k] for k in range(field.degree)])
+        power = power * generator.poly % field.modulus
+    return fmpq_mat(columns).transpose()

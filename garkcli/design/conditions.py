@@ -13,21 +13,150 @@ A span over ℚ(t) would give the order for almost all parameters and lose the e
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from heapq import heapify, heappop, heappush
 from itertools import chain
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.cleared import Cleared
-from garkcli.design.coefficient_span import CoefficientSpan
+from garkcli.deadline import check_time
+from garkcli.exact.field import ONE
 from garkcli.exact.linear_map import EntrywiseMap
 from garkcli.exact.matrix import dot
-from garkcli.exact.parametric import Parameters, refuse_long
+from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long
 from garkcli.order.recursion import Forest, Forests, Spans
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
+
+Entry: TypeAlias = Any
+"""A polynomial of parameters, or an exact number."""
+Row: TypeAlias = tuple[Entry, ...]
+Square: TypeAlias = tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Cleared:
+    """A tableau times denominators.
+
+    Attributes:
+        tableau: its entries are rational numbers and rational functions, or exact numbers.
+        blocks: D A.
+        weights: E b, a row a colour.
+        D, E: the common denominators.
+        one: 1 among the entries.
+    """
+
+    tableau: Tableau
+    blocks: Mapping[Edge, Square]
+    weights: tuple[Row, ...]
+    D: Entry
+    E: Entry
+    one: Entry
+
+    @classmethod
+    def of(cls, tableau: Tableau, ring: Parameters | None) -> Cleared:
+        """The tableau of a family with parameters, or of one method."""
+        weights = tuple(colour.b for colour in tableau.colours)
+        if ring is None:
+            return cls(tableau, tableau.blocks, weights, ONE, ONE, ONE)
+        rows = chain.from_iterable(tableau.blocks.values())
+        D = common_denominator(chain.from_iterable(rows), ring)
+        E = common_denominator(chain.from_iterable(weights), ring)
+
+        def cleared(row: Sequence[object], denominator: Entry) -> Row:
+            parts = [fraction(x, ring) for x in row]
+            return tuple(numerator * (denominator // own) for numerator, own in parts)
+
+        blocks = {
+            edge: tuple(cleared(row, D) for row in block) for edge, block in tableau.blocks.items()
+        }
+        b = tuple(cleared(row, E) for row in weights)
+        return cls(tableau, blocks, b, D, E, ring.constant(fmpq(1)))
+
+    def alone(self, l: int) -> Cleared:
+        """One colour by itself."""
+        colour = self.tableau.colours[l]
+        space = self.tableau.spaces[colour.space]
+        key = colour.space, l
+        has_block = key in self.blocks
+        own = {(0, 0): self.tableau.blocks[key]} if has_block else {}
+        tableau = Tableau((space,), (replace(colour, space=0),), own)
+        blocks = {(0, 0): self.blocks[key]} if has_block else {}
+        return replace(self, tableau=tableau, blocks=blocks, weights=(self.weights[l],))
+
+
+Polynomials: TypeAlias = tuple[fmpq_mpoly, ...]
+_Place: TypeAlias = tuple[int, tuple[int, ...]]
+"""A coordinate and the exponents of a monomial, negative: the largest comes first."""
+_Row: TypeAlias = dict[_Place, fmpq]
+
+
+class CoefficientSpan:
+    """The ℚ-span of vectors of polynomials, each taken as the vector of all of its coefficients.
+
+    A span over the field of rational functions would be smaller, and lose the values of the
+    parameters for which it grows.
+    """
+
+    def __init__(self) -> None:
+        self._rows: dict[_Place, _Row] = {}
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def insert(self, vector: Polynomials) -> bool:
+        """Insert a vector; whether it enlarged the span.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        row = self._reduced(_coefficients(vector))
+        if not row:
+            return False
+        pivot = min(row)
+        leading = row[pivot]
+        self._rows[pivot] = {place: a / leading for place, a in row.items()}
+        return True
+
+    def _reduced(self, row: _Row) -> _Row:
+        """The row minus its part along those before; its smallest place is no pivot of theirs."""
+        settled: _Row = {}
+        waiting = list(row)
+        heapify(waiting)
+        while waiting:
+            check_time()
+            place = heappop(waiting)
+            factor = row.pop(place, None)
+            if factor is None:  # it became zero
+                continue
+            known = self._rows.get(place)
+            if known is None:
+                if factor:
+                    settled[place] = factor
+                continue
+            for other, a in known.items():
+                if other == place:
+                    continue
+                if other not in row:
+                    heappush(waiting, other)
+                changed = row.get(other, fmpq(0)) - factor * a
+                if changed:
+                    row[other] = changed
+                else:
+                    row.pop(other, None)
+        return settled
+
+
+def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
+    row: _Row = {}
+    for coordinate, polynomial in enumerate(vector):
+        if not polynomial:  # maybe the number 0
+            continue
+        for exponents, a in polynomial.to_dict().items():
+            row[-coordinate, tuple(-int(e) for e in exponents)] = a
+    return row
 
 
 @dataclass(frozen=True)

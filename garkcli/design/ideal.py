@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
 from garkcli.deadline import check_time
-from garkcli.design.covering import least_meeting
 from garkcli.design.groebner import (
     Exponents,
     degrevlex,
@@ -25,6 +24,60 @@ from garkcli.design.groebner import (
 from garkcli.exact.apart import apart
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial
+
+
+def least_meeting(sets: Collection[frozenset[int]]) -> int:
+    """The size of a smallest set that has an element of each of these.
+
+    By branch and bound: some element of the smallest set is taken, those before it are not; sets
+    that have no element in common take one each. None of the sets is empty.
+
+    Raises:
+        NotDecided: the time is not enough.
+
+    >>> least_meeting([frozenset({1, 2}), frozenset({2, 3}), frozenset({4})])
+    2
+    """
+    every = frozenset().union(*sets)
+    return _least(_smallest(sets), 0, len(every))
+
+
+def _least(left: list[frozenset[int]], taken: int, known: int) -> int:
+    """The least size by taking more elements, or a ``known`` one that is not more."""
+    check_time()
+    if taken + _apart(left) >= known:
+        return known
+    if not left:
+        return taken
+    for element in sorted(left[0]):
+        unmet = [one for one in left if element not in one]
+        known = _least(unmet, taken + 1, known)
+        without = [one - {element} for one in left]
+        if not all(without):  # of that set it was the last one
+            break
+        left = _smallest(without)
+    return known
+
+
+def _apart(sets: list[frozenset[int]]) -> int:
+    """How many sets without a common element are found, the smallest first."""
+    seen: set[int] = set()
+    count = 0
+    for one in sets:
+        if seen.isdisjoint(one):
+            seen |= one
+            count += 1
+    return count
+
+
+def _smallest(sets: Collection[frozenset[int]]) -> list[frozenset[int]]:
+    """The sets that have no other one within, the smaller first."""
+    kept: list[frozenset[int]] = []
+    for one in sorted(set(sets), key=lambda x: (len(x), sorted(x))):
+        if not any(other <= one for other in kept):
+            kept.append(one)
+    return kept
+
 
 UNIT = "_unit"
 """The unknown that keeps a product from being zero: UNIT · product = 1."""
@@ -188,7 +241,11 @@ class Ideal:
             else:
                 without, degrees = basis, []
             if not degrees:
-                shorter = [_in_context(p, alone._context) for p in without]
+                context = alone._context
+                shorter = [
+                    context.from_dict({e[: context.nvars()]: a for e, a in p.to_dict().items()})
+                    for p in without
+                ]
                 return alone._with_basis(shorter, self.is_proved)
             weight = max(2 * weight, 1 + max(degrees))
             raised = [_with_power(p, weight) for p in self.basis]
@@ -268,7 +325,8 @@ class Ideal:
         """
         if self.is_everything:
             return -1
-        supports = {frozenset(_support(p)) for p in self.basis}
+        # a leading monomial by the unknowns in it
+        supports = {frozenset(i for i, k in enumerate(leading(p)) if k) for p in self.basis}
         return self.variables - least_meeting(supports)
 
     @cached_property
@@ -392,11 +450,6 @@ def rational(p: fmpz_mpoly, ring: Parameters) -> fmpq_mpoly:
     return ring.context.from_dict(terms)
 
 
-def _support(p: fmpz_mpoly) -> set[int]:
-    """The unknowns in the leading monomial."""
-    return {i for i, exponent in enumerate(leading(p)) if exponent}
-
-
 def without_multiples(p: Any) -> Any:
     """The square-free part of a polynomial in several variables."""
     product = p.context().constant(1)
@@ -409,12 +462,6 @@ def _with_power(p: fmpz_mpoly, power: int) -> fmpz_mpoly:
     """A polynomial with a power of the last unknown in its place."""
     terms = {(*e[:-1], int(e[-1]) * power): a for e, a in p.to_dict().items()}
     return p.context().from_dict(terms)
-
-
-def _in_context(p: fmpz_mpoly, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    """A polynomial without the last unknowns in a context that has none of these."""
-    size = context.nvars()
-    return context.from_dict({e[:size]: a for e, a in p.to_dict().items()})
 
 
 def _raised(e: Exponents) -> list[Exponents]:

@@ -1,18 +1,27 @@
-"""One member of a family of methods: its tableau with values for the parameters."""
+"""One member of a family of methods: its tableau with values for the parameters, whether it is as
+the family wants it, and its stability.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.errors import VanishingDenominator
-from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.design.solutions import Solution, value_at
+from garkcli.errors import UsageProblem, VanishingDenominator
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, Parametric, fraction
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
+from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
+from garkcli.stability.oscillator import oscillator_stability
+from garkcli.tableau.family import Family, Stability
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -100,3 +109,77 @@ def _monomials(values: list[Number], ring: Parameters) -> list[fmpq_mpoly] | Non
             return None
         found.append(numerator)
     return found
+
+
+def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
+    """Polynomials that are at least 0 at every method of a family: ends of ranges, even roots, and
+    what is wanted.
+    """
+    gens = dict(zip(family.ring.names, family.ring.context.gens(), strict=True))
+    for radical in family.radicals:
+        if radical.is_even:
+            yield gens[radical.name]
+    for name, (least, greatest) in family.ranges.items():
+        if least is not None:
+            yield gens[name] - least
+        if greatest is not None:
+            yield greatest - gens[name]
+    yield from family.not_negative
+
+
+def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
+    """Whether a real solution is a method of a family: even roots are not negative, parameters are
+    within their ranges, and what is wanted of signs holds.
+    """
+    for radical in family.radicals:
+        value = solution.values[radical.name]
+        if radical.meant is not None and value_at(value, root) != radical.meant:
+            return False
+
+    def sign_of(polynomial: fmpq_mpoly) -> int:
+        value = value_of(polynomial, family.ring, solution.values)
+        if isinstance(value, Algebraic):
+            return sign_at(Polynomial.from_flint(value.poly), root)
+        return sign(value)
+
+    is_positive = all(sign_of(p) > 0 for p in family.positive)
+    return is_positive and all(sign_of(p) >= 0 for p in not_negative(family))
+
+
+MOST_DEGREE = 6
+"""Solutions of a larger degree are left open."""
+
+
+def method_at(
+    tableau: Tableau, ring: Parameters, solution: Solution, root: RealRoot
+) -> Tableau | None:
+    """The method of a family at a real root of a solution; None where its field is too large.
+
+    Raises:
+        ZeroDivisionError: a denominator is zero there.
+    """
+    u = number_of(root, MOST_DEGREE)
+    if u is None:
+        return None
+    values = {
+        name: Polynomial.from_flint(x.poly)(u) if isinstance(x, Algebraic) else x
+        for name, x in solution.values.items()
+    }
+    return member(tableau, ring, values)
+
+
+def is_stable(wanted: Stability, tableau: Tableau) -> bool:
+    """Whether a method has a kind of stability; not where it has no meaning for it."""
+    if wanted.kind == "p-stable":
+        problem = Oscillator.default(terms_of(tableau), fmpq(1))
+        try:
+            return oscillator_stability(tableau, problem).is_p_stable
+        except UsageProblem:
+            return False
+    R = stability_function(tableau, shares_of(tableau, wanted.colour))
+    return is_l_stable(R) if wanted.kind == "l-stable" else is_a_stable(R)
+
+
+def shares_of(tableau: Tableau, colour: int | None) -> list[Number]:
+    """The λ of each colour of the linear test equation: all alike, or 0 but for one colour."""
+    return [ONE if colour in (None, l) else ZERO for l in range(tableau.size)]

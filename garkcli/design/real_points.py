@@ -19,13 +19,13 @@ from typing import TypeAlias, cast
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, only_small
-from garkcli.design.admissible import not_negative
 from garkcli.design.groebner import leading
 from garkcli.design.ideal import Ideal, factors, rational
-from garkcli.design.member import value_of
+from garkcli.design.member import not_negative, value_of
+from garkcli.design.minimise.line import Conditions
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided
-from garkcli.exact.cells import Point, between_roots, sign_of, where
+from garkcli.exact.cells import between_roots
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, kept_sign, projected
@@ -164,14 +164,14 @@ class _Search:
         large: list[dict[int, fmpq]] = []
         for number in range(SAMPLES):
             values = {i: self._sample(i, draw, number) for i in chosen}
-            found = None
+            ideal = None
             if len(large) < MOST_LARGE:
                 with suppress(NotDecided), only_small():
-                    found = self.real.with_values(values)
-            if found is None:
+                    ideal = self.real.with_values(values)
+            if ideal is None:
                 large.append(values)
             else:
-                yield found
+                yield ideal
         for values in large[:MOST_LARGE]:
             yield self.real.with_values(values)
 
@@ -189,18 +189,12 @@ class _Search:
 
     def _is_on_line(self) -> bool:
         """Whether a value of the one unknown is a method."""
-        nonzero = [in_one(p) for p in self.nonzero]
-        positive = [in_one(p) for p in self.family.positive]
-        others = [in_one(p) for p in not_negative(self.family)]
-
-        def holds(t: Point) -> bool:
-            return (
-                all(sign_of(p, t) for p in nonzero)
-                and all(sign_of(p, t) > 0 for p in positive)
-                and all(sign_of(p, t) >= 0 for p in others)
-            )
-
-        return bool(where(holds, [*nonzero, *positive, *others]))
+        allowed = Conditions(
+            [in_one(p) for p in self.nonzero],
+            [in_one(p) for p in self.family.positive],
+            [in_one(p) for p in not_negative(self.family)],
+        )
+        return bool(allowed.intervals)
 
     def _in_plane(self) -> Iterator[Ideal]:
         """Finitely many points of a curve in the plane, of which one is a method if any of its
@@ -215,13 +209,13 @@ class _Search:
         for factor in factors([rational(curve, self.ring)]):
             # what is looked along is the last unknown that is in the factor
             along = 1 if factor.degrees()[1] else 0
-            found = curves([_turned(p, along) for p in (factor, *signs)])
-            if any(p.total_degree() > MOST_DEGREE for p in found):
+            deciding = curves([_turned(p, along) for p in (factor, *signs)])
+            if any(p.total_degree() > MOST_DEGREE for p in deciding):
                 self.is_complete = False
                 continue
             part = Ideal(self.ring).with_zeros([factor])
             t = self.ring.context.gen(1 - along)
-            critical = [p for p in projected(found, []) if p.degree > 0]
+            critical = [p for p in projected(deciding, []) if p.degree > 0]
             for value in between_roots(critical):
                 yield part.with_zeros([t - value])
             for p in critical:

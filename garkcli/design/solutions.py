@@ -92,20 +92,15 @@ def solutions(ideal: Ideal) -> list[Solution]:
     """
     algebra = _Algebra(ideal.closure)
     distinct = algebra.trace_form.rank()
-    for form in _linear_forms(len(ideal.ring.names)):
-        u = algebra.combined(form)
+    for c in count():
+        # all but finitely many of the forms (1, c, c², …) separate the solutions
+        u = algebra.combined([c**i for i in range(len(ideal.ring.names))])
         characteristic = characteristic_polynomial(u)
         square_free = _square_free(characteristic)
         if square_free.degree() == distinct:
-            found = list(algebra.solutions(u, characteristic, square_free))
-            return sorted(found, key=lambda x: (not x.real, x.degree))
+            every = algebra.solutions(u, characteristic, square_free)
+            return sorted(every, key=lambda x: (not x.real, x.degree))
     raise AssertionError("all but finitely many linear forms separate the solutions")
-
-
-def _linear_forms(variables: int) -> Iterator[list[int]]:
-    """(1, c, c², …) for c = 0, 1, 2, …: all but finitely many of these separate the solutions."""
-    for c in count():
-        yield [c**i for i in range(variables)]
 
 
 class _Algebra:
@@ -132,7 +127,8 @@ class _Algebra:
     @cached_property
     def _traces(self) -> fmpq_mat:
         """The row of the traces of multiplication by each monomial."""
-        return fmpq_mat([[_trace(matrix) for matrix in self._products]])
+        diagonal = range(self.size)
+        return fmpq_mat([[sum((M[i, i] for i in diagonal), fmpq(0)) for M in self._products]])
 
     @property
     def trace_form(self) -> fmpq_mat:
@@ -163,8 +159,7 @@ class _Algebra:
 
         denominator = representation(self._traces)
         numerators = [representation(self._traces * matrix) for matrix in self.matrices]
-        _, found = f.factor()
-        for factor, _ in found:
+        for factor, _ in f.factor()[1]:
             check_time()
             modulus = factor / factor[factor.degree()]
             _, inverse, _ = (denominator % modulus).xgcd(modulus)
@@ -181,10 +176,6 @@ class _Algebra:
                 multiplicity=_multiplicity(characteristic, modulus),
                 real=tuple(root for root, _ in roots),
             )
-
-
-def _trace(matrix: fmpq_mat) -> fmpq:
-    return sum((matrix[i, i] for i in range(matrix.nrows())), start=fmpq(0))
 
 
 def _square_free(polynomial: fmpq_poly) -> fmpq_poly:

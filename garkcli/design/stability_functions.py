@@ -13,7 +13,7 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.matrix import Matrix, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -98,9 +98,7 @@ def _in_lowest_terms(
     numerator = _by_power(p // factor, ring)
     denominator = _by_power(q // factor, ring)
     scale = denominator[0]
-    over = [a / scale for a in numerator]
-    under = [a / scale for a in denominator]
-    return _trimmed(over), _trimmed(under)
+    return _trimmed([a / scale for a in numerator]), _trimmed([a / scale for a in denominator])
 
 
 def _joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
@@ -159,15 +157,7 @@ def characteristic_coefficients(A: Matrix) -> list[Any]:
     for k in range(1, s + 1):
         for i in stages:
             M[i][i] = M[i][i] + coefficients[-1]
-        M = [[_dot(A[i], [M[n][j] for n in stages]) for j in stages] for i in stages]
+        M = [[dot(A[i], [M[n][j] for n in stages]) for j in stages] for i in stages]
         trace = sum((M[i][i] for i in stages), start=ZERO)
         coefficients.append(-trace / fmpq(k))
     return coefficients
-
-
-def _dot(row: Vector, column: list[Any]) -> Any:
-    total: Any = ZERO
-    for a, x in zip(row, column, strict=True):
-        if a and x:
-            total = total + a * x
-    return total

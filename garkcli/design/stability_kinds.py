@@ -13,9 +13,8 @@ from typing import Protocol
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.design import TABLEAUS, Whose
-from garkcli.design.member import member
-from garkcli.design.stable_solutions import shares_of
-from garkcli.design.step_plane import StepPlane, step_plane
+from garkcli.design.member import member, shares_of
+from garkcli.design.step_plane import Step, StepPlane, step_plane, through_members
 from garkcli.errors import UsageProblem, ZeroWeight
 from garkcli.exact.cells import Interval, Point, between, sign_of
 from garkcli.exact.field import ZERO, Number
@@ -35,6 +34,12 @@ from garkcli.exact.roots import RealRoot
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
+from garkcli.stability.two_frequencies import (
+    line_of_determinants,
+    springs,
+    two_frequencies,
+    unknowns_of,
+)
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
@@ -118,8 +123,7 @@ class AStability:
         tableau = self.members.at(value)
         if tableau is None:
             return None
-        found = imaginary_set(stability_function(tableau, self.shares))
-        return first_gap(found)
+        return first_gap(imaginary_set(stability_function(tableau, self.shares)))
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         return [at_y(self.E, x)]
@@ -233,3 +237,76 @@ def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
         assert j % 2 == 0
         terms[j // 2, k] = a
     return PLANE.from_dict(terms)
+
+
+@dataclass(frozen=True)
+class TwoSprings:
+    """Which springs are meant.
+
+    Attributes:
+        slow: (hω_s)² ≥ 0.
+        fast: the term of the fast spring, counted from 0.
+        greatest: the bound on x = (hω_f)²; None where there is none.
+    """
+
+    slow: fmpq
+    fast: int
+    greatest: fmpq | None = None
+
+
+class SpringStability:
+    """All powers of the step matrix on a slow and a fast spring are bounded for all fast
+    frequencies: for one slow frequency the step is a function of x = (hω_f)² and of t.
+    """
+
+    def __init__(self, members: Members, tableau: Tableau, wanted: TwoSprings) -> None:
+        self.members = members
+        self.wanted = wanted
+        split = self.split = springs(tableau, wanted.fast)
+        unknowns = unknowns_of(tableau, split)
+
+        def step(method: Tableau) -> Step:
+            denominator, *entries = line_of_determinants(method, split, wanted.slow)
+            return denominator, tuple(entries)
+
+        self.plane = through_members(tableau, members.family.ring, unknowns, step)
+        D = self.plane.denominator
+        (a, b), (c, d) = self.plane.numerators
+        self.signs = eigenvalue_conditions(self.plane)
+        ends = [ZERO]
+        if wanted.greatest is not None:
+            ends.append(wanted.greatest)
+        self.essential = projected(curves([D, *self.signs]), ends)
+        deciding = [*self.signs, D, a + d, a * d - b * c, b, c]
+        self.critical = projected(curves(deciding), ends)
+
+    def decide(self, value: Number) -> bool:
+        return any(self._is_enough(x) for x in self._stable(value))
+
+    def witness(self, value: fmpq) -> fmpq | None:
+        x = first_gap(self._stable(value))
+        greatest = self.wanted.greatest
+        if x is not None and greatest is not None and x > greatest:
+            return None
+        return x
+
+    def conditions(self, x: fmpq) -> list[Polynomial]:
+        return [at_y(p, x) for p in self.signs]
+
+    def _stable(self, value: Number) -> tuple[Interval, ...]:
+        tableau = self.members.at(value)
+        if tableau is None:
+            return ()
+        return two_frequencies(tableau, self.split, self.wanted.slow).stable
+
+    def _is_enough(self, interval: Interval) -> bool:
+        """Whether all fast frequencies in question are in it."""
+        if interval.start != RealRoot.rational(ZERO) or not interval.has_start:
+            return False
+        if interval.end is None:
+            return True
+        if self.wanted.greatest is None:
+            return False
+        greatest = RealRoot.rational(self.wanted.greatest)
+        is_end = interval.has_end and greatest == interval.end
+        return is_end or greatest < interval.end

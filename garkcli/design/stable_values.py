@@ -24,14 +24,19 @@ from typing import Literal, TypeAlias, get_args
 from flint import fmpq
 
 from garkcli.design.design import TABLEAUS, Design, Whose
-from garkcli.design.springs_kind import SpringStability, TwoSprings
-from garkcli.design.stability_kinds import AStability, Kind, Members, PStability
+from garkcli.design.stability_kinds import (
+    AStability,
+    Kind,
+    Members,
+    PStability,
+    SpringStability,
+    TwoSprings,
+)
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
 from garkcli.tableau.family import Family
-from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 Wanted: TypeAlias = Literal["p-stable", "a-stable", "l-stable"]
@@ -135,23 +140,22 @@ def stable_values(
     tableau = TABLEAUS[whose](family.tableau)
     members = Members(family, whose)
     if wanted == "p-stable":
-        oscillating = _oscillating(members, tableau, two_springs)
+        oscillating: Kind
+        if two_springs is None:
+            oscillating = PStability(members, tableau)
+        else:
+            oscillating = SpringStability(members, tableau, two_springs)
         found, undecided = _wanted(family, *_decided(family, oscillating))
         return StableValues(family, whose, wanted, found, undecided, two_springs)
     kind = AStability(members, tableau, colour)
     found, undecided = _decided(family, kind)
     if wanted == "l-stable":
-        found = _damped(kind, found)
+        critical = [*kind.critical, *_ends(found)]
+        stable = found
+        found = where(lambda t: _holds_at(stable, t) and kind.is_damped(t), critical)
         undecided = tuple(t for t in undecided if kind.is_damped(t))
     found, undecided = _wanted(family, found, undecided)
     return StableValues(family, whose, wanted, found, undecided, colour=colour)
-
-
-def _oscillating(members: Members, tableau: Tableau, two_springs: TwoSprings | None) -> Kind:
-    """What P-stability is decided by."""
-    if two_springs is None:
-        return PStability(members, tableau)
-    return SpringStability(members, tableau, two_springs)
 
 
 def _decided(family: Family, kind: Kind) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
@@ -200,12 +204,6 @@ def _ends(found: Sequence[Interval]) -> list[Polynomial]:
     return [Polynomial.from_flint(end.polynomial) for end in ends]
 
 
-def _damped(kind: AStability, found: Sequence[Interval]) -> tuple[Interval, ...]:
-    """The values out of a set with R(∞) = 0."""
-    critical = [*kind.critical, *_ends(found)]
-    return where(lambda t: _holds_at(found, t) and kind.is_damped(t), critical)
-
-
 def _refuse_others(family: Family) -> None:
     name, *others = family.parameters
     if others:
@@ -227,24 +225,24 @@ class _Decision:
 
     def __init__(self, family: Family, kind: Kind) -> None:
         (ends,) = family.ranges.values()
-        self.ends = ends
+        self.least, self.greatest = ends
         self.kind = kind
         self.undecided: list[RealRoot] = []
         self._known: dict[str, bool] = {}
         self._witnesses: list[fmpq] = []
-        self._inside: tuple[Interval, ...] = ()
+        self._interior: tuple[Interval, ...] = ()
 
     def run(self) -> tuple[Interval, ...]:
         """The set; open intervals first, as they tell about their ends."""
-        at_ends = [Polynomial([-end, 1]) for end in self.ends if end is not None]
+        ends = (self.least, self.greatest)
+        at_ends = [Polynomial([-end, 1]) for end in ends if end is not None]
         poles = [p for p in self.kind.plane.poles if p.degree > 0]
         critical = [p.square_free() for p in self.kind.critical if p.degree > 0]
         critical += at_ends + poles
-        self._inside = where(self._holds_between, critical)
+        self._interior = where(
+            lambda t: not isinstance(t, RealRoot) and self._at_rational(t), critical
+        )
         return where(self._holds, critical)
-
-    def _holds_between(self, t: Point) -> bool:
-        return not isinstance(t, RealRoot) and self._at_rational(t)
 
     def _holds(self, t: Point) -> bool:
         if not isinstance(t, RealRoot):
@@ -254,9 +252,9 @@ class _Decision:
         return self._at_root(t)
 
     def _is_outside(self, t: Point) -> bool:
-        least, greatest = self.ends
-        below = least is not None and sign_of(Polynomial([-least, 1]), t) < 0
-        above = greatest is not None and sign_of(Polynomial([-greatest, 1]), t) > 0
+        root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
+        below = self.least is not None and root < RealRoot.rational(self.least)
+        above = self.greatest is not None and RealRoot.rational(self.greatest) < root
         return below or above
 
     def _at_rational(self, t: fmpq) -> bool:
@@ -278,7 +276,7 @@ class _Decision:
         for x in self._witnesses:
             if any(sign_at(p, t) < 0 for p in self.kind.conditions(x)):
                 return False
-        is_limit = any(t in (x.start, x.end) for x in self._inside)
+        is_limit = any(t in (x.start, x.end) for x in self._interior)
         if is_limit and all(sign_at(p, t) for p in self.kind.essential):
             return True
         number = number_of(t, MOST_DEGREE)

@@ -8,24 +8,54 @@ them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, islice
+from itertools import chain, count, islice
 from math import isqrt
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.member import member
-from garkcli.design.sampling import largest_degree, through, values_without
-from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.parametric import Parameters, common_denominator
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.exact.polynomial import Polynomial, in_one, interpolated
+from garkcli.exact.projection import PLANE
 from garkcli.stability.step_function import unreduced
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
+
+
+def largest_degree(numbers: Iterable[object], denominator: fmpq_mpoly, ring: Parameters) -> int:
+    """The largest degree in t of numbers times a common denominator, and of that itself."""
+    degrees = [int(denominator.total_degree())]
+    for x in numbers:
+        numerator, own = fraction(x, ring)
+        if numerator:
+            cleared = numerator * (denominator // own)
+            degrees.append(int(cleared.total_degree()))
+    return max(degrees)
+
+
+def values_without(poles: fmpq_mpoly) -> Iterator[fmpq]:
+    """0, 1, 2, … without the roots of a polynomial."""
+    for k in count():
+        t = fmpq(k)
+        if poles(t):
+            yield t
+
+
+def through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
+    """The polynomial in y and t with given polynomials in y at given t."""
+    terms: dict[tuple[int, ...], fmpq] = {}
+    for j in range(max(p.degree for p in values) + 1):
+        coefficient = interpolated(points, [p[j] for p in values])
+        for k, a in enumerate(coefficient.coefficients):
+            if a:
+                terms[j, k] = cast("fmpq", a)
+    return PLANE.from_dict(terms)
+
 
 Step: TypeAlias = "tuple[Polynomial, tuple[Polynomial, ...]]"
 """D and the entries of N, row by row."""
@@ -57,8 +87,8 @@ def step_plane(tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]) -> 
     unknowns = len(stage_system(tableau, fields).W)
 
     def step(method: Tableau) -> Step:
-        found = unreduced(stage_system(method, fields))
-        return found.denominator, tuple(chain.from_iterable(found.numerators))
+        whole = unreduced(stage_system(method, fields))
+        return whole.denominator, tuple(chain.from_iterable(whole.numerators))
 
     return through_members(tableau, ring, unknowns, step)
 
@@ -89,7 +119,7 @@ def through_members(
     for t in points:
         check_time()
         denominator, entries_of_step = step(member(tableau, ring, {name: t}))
-        scale = _at(of_blocks, t) ** unknowns * _at(of_weights, t)
+        scale = fmpq(of_blocks(t)) ** unknowns * fmpq(of_weights(t))
         denominators.append(denominator * scale)
         numerators.append([p * scale for p in entries_of_step])
     D = through(points, denominators)
@@ -104,19 +134,5 @@ def _in_lowest_terms(
     for p in N:
         common = common.gcd(p)
     entries = [p // common for p in N]
-    rows = []
-    for start in range(0, d * d, d):
-        row = entries[start : start + d]
-        rows.append(tuple(row))
-    of_parameter = [_in_parameter(p) for p in poles]
-    return StepPlane(D // common, tuple(rows), tuple(of_parameter))
-
-
-def _at(p: fmpq_mpoly, t: fmpq) -> fmpq:
-    return fmpq(p(t))
-
-
-def _in_parameter(p: fmpq_mpoly) -> Polynomial:
-    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
-    exponents = range(max(powers) + 1)
-    return Polynomial([powers.get(k, ZERO) for k in exponents])
+    rows = tuple(tuple(entries[start : start + d]) for start in range(0, d * d, d))
+    return StepPlane(D // common, rows, tuple(in_one(p) for p in poles))

@@ -12,7 +12,6 @@ from garkcli.design.conditions import FamilyConditions
 from garkcli.design.stability_functions import characteristic_coefficients
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
-from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import fraction
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
@@ -71,7 +70,9 @@ def _r_infinity(asked: Asked) -> Meaning:
     for l in asked.colours:
         A, b = asked.diagonal(l, "R-infinity")
         below = characteristic_coefficients(A)
-        above = characteristic_coefficients(_minus_rows(A, b))
+        above = characteristic_coefficients(
+            tuple(tuple(x - y for x, y in zip(row, b, strict=True)) for row in A)
+        )
         degree = max(k for k, x in enumerate(below) if x)
         if not degree:
             raise MethodError(
@@ -86,10 +87,6 @@ def _r_infinity(asked: Asked) -> Meaning:
         if not numerator.is_constant():
             nonzero.append(numerator)
     return Meaning(tuple(zeros), tuple(nonzero))
-
-
-def _minus_rows(A: Matrix, b: Vector) -> Matrix:
-    return tuple(tuple(x - y for x, y in zip(row, b, strict=True)) for row in A)
 
 
 def _stage_order(asked: Asked) -> Meaning:
@@ -129,11 +126,6 @@ def _consistent(asked: Asked) -> Meaning:
     return Meaning(tuple(x for l, m in edges for x in defects.C(l, m, 1)))
 
 
-def _positive_weights(asked: Asked) -> Meaning:
-    weights = [x for l in asked.colours for x in asked.tableau.colours[l].b]
-    return Meaning(positive=tuple(weights))
-
-
 def _nodes_in_unit_interval(asked: Asked) -> Meaning:
     nodes = [x for l in asked.colours for x in asked.tableau.colours[l].c]
     return Meaning(not_negative=(*nodes, *(1 - x for x in nodes)))
@@ -159,7 +151,14 @@ WANTS = {
         Want("R-infinity", "number", "the stability function at infinity", _r_infinity),
         Want("stage-order", "count", "B(q) and C(q)", _stage_order),
         Want("consistent", "flag", "the nodes are the row sums of every block", _consistent),
-        Want("positive-weights", "flag", "every weight is positive", _positive_weights),
+        Want(
+            "positive-weights",
+            "flag",
+            "every weight is positive",
+            lambda asked: Meaning(
+                positive=tuple(x for l in asked.colours for x in asked.tableau.colours[l].b)
+            ),
+        ),
         Want("nodes-in-unit-interval", "flag", "every node is in [0, 1]", _nodes_in_unit_interval),
         Want(
             "a-stable", "flag", "|R(z)| ≤ 1 in the left half plane", partial(stability, "a-stable")

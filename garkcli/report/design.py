@@ -8,14 +8,13 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from garkcli.design.choices import Choice
-from garkcli.design.design import Design, Whose
+from garkcli.design.design import Design, Found, Step, Whose
+from garkcli.design.design import Kind as Verdict
+from garkcli.design.minimise.critical import DECIMALS
 from garkcli.design.minimise.objective import Level as LevelObjective
-from garkcli.design.minimise.refining import DECIMALS
 from garkcli.design.minimise.result import Candidate, Extent, Minimum, Proof
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
-from garkcli.design.step import Found, Step
-from garkcli.design.step import Kind as Verdict
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal, root_text

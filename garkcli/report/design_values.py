@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
+from garkcli.design.design import Step
 from garkcli.design.ideal import integral_scale
-from garkcli.design.step import Step
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.tableau.family import Family, Radical

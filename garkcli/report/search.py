@@ -7,9 +7,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from garkcli.design.design import Whose
-from garkcli.design.search.run import Ending, Result
+from garkcli.design.search.run import Ending, Method, Result
 from garkcli.design.search.search import Proof, Search
-from garkcli.design.search.told import Method
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.facts import Kind, Level, Row, Section, parts, rows_of, told, via

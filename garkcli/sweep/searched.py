@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.design.search.run import results
-from garkcli.design.search.told import Method
+from garkcli.design.search.run import Method, results
 from garkcli.methodfile.family import with_values
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.search_file import FileSearch

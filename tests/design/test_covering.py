@@ -7,7 +7,7 @@ from itertools import combinations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.design.covering import least_meeting
+from garkcli.design.ideal import least_meeting
 
 SETS = st.frozensets(st.integers(0, 6), min_size=1, max_size=4)
 

@@ -13,21 +13,19 @@ from garkcli import deadline, loads, search_methods
 from garkcli.deadline import check_time, only_small, until, within
 from garkcli.design.choices import walk_down
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.covering import least_meeting
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import groebner_basis, grown_basis, unproved_basis
-from garkcli.design.ideal import Ideal, characteristic_polynomial
+from garkcli.design.ideal import Ideal, characteristic_polynomial, least_meeting
 from garkcli.design.minimise.climbing import climbed
-from garkcli.design.minimise.coordinates import nodes_as_coordinates
+from garkcli.design.minimise.critical import critical_point_near
 from garkcli.design.minimise.minimise import minimise
-from garkcli.design.minimise.parts import parts_of
-from garkcli.design.minimise.refining import critical_point_near
+from garkcli.design.minimise.parts import nodes_as_coordinates, parts_of
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.search.run import results
 from garkcli.design.search.search import Search
 from garkcli.design.solutions import solutions
-from garkcli.design.springs_kind import TwoSprings
+from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_values import stable_values
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import apart, first_of

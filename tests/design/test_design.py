@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from garkcli import deadline, find_order, loads, pair
 from garkcli.deadline import until
-from garkcli.design.chosen import first_method
+from garkcli.design.choices import first_method
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import reduced_basis

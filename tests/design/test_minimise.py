@@ -15,14 +15,14 @@ from garkcli.design.design import Whose, find_parameters
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import member
 from garkcli.design.minimise import smallest
-from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.climbing import climbed
 from garkcli.design.minimise.critical import critical_equations, is_of_one_dimension
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
+from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.parts import Part
-from garkcli.design.minimise.registry import OBJECTIVES, find_objective
 from garkcli.design.minimise.result import Candidate, Minimum
+from garkcli.design.minimise.smallest import is_nowhere_less
 from garkcli.design.minimise.squared_error import squared_coupling_error, squared_error
 from garkcli.design.solutions import value_at
 from garkcli.errors import NotDecided, UsageProblem
@@ -52,7 +52,7 @@ b: [1 - 1/(2*c), 1/(2*c)]
 def least(text: str, objective: str, order: int | None = None, whose: Whose = "method") -> Minimum:
     """The minimum over a family."""
     design = find_parameters(loads_family(text), order, whose)
-    return minimise(design, find_objective(objective), 60)
+    return minimise(design, OBJECTIVES[objective], 60)
 
 
 def floats(minimum: Minimum, candidate: Candidate) -> dict[str, float]:
@@ -252,12 +252,6 @@ def test_emitted_file(tmp_path: Path) -> None:
     assert find_order(pair(method.tableau)).order == 4
 
 
-def test_every_objective_has_a_file() -> None:
-    """The list of names and the files agree."""
-    for key in OBJECTIVES:
-        assert find_objective(key).key == key
-
-
 RANGE3 = "[0, 0, 0], [2*a, 0, 0], [0, 1/2, 0]"
 
 
@@ -403,7 +397,7 @@ def test_critical_numbers_of_a_large_degree(allowed: str, is_reached: bool) -> N
     """
     best = least(SEVENTH.replace("[-3, 1/4]", allowed), "-real-interval", 1)
     method = "A: [[0, 0], [1/4, 0]]\nb: [1/2, 1/2]\n"
-    there = find_objective("-real-interval")
+    there = OBJECTIVES["-real-interval"]
     assert isinstance(there, Level)
     eight = RealRoot.rational(fmpq(8))
     assert there.value(loads(method).tableau) == eight
@@ -441,7 +435,7 @@ def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
     text = "parameters: {a: free}\n" + ONE_LINE[name]
     best = least(text, objective, 1)
     assert best.extent == "all"
-    level = find_objective(objective)
+    level = OBJECTIVES[objective]
     assert isinstance(level, Level)
     family = loads_family(text)
 
@@ -473,7 +467,7 @@ def test_a_level_of_a_large_degree() -> None:
     mantissa, exponent = a.mid().man_exp()
     exact = fmpq(mantissa) * fmpq(2) ** int(exponent)
     family = loads_family(text)
-    level = find_objective("-imaginary-interval")
+    level = OBJECTIVES["-imaginary-interval"]
     assert isinstance(level, Level)
     sides = []
     for shift in (fmpq(-1, 10**12), fmpq(1, 10**12)):

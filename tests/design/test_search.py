@@ -18,15 +18,13 @@ from hypothesis import strategies as st
 from garkcli import find_order, loads, loads_family, search_methods
 from garkcli.crew.work import Alone, WorkerLost
 from garkcli.design.design import find_parameters
-from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import damped_step, least_squares
-from garkcli.design.search.points import Fixings, polished, rank
+from garkcli.design.search.points import Fixings, is_proved, polished, rank
 from garkcli.design.search.recognise import minimal_polynomial, rational, recognised
 from garkcli.design.search.residuals import Generators, Residuals
-from garkcli.design.search.run import Result, Solution, results
+from garkcli.design.search.run import Method, Result, Solution, decimals, results
 from garkcli.design.search.search import BITS, Search
 from garkcli.design.search.snap import values_near
-from garkcli.design.search.told import Method, decimals
 from garkcli.errors import NotDecided
 from garkcli.exact.field import Algebraic
 from garkcli.methodfile.family import FamilyFile

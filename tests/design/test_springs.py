@@ -12,7 +12,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.design.springs_kind import TwoSprings
+from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_values import StableValues, stable_values
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial

@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 from flint import fmpq, fmpq_poly, fmpz_poly
 
-from garkcli.design.chosen import accepted_methods
+from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters
 from garkcli.errors import MethodFileError
 from garkcli.exact.field import NumberField

@@ -210,7 +210,7 @@ def test_as_a_command(tmp_path: Path) -> None:
     """Text, JSON, exit codes, and what is refused."""
     path = tmp_path / "theta.yaml"
     path.write_text(THETA, encoding="utf-8")
-    run = gark("design", str(path), "--a-stable")
+    run = gark("design", path.name, "--a-stable", cwd=tmp_path)
     assert run.code == 0
     assert run.out.endswith("method is A-stable for exactly 1/2 ≤ t\n")
     data = json.loads(gark("design", str(path), "--l-stable", "--format", "json").out)
@@ -243,7 +243,7 @@ def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:
     one = gark("design", str(path), "--a-stable")
     assert (one.code, "t = 1/2" in one.out) == (0, True)
     path.write_text(CONSISTENT, encoding="utf-8")
-    none = gark("design", str(path), "--a-stable")
+    none = gark("design", path.name, "--a-stable", cwd=tmp_path)
     wanted = "A-stable, and as the file wants it, for no value of t"
     assert (none.code, wanted in none.out) == (1, True)
     path.write_text(f"{IMPLICIT}design: {{l-stable: true}}\n", encoding="utf-8")

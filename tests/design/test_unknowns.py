@@ -9,7 +9,7 @@ from flint import fmpq
 
 from garkcli import find_order, loads
 from garkcli.check.analysis import inconsistent_blocks
-from garkcli.design.chosen import first_method
+from garkcli.design.choices import first_method
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, MethodFileError

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from garkcli import find_order, loads, pair
-from garkcli.design.chosen import first_method
+from garkcli.design.choices import first_method
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
 from garkcli.design.wants import WANTS

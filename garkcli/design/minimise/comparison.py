@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
-from garkcli.design.admissible import is_admissible
-from garkcli.design.design import Design, order_of
-from garkcli.design.member import member, value_of
+from garkcli.design.design import Design, Found, Step, order_of
+from garkcli.design.member import is_admissible, member, not_negative, value_of
 from garkcli.design.minimise.climbing import GRID, climbed
 from garkcli.design.minimise.line import Conditions
 from garkcli.design.minimise.objective import Level, Objective, Size
 from garkcli.design.minimise.parts import Part
-from garkcli.design.minimise.repeats import without_repeats
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
-from garkcli.design.solutions import Solution, solutions
-from garkcli.design.step import Found, Step
+from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import fraction
@@ -116,9 +114,7 @@ class Comparison(ABC):
         """With its order by the ordinary certificate."""
         solution = candidate.found.solution
         order = order_of(self.design.family, self.design.whose, solution)
-        accepted = (candidate.index,)
-        found = Found(solution, order, accepted)
-        return replace(candidate, found=found)
+        return replace(candidate, found=Found(solution, order, (candidate.index,)))
 
     def selection(self) -> None:
         """Finitely many solutions, which have been found already."""
@@ -131,8 +127,11 @@ class Comparison(ABC):
     def over(self, part: Part) -> None:
         """The candidates of one part."""
         if part.dimension == 0:
-            for solution in _points(part):
-                self._add_admissible(self.whole(part, solution))
+            for point in _points(part):
+                solution = self.whole(part, point)
+                for index, root in enumerate(solution.real):
+                    if is_admissible(self.design.family, solution, root):
+                        self.add(solution, index)
         elif part.is_free and part.dimension == 1:
             self.over_line(part)
         else:
@@ -149,25 +148,18 @@ class Comparison(ABC):
             solution.modulus, solution.field, values, solution.multiplicity, solution.real
         )
 
-    def _add_admissible(self, solution: Solution) -> None:
-        for index, root in enumerate(solution.real):
-            if is_admissible(self.design.family, solution, root):
-                self.add(solution, index)
-
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
         """A method with its value."""
+        method = Found(solution, None, (index,))
         value = self.value_of(solution, index)
-        found = Found(solution, None, (index,))
-        candidate = Candidate(value, found, index, is_constant, proof)
-        self.candidates.append(candidate)
+        self.candidates.append(Candidate(value, method, index, is_constant, proof))
 
     def tableau(self, part: Part) -> Tableau:
         """The tableau with the coordinates of a part."""
         values = cast("Mapping[str, Number]", part.values)
-        ring = self.design.family.ring
-        return member(self.design.tableau, ring, values)
+        return member(self.design.tableau, self.design.family.ring, values)
 
     def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[fmpq, ...] | None:
         """The coordinates of a good method of a part with several free ones, which proves nothing
@@ -208,23 +200,14 @@ class Comparison(ABC):
     def conditions(self, part: Part) -> Conditions:
         """Which values of the one coordinate are allowed."""
         family = self.design.family
-        positive = [*family.positive]
-        not_negative = [*family.not_negative, *self.ends()]
-        signs = {}
-        for sign, polynomials in (("positive", positive), ("not_negative", not_negative)):
-            signs[sign] = [in_one(_sign_of(part, p, self.design)) for p in polynomials]
-        nonzero = [in_one(p) for p in part.nonzero]
-        return Conditions(nonzero, **signs)
 
-    def ends(self) -> Iterator[fmpq_mpoly]:
-        """Polynomials that are not negative within the ranges of the file."""
-        family = self.design.family
-        for name, (least, greatest) in family.ranges.items():
-            unknown = family.ring.context.gen(family.ring.names.index(name))
-            if least is not None:
-                yield unknown - least
-            if greatest is not None:
-                yield greatest - unknown
+        def signs(polynomials: Iterable[fmpq_mpoly]) -> list[Polynomial]:
+            expressed = (part.expressed(p, family.ring) for p in polynomials)
+            return [in_one(sign_polynomial(x, part.ring)) for x in expressed]
+
+        return Conditions(
+            [in_one(p) for p in part.nonzero], signs(family.positive), signs(not_negative(family))
+        )
 
 
 def _points(part: Part) -> Iterator[Solution]:
@@ -236,15 +219,8 @@ def _points(part: Part) -> Iterator[Solution]:
     if part.ideal.degree > MOST_POINTS:
         raise NotDecided
     for solution in solutions(part.ideal):
-        values = [value_of(p, part.ring, solution.values) for p in part.nonzero]
-        if all(values):
+        if all(value_of(p, part.ring, solution.values) for p in part.nonzero):
             yield solution
-
-
-def _sign_of(part: Part, p: fmpq_mpoly, design: Design) -> fmpq_mpoly:
-    """A polynomial in the coordinates with the sign of one in all unknowns."""
-    over, under = fraction(part.expressed(p, design.family.ring), part.ring)
-    return over * under
 
 
 def at_root(name: str, root: RealRoot) -> Solution:
@@ -259,3 +235,37 @@ def at_root(name: str, root: RealRoot) -> Solution:
         value = number_field.from_coordinates([fmpq(0), fmpq(1)])
     roots = tuple(x for x, _ in real_roots(monic))
     return Solution(modulus, number_field, {name: value}, 1, roots)
+
+
+_STRENGTH = ("exact", "exists", "numerical")
+
+
+def without_repeats(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Each method once, with the most that is known of it, in the order of their first places."""
+    by_value: dict[RealRoot | None, list[int]] = {}
+    for place, candidate in enumerate(candidates):
+        by_value.setdefault(candidate.value, []).append(place)
+    kept: dict[int, Candidate] = {}
+    for places in by_value.values():
+        if len(places) == 1:
+            kept[places[0]] = candidates[places[0]]
+            continue
+        same: dict[tuple[RealRoot, ...], list[int]] = {}
+        for place in places:
+            same.setdefault(_coordinates(candidates[place]), []).append(place)
+        for group in same.values():
+            kept[group[0]] = _joined([candidates[k] for k in group])
+    return [kept[place] for place in sorted(kept)]
+
+
+def _coordinates(candidate: Candidate) -> tuple[RealRoot, ...]:
+    """The unknowns of a method, as real numbers."""
+    solution = candidate.found.solution
+    root = solution.real[candidate.index]
+    return tuple(value_at(solution.values[name], root) for name in sorted(solution.values))
+
+
+def _joined(same: Sequence[Candidate]) -> Candidate:
+    """What is known of one method."""
+    best = min(same, key=lambda x: _STRENGTH.index(x.proof))
+    return replace(best, is_constant=any(x.is_constant for x in same))

@@ -10,12 +10,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 from math import comb
+from typing import TYPE_CHECKING
 
-from flint import fmpq_mpoly
+from flint import arb, fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.minimise.parts import Part
+from garkcli.design.search.points import Fixings, is_proved, polished
+from garkcli.design.search.rational import System, as_float, polynomial_functions
 from garkcli.errors import NotDecided
+from garkcli.exact.parametric import Parameters
+
+if TYPE_CHECKING:
+    pass
+
 
 MOST_MINORS = 200
 """Equations that are written down at most."""
@@ -80,3 +88,47 @@ def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
             minor = a * _determinant(smaller)
             total = total - minor if j % 2 else total + minor
     return total
+
+
+BITS = 256
+"""Of Newton's method and the test, which then encloses the point to half as many."""
+DECIMALS = 20
+"""Of the rational point beside it."""
+NEAR = fmpq(1, 100)
+"""How far from the point that is given it may be."""
+
+
+def critical_point_near(
+    point: Sequence[fmpq],
+    gradient: Sequence[fmpq_mpoly],
+    nonzero: Sequence[fmpq_mpoly],
+    ring: Parameters,
+) -> tuple[fmpq, ...] | None:
+    """A rational point within 10^−DECIMALS of a common zero of some polynomials; None where none is
+    proved to exist near, by Krawczyk's test.
+
+    The coordinates of a part are free, so that the rational point is a method as well, of the same
+    order and, but for rounding, the same value.
+
+    Args:
+        point: near which it is looked for.
+        gradient: the polynomials, as many as unknowns.
+        nonzero: polynomials that are not to vanish there.
+        ring: of the unknowns.
+    """
+    system = Fixings(System(polynomial_functions(gradient, ring)))
+    zero = polished(system, [as_float(x) for x in point], BITS)
+    if zero is None or not is_proved(system, zero, BITS, polynomial_functions(nonzero, ring)):
+        return None
+    rounded = tuple(_rounded(x) for x in zero[:, 0])
+    if any(abs(x - y) > NEAR for x, y in zip(rounded, point, strict=True)):
+        return None
+    return rounded
+
+
+def _rounded(x: arb) -> fmpq:
+    """The nearest number with so many decimals."""
+    mantissa, exponent = x.mid().man_exp()
+    exact = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    scale = 10**DECIMALS
+    return fmpq((exact * scale + fmpq(1, 2)).floor(), scale)

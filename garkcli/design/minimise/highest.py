@@ -1,23 +1,291 @@
-"""The greatest level that a method has."""
+"""The greatest level that a method has, exactly.
+
+The level L(t) is the first y > 0 at which signs of polynomials p(y, t) end what holds from 0 on, or
+0, or infinite. Between the t of ``garkcli.exact.projection`` and those where a curve p = 0 has a
+horizontal tangent L is one branch of a curve, and that is monotone. So the greatest value is
+reached at such a t, or it is approached there without being reached: L may jump. At the t
+themselves, whatever their degree, L is that of ``garkcli.exact.fibre``.
+
+With a greatest value m of small degree that is then decided once more, without this argument:
+L − m has one sign between the t at which p(m, t) = 0 for some p, and one t each decides.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby, pairwise
+from typing import TypeAlias
 
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.member import member
+from garkcli.deadline import check_time
+from garkcli.design.design import Found
+from garkcli.design.member import member, method_at
 from garkcli.design.minimise.comparison import Comparison, at_root
-from garkcli.design.minimise.levels import MOST_DEGREE, height, on_levels
-from garkcli.design.minimise.objective import Level, Size
+from garkcli.design.minimise.line import Conditions, Toward
+from garkcli.design.minimise.objective import ORIGIN, Level, Signs, Size
 from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution
-from garkcli.design.step import Found
-from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.cells import Point, between, sign_of
+from garkcli.exact.fibre import Fibre, Root
+from garkcli.exact.field import ZERO
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import number_of
+from garkcli.exact.projection import PLANE, at_y, curves, in_t, in_y, projected, resultant
+from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
+
+TRIALS = 16
+"""Numbers below the greatest level at which a smaller one may be seen."""
+MOST_DEGREE = 6
+"""Greatest levels of a larger degree are not put into polynomials."""
+_Level: TypeAlias = "RealRoot | Root | None"
+"""A level; that on a fibre is known to any number of digits."""
+
+
+@dataclass(frozen=True)
+class HighAt:
+    """The greatest level, at an allowed number.
+
+    Attributes:
+        t: the number.
+        is_sample: whether it is one of an interval without critical numbers.
+    """
+
+    t: RealRoot
+    is_sample: bool = False
+
+
+@dataclass(frozen=True)
+class Levels:
+    """What there is to be compared.
+
+    Attributes:
+        greatest: the greatest level that is attained; None for infinity.
+        attained: where: at critical numbers and between them, once for each interval; nowhere where
+            no number is allowed.
+        limits: of a larger one that is approached where it is not attained.
+        is_decided: whether the level is known at every critical number.
+    """
+
+    greatest: Size
+    attained: tuple[HighAt, ...]
+    limits: tuple[Toward, ...]
+    is_decided: bool
+
+
+def height(level: Size) -> tuple[bool, RealRoot]:
+    """A key to compare levels by."""
+    return level is None, ORIGIN if level is None else level
+
+
+def on_levels(level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> Levels:
+    """The greatest level.
+
+    Args:
+        level: of one rational value of the parameter t, by the ordinary engine.
+        signs: what decides it in the plane.
+        allowed: which t.
+    """
+    line = _Line(level, signs, allowed)
+    attained = sorted(line.attained(), key=lambda pair: pair[0].t)
+    if not attained:
+        return Levels(ORIGIN, (), (), line.is_decided)
+    greatest, best = _greatest(attained)
+    limits: tuple[Toward, ...] = ()
+    if greatest is not None and line.may_exceed(greatest):
+        limits = tuple(
+            toward for toward in line.approached() if height(toward.value) > height(greatest)
+        )
+    return Levels(greatest, best, limits, line.is_decided)
+
+
+class _Line:
+    """The t-axis with what is critical on it."""
+
+    def __init__(self, level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> None:
+        self.level = level
+        self.signs = signs
+        self.allowed = allowed
+        self.curves = curves(signs.polynomials)
+        critical = [*projected(self.curves, [ZERO]), *_stationary(self.curves)]
+        self.critical = [*critical, *allowed.polynomials]
+        self.points = _roots(self.critical)
+        self.is_decided = True
+
+    def attained(self) -> Iterator[tuple[HighAt, _Level]]:
+        """The level at every critical number that is allowed, and at one of each interval; 0 at
+        irrational numbers where it is less than another one, or not decided.
+        """
+        irrational = []
+        most: Size = ORIGIN
+        for t in _in_turn(self.points):
+            check_time()
+            if not self.allowed.hold(t):
+                continue
+            is_sample = not isinstance(t, RealRoot)
+            root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
+            if root.exact is None:
+                irrational.append(root)
+                continue
+            level = self.level(root.exact)
+            most = max(most, level, key=height)
+            yield HighAt(root, is_sample), level
+        for root in irrational:
+            yield HighAt(root), ORIGIN if self._is_less(root, most) else self._at(root)
+
+    def _is_less(self, t: RealRoot, most: Size) -> bool:
+        """Whether some y below a level is seen not to be within that at a critical number."""
+        if most is None:
+            return True
+        top = between(ORIGIN, most) if most > ORIGIN else ZERO
+        for k in range(TRIALS, 0, -1):
+            y = top * k / TRIALS
+            signs = [sign_of(at_y(p, y), t) for p in self.signs.polynomials]
+            if y and not self.signs.holds(signs):
+                return True
+        return False
+
+    def _at(self, t: RealRoot) -> _Level:
+        """The level at a critical number."""
+        check_time()
+        fibre = Fibre(t, self.curves)
+        if self.signs.common and fibre.have_common_zero(self.signs.common):
+            self.is_decided = False
+            return ORIGIN
+        level = fibre.first_failure(self.signs.polynomials, self.signs.holds)
+        return RealRoot.rational(level) if isinstance(level, fmpq) else level
+
+    def may_exceed(self, m: RealRoot) -> bool:
+        """Whether levels between critical numbers may be larger than the greatest that is attained:
+        not where one number of each interval decides it.
+        """
+        if m.exact is not None:
+            crossing = [at_y(p, m.exact) for p in self.curves]
+        elif m.polynomial.degree() > MOST_DEGREE:
+            return True
+        else:
+            levels = PLANE.from_dict({(k, 0): fmpq(a) for k, a in enumerate(m.polynomial.coeffs())})
+            crossing = [in_t(resultant(levels, p) if p.degrees()[0] else p) for p in self.curves]
+        cells = _cells(_roots([*self.critical, *crossing]))
+        samples = (between(left, right) for left, right in cells)
+        return any(height(self.level(t)) > height(m) for t in samples if self.allowed.hold(t))
+
+    def approached(self) -> Iterator[Toward]:
+        """The limits at the ends of intervals at which the level may not be attained."""
+        for left, right in _cells(self.points):
+            if not self.allowed.hold(between(left, right)):
+                continue
+            for end, is_right in ((left, False), (right, True)):
+                is_kept = end is not None and self.signs.is_closed and self.allowed.hold(end)
+                if not is_kept:
+                    yield Toward(self._limit((left, right), is_right), end, is_right)
+
+    def _limit(self, cell: tuple[RealRoot | None, RealRoot | None], is_right: bool) -> Size:
+        """The limit of the level at an end of an interval.
+
+        It is a number where curves meet the line at the end, or 0 or infinity, and rational numbers
+        between these tell which: near enough to the end no curve has any of them as its y.
+        """
+        check_time()
+        end = cell[1] if is_right else cell[0]
+        meeting, gaps = self._meeting(end)
+        walls = [at_y(p, y) for p in self.curves for y in gaps]
+        left, right = cell
+        within = [
+            x for x in _roots(walls) if (left is None or left < x) and (right is None or x < right)
+        ]
+        ends = [left, *within, right]
+        start, stop = ends[-2:] if is_right else ends[:2]
+        level = self.level(between(start, stop))
+        if level is None:
+            return None
+        below = sum(1 for y in gaps if RealRoot.rational(y) < level)
+        if below == 0:
+            return ORIGIN
+        if below > len(meeting):
+            return None
+        limit = meeting[below - 1]
+        return limit.exact if isinstance(limit, Root) else limit
+
+    def _meeting(self, end: RealRoot | None) -> tuple[Sequence[RealRoot | Root], list[fmpq]]:
+        """Where curves meet the line at an end, and a number before, between and behind these."""
+        if end is not None:
+            fibre = Fibre(end, self.curves)
+            return fibre.roots, fibre.gaps
+        # at infinity the coefficients of the highest powers of t
+        roots = [y for y in _roots(map(_highest, self.curves)) if y > ORIGIN]
+        ends = [ORIGIN, *roots, None]
+        return roots, [between(a, b) for a, b in pairwise(ends)]
+
+
+def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[HighAt, ...]]:
+    """The greatest of levels, and where it is: of each run of neighbours one, of intervals the
+    shortest number.
+    """
+    exact: list[Size] = []
+    most: Size = ORIGIN
+    for _, level in attained:
+        if isinstance(level, Root):
+            # most are smaller by their first digits
+            is_less = most is None or level.ball(FIRST_BITS) < most.ball(FIRST_BITS)
+            level = ORIGIN if is_less else level.exact
+        exact.append(level)
+        most = max(most, level, key=height)
+    pairs = zip((one for one, _ in attained), exact, strict=True)
+    best = []
+    for is_greatest, run in groupby(pairs, key=lambda pair: pair[1] == most):
+        if is_greatest:
+            best.append(min((one for one, _ in run), key=_length))
+    return most, tuple(best)
+
+
+def _highest(p: fmpq_mpoly) -> Polynomial:
+    """The coefficient of the highest power of t, a polynomial in y."""
+    _, highest = p.degrees()
+    terms: dict[tuple[int, ...], fmpq] = {
+        (j, 0): a for (j, k), a in p.to_dict().items() if k == highest
+    }
+    return in_y(PLANE.from_dict(terms))
+
+
+def _stationary(of_curves: Iterable[fmpq_mpoly]) -> Iterator[Polynomial]:
+    """Where a curve has a horizontal tangent, as polynomials in t."""
+    for curve in of_curves:
+        by_t = curve.derivative(1)
+        if by_t and curve.degrees()[0]:
+            tangent = in_t(resultant(curve, by_t))
+            if tangent:
+                yield tangent
+
+
+def _roots(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
+    roots: set[RealRoot] = set()
+    for p in polynomials:
+        if p:
+            roots.update(root for root, _ in real_roots(p))
+    return sorted(roots)
+
+
+def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot | None]]:
+    """The open intervals between points."""
+    ends = [None, *points, None]
+    return list(pairwise(ends))
+
+
+def _length(one: HighAt) -> tuple[bool, int]:
+    """Samples first, short ones first."""
+    t = one.t.exact
+    bits = 0 if t is None else int(t.p).bit_length() + int(t.q).bit_length()
+    return not one.is_sample, bits
+
+
+def _in_turn(points: Sequence[RealRoot]) -> Iterator[Point]:
+    """A number of each cell and the points between them, in ascending order."""
+    for left, right in _cells(points):
+        yield between(left, right)
+        if right is not None:
+            yield right
 
 
 @dataclass
@@ -36,11 +304,11 @@ class Highest(Comparison):
         return self.objective.shown(value)
 
     def value_of(self, solution: Solution, index: int) -> Size:
-        values = _embedded(solution, index)
-        if values is None:
-            raise TooLarge
         ring = self.design.family.ring
-        return self.objective.value(member(self.design.tableau, ring, values))
+        tableau = method_at(self.design.tableau, ring, solution, solution.real[index])
+        if tableau is None:
+            raise TooLarge
+        return self.objective.value(tableau)
 
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
@@ -60,17 +328,16 @@ class Highest(Comparison):
             return self.objective.value(member(tableau, part.ring, {name: t}))
 
         signs = self.objective.signs(tableau, part.ring)
-        found = on_levels(level, signs, self.conditions(part))
-        if not found.is_decided:
+        levels = on_levels(level, signs, self.conditions(part))
+        if not levels.is_decided:
             self.extent = "found"
-        for one in found.attained:
-            solution = self.whole(part, at_root(name, one.t))
-            known = Found(solution, None, (one.t.number,))
+        for high in levels.attained:
+            solution = self.whole(part, at_root(name, high.t))
+            method = Found(solution, None, (high.t.number,))
             # between critical numbers levels are monotone: the greatest is one of a constant
-            is_constant = one.is_sample and not found.limits
-            candidate = Candidate(found.greatest, known, one.t.number, is_constant)
-            self.candidates.append(candidate)
-        for toward in found.limits:
+            is_constant = high.is_sample and not levels.limits
+            self.candidates.append(Candidate(levels.greatest, method, high.t.number, is_constant))
+        for toward in levels.limits:
             self.limits.append(Limit(toward.value, name, toward))
 
     def over_variety(self, part: Part) -> None:
@@ -84,17 +351,3 @@ class Highest(Comparison):
 
 class TooLarge(Exception):
     """A number field is too large for the engines of stability."""
-
-
-def _embedded(solution: Solution, index: int) -> dict[str, Number] | None:
-    """The values of one method as real numbers; None where their field is too large."""
-    u = number_of(solution.real[index], MOST_DEGREE)
-    if u is None:
-        return None
-    values: dict[str, Number] = {}
-    for name, x in solution.values.items():
-        if isinstance(x, Algebraic):
-            values[name] = Polynomial.from_flint(x.poly)(u)
-        else:
-            values[name] = x
-    return values

@@ -99,7 +99,9 @@ def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Conditions)
     """
     common = gcd(numerator, denominator)
     N, D = numerator // common, denominator // common
-    gradient = _derivative(N, D)
+    gradient = N.derivative() * D - N * D.derivative()
+    if gradient:
+        gradient //= gcd(gradient, D * D)
     value = _value(N, D)
     attained: dict[RealRoot, At] = {}
     limits = []
@@ -120,15 +122,6 @@ def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Conditions)
     return OnLine(tuple(attained.values()), tuple(limits), gradient)
 
 
-def _derivative(N: Polynomial, D: Polynomial) -> Polynomial:
-    """The numerator of (N/D)′ in lowest terms."""
-    numerator = N.derivative() * D - N * D.derivative()
-    if not numerator:
-        return numerator
-    square = D * D
-    return numerator // gcd(numerator, square)
-
-
 def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
     """N/D at a number that is no zero of D."""
 
@@ -138,9 +131,7 @@ def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
             return RealRoot.rational(cast("fmpq", quotient))
         modulus = Polynomial.from_flint(t.polynomial).monic().to_flint()
         field = NumberField(modulus, ())
-        over = field.element(N.to_flint())
-        under = field.element(D.to_flint())
-        return value_at(over / under, t)
+        return value_at(field.element(N.to_flint()) / field.element(D.to_flint()), t)
 
     return value
 

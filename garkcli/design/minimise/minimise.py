@@ -11,16 +11,14 @@ from __future__ import annotations
 from time import monotonic
 
 from garkcli.deadline import seconds_left, until, within
-from garkcli.design.design import Design
+from garkcli.design.design import Design, Step
 from garkcli.design.minimise.comparison import Comparison
-from garkcli.design.minimise.coordinates import nodes_as_coordinates
 from garkcli.design.minimise.highest import Highest
 from garkcli.design.minimise.objective import Either, Level, Objective
-from garkcli.design.minimise.parts import Part, parts_of
-from garkcli.design.minimise.registry import find_objective
+from garkcli.design.minimise.objectives import OBJECTIVES
+from garkcli.design.minimise.parts import nodes_as_coordinates, parts_of
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
-from garkcli.design.step import Step
 from garkcli.errors import UsageProblem
 
 SHARE = 0.25
@@ -52,7 +50,7 @@ def minimise(
 
     Args:
         design: of a family.
-        objective: what is to be small, or its name: one of ``registry.OBJECTIVES``.
+        objective: what is to be small, or its name: one of ``OBJECTIVES``.
         seconds: after which it is given up; None for never.
 
     Raises:
@@ -68,32 +66,24 @@ def minimise(
         )
     step = step_to_minimise(design)
     if isinstance(objective, str):
-        objective = find_objective(objective)
-    comparison = _comparison(design, step, objective)
+        objective = OBJECTIVES[objective]
+    if isinstance(objective, Either):
+        objective = objective.meant(design.tableau)
+    comparison: Comparison
+    if isinstance(objective, Level):
+        comparison = Highest(design, step, objective)
+    else:
+        comparison = Smallest(design, step, objective)
     with within(seconds):
         left = seconds_left()
         comparison.share = None if left is None else monotonic() + SHARE * left
         if step.kind == "solutions":
             comparison.selection()
         else:
-            comparison.parts += _parts(design, step, comparison.share)
+            assert step.ideal is not None
+            nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
+            with until(comparison.share):
+                comparison.parts += parts_of(step.ideal, nodes)
             for part in comparison.parts:
                 comparison.over(part)
         return comparison.result()
-
-
-def _parts(design: Design, step: Step, share: float | None) -> list[Part]:
-    """The parts of a solution set."""
-    assert step.ideal is not None
-    nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
-    with until(share):
-        return list(parts_of(step.ideal, nodes))
-
-
-def _comparison(design: Design, step: Step, objective: Objective | Level | Either) -> Comparison:
-    """How methods are compared."""
-    if isinstance(objective, Either):
-        objective = objective.meant(design.tableau)
-    if isinstance(objective, Level):
-        return Highest(design, step, objective)
-    return Smallest(design, step, objective)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from garkcli.design.design import Design
+from garkcli.design.design import Design, Found, Step
 from garkcli.design.minimise.line import Toward
 from garkcli.design.minimise.objective import Level, Objective
-from garkcli.design.step import Found, Step
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.upward import Shown

@@ -6,42 +6,50 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import combinations
-from typing import Any, cast
+from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, until
-from garkcli.design.member import member
-from garkcli.design.minimise.bound import is_nowhere_less
+from garkcli.design.design import Found
+from garkcli.design.member import member, not_negative
 from garkcli.design.minimise.comparison import Comparison, at_root
 from garkcli.design.minimise.critical import (
     critical_equations,
+    critical_point_near,
     is_of_one_dimension,
     without_factors,
 )
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.parts import Part, parts_within
-from garkcli.design.minimise.refining import critical_point_near
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution, value_at
-from garkcli.design.step import Found
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, between
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import in_one
+from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, is_nowhere_negative
 from garkcli.exact.roots import RealRoot
 
 
-def _order(a: RealRoot, b: RealRoot) -> int:
-    """Larger where it is smaller."""
-    return (a < b) - (b < a)
+def is_nowhere_less(numerator: fmpq_mpoly, denominator: fmpq_mpoly, m: fmpq) -> bool | None:
+    """Whether N/D ≥ m on the plane; None where that would take too long.
+
+    Args:
+        numerator: N, in two variables.
+        denominator: D.
+        m: the bound.
+    """
+    difference = _in_plane(numerator - denominator * m)
+    if any(p.total_degree() > MOST_DEGREE for p in curves([difference])):
+        return None
+    return is_nowhere_negative(difference * _in_plane(denominator))
 
 
-def _smallness(value: Size) -> Any:
-    """Larger for smaller values."""
-    assert value is not None
-    return cmp_to_key(_order)(value)
+def _in_plane(p: fmpq_mpoly) -> fmpq_mpoly:
+    """The same with the names of ``PLANE``."""
+    return PLANE.from_dict(dict(p.to_dict()))
 
 
 CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
@@ -54,6 +62,13 @@ MOST_COORDINATES = 4
 """Coordinates of which the objective is written out as a function."""
 SHORT = 64
 """Bits of a rational value up to which it is a bound itself."""
+
+
+def _larger_first(a: Size, b: Size) -> int:
+    """Which of two values comes first in descending order."""
+    assert a is not None
+    assert b is not None
+    return (a < b) - (b < a)
 
 
 def _is_short(best: RealRoot) -> bool:
@@ -99,23 +114,19 @@ class Smallest(Comparison):
             return True
         if not part.is_free or part.dimension > 2:
             return False
-        value = _bound(best)
-        numerator, denominator = self._formula(part)
-        return bool(is_nowhere_less(numerator, denominator, value))
+        return bool(is_nowhere_less(*self._formula(part), _bound(best)))
 
     def value_of(self, solution: Solution, index: int) -> Size:
         ring = self.design.family.ring
         tableau = member(self.design.tableau, ring, solution.values)
-        made = self.objective.formula(tableau, self.step.order, None)
-        number = made.numerator / made.denominator
-        return value_at(number, solution.real[index])
+        quotient = self.objective.formula(tableau, self.step.order, None)
+        return value_at(quotient.numerator / quotient.denominator, solution.real[index])
 
     def _formula(self, part: Part) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """The objective as a function of the coordinates of a part."""
-        tableau = self.tableau(part)
-        made = self.objective.formula(tableau, self.step.order, part.ring)
-        quotient = part.ring.quotient(made.numerator, made.denominator)
-        return fraction(quotient, part.ring)
+        quotient = self.objective.formula(self.tableau(part), self.step.order, part.ring)
+        lowest = part.ring.quotient(quotient.numerator, quotient.denominator)
+        return fraction(lowest, part.ring)
 
     def over_line(self, part: Part) -> None:
         """All candidates of a part with one free coordinate."""
@@ -123,17 +134,17 @@ class Smallest(Comparison):
         allowed = self.conditions(part)
         numerator, denominator = self._formula(part)
         N, D = in_one(numerator), in_one(denominator)
-        found = on_line(N, D, allowed)
-        self.gradients.append((name, found.gradient))
-        if not found.gradient:
+        values = on_line(N, D, allowed)
+        self.gradients.append((name, values.gradient))
+        if not values.gradient:
             for interval in allowed.intervals:
                 self._over_interval(part, name, interval)
             return
-        for one in found.attained:
-            solution = self.whole(part, at_root(name, one.t))
-            known = Found(solution, None, (one.t.number,))
-            self.candidates.append(Candidate(one.value, known, one.t.number))
-        for toward in found.limits:
+        for low in values.attained:
+            solution = self.whole(part, at_root(name, low.t))
+            method = Found(solution, None, (low.t.number,))
+            self.candidates.append(Candidate(low.value, method, low.t.number))
+        for toward in values.limits:
             self.limits.append(Limit(toward.value, name, toward))
 
     def _over_interval(self, part: Part, name: str, interval: Interval) -> None:
@@ -163,14 +174,14 @@ class Smallest(Comparison):
             check_time()
             self._by_trial(part)
             return
-        for end in (*self.design.family.not_negative, *self.ends()):
+        for end in not_negative(self.design.family):
             edge, _ = fraction(part.expressed(end, self.design.family.ring), part.ring)
             if not edge.is_constant():
                 self._over_smaller(part, [edge])
 
     def _by_trial(self, part: Part) -> None:
         """A good method by trial, or a better one next to a critical point near it."""
-        point = self.tried(part, _smallness)
+        point = self.tried(part, cmp_to_key(_larger_first))
         if point is None:
             return
         numerator, denominator = self._formula(part)

@@ -1,4 +1,12 @@
-"""Points that solve a system: how they may move, and Newton's method to any number of digits."""
+"""Points that solve a system: how they may move, Newton's method to any number of digits, and
+proofs that a solution exists, by Krawczyk's test in ball arithmetic.
+
+For a square system F, a point m, a matrix Y near F'(m)⁻¹ and a box X around m:
+
+    K(X) = m − Y F(m) + (I − Y F'(X)) (X − m).
+
+If K(X) lies in the interior of X, F has exactly one zero in X (R. Krawczyk, 1969; R. Moore, 1977).
+"""
 
 from __future__ import annotations
 
@@ -8,13 +16,14 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.deadline import check_time
-from garkcli.design.search.rational import RationalFunction, as_ball, as_float
+from garkcli.design.search.rational import RationalFunction, as_ball, as_float, over_box
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from garkcli.design.search.rational import Array
-    from garkcli.design.search.residuals import Generators, Residuals
+    from garkcli.design.search.rational import Array, System
+    from garkcli.design.search.residuals import Residuals
+
 
 RANK = 1e-7
 """Pivots smaller than this, times the largest, are taken for rounding."""
@@ -38,7 +47,7 @@ class Fixings:
     """The conditions of a family together with values for some functions.
 
     Args:
-        conditions: of the family.
+        conditions: of a family, or any equations.
         fixed: functions with their values.
         trials: values of one more function, one for each point.
         function: that function.
@@ -46,7 +55,7 @@ class Fixings:
 
     def __init__(
         self,
-        conditions: Residuals | Generators,
+        conditions: Residuals | System,
         fixed: Sequence[Fixed] = (),
         function: RationalFunction | None = None,
         trials: Sequence[fmpq] = (),
@@ -197,3 +206,49 @@ def largest_residual(system: Fixings, x: Array) -> arb:
         if not upper <= largest:  # also where it is no number
             largest = upper
     return largest
+
+
+def is_proved(
+    system: Fixings, point: Array, bits: int, nonzero: Sequence[RationalFunction] = ()
+) -> bool:
+    """Whether there is a solution of all equations within 2^(−bits/2) of a point.
+
+    Args:
+        system: as many equations as unknowns, else the answer is no: a solution of some of the
+            equations proves nothing of the others.
+        point: a column of balls without radius.
+        bits: of the arithmetic.
+        nonzero: functions that are not to be zero at the solution.
+    """
+    check_time()
+    with ctx.workprec(bits):
+        residuals, jacobians = system.at(point)
+        equations, unknowns, _ = jacobians.shape
+        if equations != unknowns:
+            return False
+        radius = arb(1) / arb(2) ** (bits // 2)
+        offsets = arb_mat([[arb(0, radius)] for _ in range(unknowns)])
+        box = point.copy()
+        for j in range(unknowns):
+            box[j, 0] = point[j, 0] + offsets[j, 0]
+        if any(over_box(function, box).contains(0) for function in nonzero):
+            return False
+        _, slopes = system.at(box)
+        try:
+            inverse = _midpoints(_matrix(jacobians)).inv()
+        except ZeroDivisionError:
+            return False
+        inverse = _midpoints(inverse)
+        unit = arb_mat([[int(i == j) for j in range(unknowns)] for i in range(unknowns)])
+        values = arb_mat([[value] for value in residuals[:, 0]])
+        contraction = unit - inverse * _matrix(slopes)
+        image = contraction * offsets - inverse * values  # K(X) − m
+        return all(bool(abs(entry) < radius) for entry in image.entries())
+
+
+def _matrix(jacobians: Array) -> Any:
+    return arb_mat([list(row) for row in jacobians[:, :, 0]])
+
+
+def _midpoints(matrix: Any) -> Any:
+    return arb_mat([[x.mid() for x in row] for row in matrix.tolist()])

@@ -8,7 +8,7 @@ same to the last bit on every machine with IEEE arithmetic.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -109,6 +109,32 @@ class RationalFunction:
             change = of_p.at(points, constant) - value * of_q.at(points, constant)
             derivatives.append((unknown, change / q))
         return Slope(value, tuple(derivatives))
+
+
+def polynomial_functions(
+    polynomials: Iterable[fmpq_mpoly], ring: Parameters
+) -> list[RationalFunction]:
+    """Polynomials as functions of the unknowns."""
+    one = ring.constant(fmpq(1))
+    return [RationalFunction(ring.quotient(p, one), ring) for p in polynomials]
+
+
+def over_box(function: RationalFunction, box: Array) -> arb:
+    """The value over a column of balls; that of a constant is one number, not one a point."""
+    value: Any = function.at(box, as_ball).value
+    ball: arb = value if isinstance(value, arb) else value[0]
+    return ball
+
+
+class System:
+    """Equations: functions that are to be zero."""
+
+    def __init__(self, functions: list[RationalFunction]) -> None:
+        self.functions = functions
+
+    def at(self, points: Array) -> tuple[Array, Array]:
+        """Values, shape (functions, points), and derivatives, (functions, unknowns, points)."""
+        return with_gradients(self.functions, points)
 
 
 def with_gradients(functions: Sequence[RationalFunction], points: Array) -> tuple[Array, Array]:

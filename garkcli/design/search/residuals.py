@@ -17,8 +17,10 @@ from garkcli.design.search.rational import (
     Constant,
     RationalFunction,
     Slope,
+    System,
     as_ball,
     as_float,
+    polynomial_functions,
     with_gradients,
 )
 from garkcli.exact.parametric import Parameters
@@ -53,10 +55,8 @@ class Residuals:
         self.unknowns = len(ring.names)
         self.table = TreeTable.upto(tableau.size, order, edges, linear)
         self.blocks = {key: _functions(block, ring) for key, block in tableau.blocks.items()}
-        weights = [colour.b for colour in tableau.colours]
-        self.weights = [_functions([row], ring)[0] for row in weights]
-        one = ring.constant(fmpq(1))
-        self.more = [RationalFunction(ring.quotient(x, one), ring) for x in more]
+        self.weights = _functions([colour.b for colour in tableau.colours], ring)
+        self.more = polynomial_functions(more, ring)
 
     def __len__(self) -> int:
         return len(self.table) + len(self.more)
@@ -78,7 +78,7 @@ class Residuals:
         return _Evaluation(self, points).run()
 
 
-class Generators:
+class Generators(System):
     """Polynomials that generate all order conditions of a family, none of them zero, each once.
 
     They are fewer than the trees: what is proved of all of them is proved of all conditions.
@@ -96,12 +96,10 @@ class Generators:
     def __init__(
         self, tableau: Tableau, ring: Parameters, order: int, more: Sequence[fmpq_mpoly] = ()
     ) -> None:
-        one = ring.constant(fmpq(1))
         conditions = FamilyConditions(tableau, ring)
         polynomials = list(more)
         for k in range(1, order + 1):
             polynomials += [x.polynomial for x in conditions.of_order(k)]
-        self.functions: list[RationalFunction] = []
         known: list[fmpq_mpoly] = []
         for polynomial in polynomials:
             if not polynomial:
@@ -109,15 +107,8 @@ class Generators:
             monic = polynomial / polynomial.leading_coefficient()
             if monic not in known:
                 known.append(monic)
-                number = ring.quotient(monic, one)
-                self.functions.append(RationalFunction(number, ring))
-        self.denominators = [
-            RationalFunction(ring.quotient(d, one), ring) for d in conditions.denominators
-        ]
-
-    def at(self, points: Array) -> tuple[Array, Array]:
-        """Values and derivatives as those of ``Residuals.at``; points are balls."""
-        return with_gradients(self.functions, points)
+        super().__init__(polynomial_functions(known, ring))
+        self.denominators = polynomial_functions(conditions.denominators, ring)
 
 
 def _functions(rows: Sequence[Sequence[object]], ring: Parameters) -> list[list[RationalFunction]]:

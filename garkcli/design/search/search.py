@@ -7,26 +7,72 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from flint import arb, fmpq, fmpq_mpoly
+from flint import arb, ctx, fmpq, fmpq_mpoly
 
-from garkcli.design.admissible import is_admissible
-from garkcli.design.design import TABLEAUS, Whose, order_of
-from garkcli.design.member import value_of
-from garkcli.design.search.inside import Inside
-from garkcli.design.search.krawczyk import is_proved
+from garkcli.design.design import TABLEAUS, Found, Whose, order_of
+from garkcli.design.member import is_admissible, not_negative, value_of
 from garkcli.design.search.least_squares import least_squares
-from garkcli.design.search.points import Fixings, polished
-from garkcli.design.search.rational import RationalFunction, as_float
+from garkcli.design.search.points import Fixings, is_proved, polished
+from garkcli.design.search.rational import (
+    RationalFunction,
+    as_float,
+    over_box,
+    polynomial_functions,
+)
 from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution
-from garkcli.design.step import Found
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
+
+
+Answer: TypeAlias = Literal["yes", "open", "no"]
+
+
+class Signs:
+    """What the methods of a family are beside solutions of its equations: ranges and signs.
+
+    Args:
+        family: of methods.
+        bits: of the points; what is said is said of all numbers within 2^(−bits/2) of one.
+    """
+
+    def __init__(self, family: Family, bits: int) -> None:
+        self.family = family
+        self.bits = bits
+        self.nonzero = polynomial_functions(family.nonzero, family.ring)
+        self.positive = polynomial_functions(family.positive, family.ring)
+        self.not_negative = polynomial_functions(not_negative(family), family.ring)
+
+    def decided(self, x: Array) -> Answer:
+        """Whether all numbers near a point are so; open where only something that must not be
+        negative may be zero.
+
+        Args:
+            x: a column of balls without radius.
+        """
+        with ctx.workprec(self.bits):
+            box = x + arb(0, arb(1) / arb(2) ** (self.bits // 2))
+            values = dict(zip(self.family.ring.names, box[:, 0], strict=True))
+            for radical in self.family.radicals:
+                meant = radical.meant
+                if meant is None:
+                    continue
+                if not meant.ball(self.bits // 2).overlaps(values[radical.name]):
+                    return "no"
+            if any(over_box(f, box).contains(0) for f in self.nonzero):
+                return "no"
+            if not all(over_box(f, box) > 0 for f in self.positive):
+                return "no"
+            signs = [over_box(f, box) for f in self.not_negative]
+            if any(value < 0 for value in signs):
+                return "no"
+            return "yes" if all(value >= 0 for value in signs) else "open"
+
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
 """What is known of a find: its exact order; that there is one; that residuals are small."""
@@ -165,20 +211,19 @@ class Search:
 
     def _inexact(self, start: int, system: Fixings, x: Array) -> Find | None:
         """A find whose numbers are not known exactly."""
-        answer = self._inside.decided(x)
+        answer = self._signs.decided(x)
         if answer == "no":
             return None
-        generators = self._generators
-        proving = Fixings(generators, system.fixed)
+        proving = Fixings(self._generators, system.fixed)
         proof: Proof = "numerical"
-        if answer == "yes" and is_proved(proving, x, BITS, generators.denominators):
+        if answer == "yes" and is_proved(proving, x, BITS, self._generators.denominators):
             proof = "exists"
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
         return Find(start, proof, self.order, None, digits)
 
     @cached_property
-    def _inside(self) -> Inside:
-        return Inside(self.family, BITS)
+    def _signs(self) -> Signs:
+        return Signs(self.family, BITS)
 
     @cached_property
     def _generators(self) -> Generators:
@@ -224,8 +269,7 @@ class Search:
         ring = self.family.ring
         if any(value_of(x, ring, solution.values) for x in self._relations):
             return None
-        nonzero = self.family.nonzero
-        if not all(value_of(p, ring, solution.values) for p in nonzero):
+        if not all(value_of(p, ring, solution.values) for p in self.family.nonzero):
             return None
         if not is_admissible(self.family, solution, guess.root):
             return None

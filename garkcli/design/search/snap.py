@@ -109,7 +109,12 @@ def fixed_nearby(
             break
         present = _value(function, x)
         value = next(
-            (fmpq(round(present * q), q) for q in DENOMINATORS if _is_near(present, q)), None
+            (
+                fmpq(round(present * q), q)
+                for q in DENOMINATORS
+                if abs(present - round(present * q) / q) < NEAR
+            ),
+            None,
         )
         if value is None:
             continue
@@ -119,10 +124,6 @@ def fixed_nearby(
             fixed = more
             known += 1
     return fixed
-
-
-def _is_near(present: float, q: int) -> bool:
-    return abs(present - round(present * q) / q) < NEAR
 
 
 def _value(function: RationalFunction, x: Array) -> float:

@@ -1,0 +1,298 @@
+"""What may be minimised, by its name: an entry each of ``OBJECTIVES``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import chain, islice
+from typing import Any
+
+from flint import fmpq, fmpq_mat, fmpq_mpoly
+
+from garkcli.deadline import check_time
+from garkcli.design.member import member
+from garkcli.design.minimise.objective import Either, Level, Objective, Signs, Size
+from garkcli.design.minimise.squared_error import Quotient, squared_coupling_error, squared_error
+from garkcli.design.stability_kinds import oscillator_curves, squared_modulus
+from garkcli.design.step_plane import largest_degree, step_plane, through, values_without
+from garkcli.errors import UsageProblem
+from garkcli.exact.cells import first_end
+from garkcli.exact.field import ONE
+from garkcli.exact.matrix import Matrix, identity
+from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.projection import PLANE
+from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
+from garkcli.stability.linear import imaginary_set, real_set, stability_function
+from garkcli.stability.oscillator import oscillator_stability
+from garkcli.stability.ssp import conditions_at, ssp_coefficient
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.tableau import Tableau
+
+
+def is_linear(tableau: Tableau) -> bool:
+    """Whether the linear test equation has a meaning: every stage sees every colour, and all drive
+    all unknowns.
+    """
+    spaces = range(len(tableau.spaces))
+    colours = range(tableau.size)
+    is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
+    return is_complete and not tableau.is_partitioned
+
+
+def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """R = P/Q on the linear test equation, as polynomials in y for z and t.
+
+    Raises:
+        UsageProblem: it has no meaning for the method.
+    """
+    refuse_partitioned(tableau)
+    fields: list[Matrix] = [((ONE,),)] * tableau.size
+    plane = step_plane(tableau, ring, fields)
+    return plane.numerators[0][0], plane.denominator
+
+
+def refuse_partitioned(tableau: Tableau) -> None:
+    """The linear test equation needs stages that see every vector field.
+
+    Raises:
+        UsageProblem: some do not.
+    """
+    if not is_linear(tableau):
+        raise UsageProblem(
+            "the linear test equation has no meaning for it: some stages do not see every"
+            " vector field",
+            "minimise -oscillator-interval",
+            code="wanted-without-meaning",
+        )
+
+
+def in_plane(
+    tableau: Tableau,
+    ring: Parameters,
+    entries: Sequence[object],
+    size: int,
+    decided: Callable[[Tableau], Sequence[Polynomial]],
+) -> list[fmpq_mpoly]:
+    """Polynomials in y for each value of a parameter t as polynomials in y and t.
+
+    Args:
+        tableau: of one parameter.
+        ring: that.
+        entries: of the tableau.
+        size: the degree in the entries that the polynomials have at most.
+        decided: the polynomials in y of one method.
+    """
+    [name] = ring.names
+    denominator = common_denominator(entries, ring)
+    degree = size * largest_degree(entries, denominator, ring)
+    points = list(islice(values_without(denominator), degree + 1))
+    rows: list[Sequence[Polynomial]] = []
+    for t in points:
+        check_time()
+        scale = fmpq(denominator(t)) ** size
+        found = decided(member(tableau, ring, {name: t}))
+        rows.append([p * scale for p in found])
+    return [through(points, values) for values in zip(*rows, strict=True)]
+
+
+def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
+    if tableau.size == 1:
+        raise UsageProblem(
+            "error-coupling: the method has one colour, and no tree has two",
+            "minimise error",
+            code="wanted-without-meaning",
+        )
+    return squared_coupling_error(tableau, order + 1, ring)
+
+
+def _squared_coefficients(tableau: Tableau, _order: int, ring: Parameters | None) -> Quotient:
+    """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
+
+    At nodes T is the identity; in a polynomial space it makes the sum rational where the nodes are
+    not.
+    """
+    total: Any = fmpq(0)
+    inverses = [_inverse(_traces(space)) for space in tableau.spaces]
+    for colour in tableau.colours:
+        total = total + _product(colour.b, inverses[colour.space], colour.b)
+    for (k, m), block in tableau.blocks.items():
+        T = _traces(tableau.spaces[k])
+        inverse = inverses[tableau.colours[m].space]
+        for i, row in enumerate(block):
+            for j, other in enumerate(block):
+                if T[i][j]:
+                    total = total + _product(row, inverse, other) * T[i][j]
+    if ring is None:
+        return Quotient(total, ONE)
+    return Quotient(*fraction(total, ring))
+
+
+def _traces(space: StageSpace) -> Matrix:
+    """T."""
+    s = space.stages
+    if not isinstance(space, PolynomialSpace):
+        return identity(s)
+    # the sum of f over the nodes is the trace of multiplication by f
+    powers = list(zip(*space.reductions(3 * s - 2), strict=True))
+    sums = [sum(powers[k + i][i] for i in range(s)) for k in range(2 * s - 1)]
+    return tuple(tuple(sums[i : i + s]) for i in range(s))
+
+
+def _inverse(T: Matrix) -> Matrix:
+    s = len(T)
+    entries: list[Any] = list(chain.from_iterable(T))
+    inverse = fmpq_mat(s, s, entries).inv()
+    return tuple(map(tuple, inverse.tolist()))
+
+
+def _product(left: Any, matrix: Matrix, right: Any) -> Any:
+    """The number left · matrix · rightᵀ."""
+    total: Any = fmpq(0)
+    for x, line in zip(left, matrix, strict=True):
+        for a, y in zip(line, right, strict=True):
+            if a and x and y:
+                total = total + x * y * a
+    return total
+
+
+def _ssp(tableau: Tableau) -> Size:
+    found = ssp_coefficient(tableau)
+    if found is None:
+        raise UsageProblem(
+            "-ssp: some blocks are missing, or the nodes have no simple radicals",
+            "spell the tableau out",
+            code="no-radicals",
+        )
+    return found.value
+
+
+def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """det(I + rK) and det(I + rK) (I + rK)⁻¹ v are of degree one in each row of K."""
+    if not all(isinstance(x, PointSpace) for x in tableau.spaces):
+        raise UsageProblem(
+            "-ssp: families by name have no rational entries",
+            "spell the tableau out, stage by stage",
+            code="no-radicals",
+        )
+    rows = chain.from_iterable(tableau.blocks.values())
+    entries = list(chain.from_iterable(rows))
+    for colour in tableau.colours:
+        entries += colour.b
+    size = 2 + sum(space.stages for space in tableau.spaces)
+    return Signs([p for p in in_plane(tableau, ring, entries, size, conditions_at) if p])
+
+
+def _real(tableau: Tableau) -> Size:
+    refuse_partitioned(tableau)
+    return first_end(real_set(stability_function(tableau)))
+
+
+def _real_signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """Q² − P² at −y; it is negative at a pole."""
+    P, Q = fraction_in_plane(tableau, ring)
+    y, t = PLANE.gens()
+    P, Q = P.compose(-y, t), Q.compose(-y, t)
+    return Signs([(Q - P) * (Q + P)])
+
+
+def _imaginary(tableau: Tableau) -> Size:
+    refuse_partitioned(tableau)
+    return first_end(imaginary_set(stability_function(tableau)))
+
+
+def _imaginary_signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """|Q|² − |P|² in the square of the imaginary part; it is negative at a pole."""
+    P, Q = fraction_in_plane(tableau, ring)
+    return Signs([squared_modulus(Q) - squared_modulus(P)])
+
+
+def _problem(tableau: Tableau) -> Oscillator:
+    problem = Oscillator.default(terms_of(tableau), fmpq(1))
+    check_structure(tableau, problem)
+    return problem
+
+
+def _oscillator(tableau: Tableau) -> Size:
+    return first_end(oscillator_stability(tableau, _problem(tableau)).stable)
+
+
+def _oscillator_signs(tableau: Tableau, ring: Parameters) -> Signs:
+    """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
+    problem = _problem(tableau)
+    fields = [problem.matrix(colour) for colour in tableau.colours]
+    conditions, others = oscillator_curves(step_plane(tableau, ring, fields))
+    poles, _, _, upper, lower = others
+    polynomials = [poles, *conditions, upper, lower]
+    return Signs(polynomials, _is_bounded, is_closed=False, common=others)
+
+
+def _is_bounded(signs: Sequence[int]) -> bool:
+    """Whether all powers of the step are bounded: no pole, no eigenvalue outside the unit circle,
+    and no double one ±1 that makes them grow.
+    """
+    pole, area, right, left, upper, lower = signs
+    if not pole or min(area, right, left) < 0:
+        return False
+    is_double = area == 0 and 0 in (right, left)
+    return not is_double or upper == lower == 0
+
+
+OSCILLATOR_INTERVAL = Level(
+    "-oscillator-interval",
+    "the z such that all powers of the step are bounded on the oscillator for hω ≤ z",
+    _oscillator,
+    _oscillator_signs,
+    is_square=True,
+)
+"""E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, section I.5.2."""
+REAL_INTERVAL = Level(
+    "-real-interval",
+    "the x with |R| ≤ 1 on [−x, 0], the vector fields all equal",
+    _real,
+    _real_signs,
+    claim="real-stability",
+)
+"""E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2."""
+
+OBJECTIVES: dict[str, Objective | Level | Either] = {
+    objective.key: objective
+    for objective in (
+        # E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.3
+        Objective(
+            "error",
+            "Σ e(u)² over the trees of order {next}, e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u)",
+            lambda tableau, order, ring: squared_error(tableau, order + 1, ring),
+        ),
+        Objective(
+            "error-coupling",
+            "Σ e(u)² over the trees of order {next} with more than one colour,"
+            " e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u)",
+            _coupling_error,
+        ),
+        Objective(
+            "coefficients",
+            "Σ a² + Σ b² over all coefficients of all blocks and weights",
+            _squared_coefficients,
+        ),
+        # J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991
+        Level("-ssp", "the SSP coefficient", _ssp, _ssp_signs, claim="ssp-coefficient"),
+        Either(
+            "-stability-interval",
+            lambda tableau: REAL_INTERVAL if is_linear(tableau) else OSCILLATOR_INTERVAL,
+        ),
+        REAL_INTERVAL,
+        # E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2
+        Level(
+            "-imaginary-interval",
+            "the y with |R| ≤ 1 on [−iy, iy], the vector fields all equal",
+            _imaginary,
+            _imaginary_signs,
+            is_square=True,
+            claim="imaginary-stability",
+        ),
+        OSCILLATOR_INTERVAL,
+    )
+}
+"""Every one of them by its key, in the order of the documentation."""
