@@ -137,7 +137,7 @@ def _reports() -> Any:
 
 
 def _forms() -> Any:
-    from garkcli.conversion.registry import TARGETS
+    from garkcli.conversion.targets import TARGETS
 
     return TARGETS
 

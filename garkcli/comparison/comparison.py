@@ -9,10 +9,8 @@ from flint import fmpq
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.deciding import analyse
-from garkcli.comparison.differences import BlockGap, block_gaps
-from garkcli.comparison.grid import Grid
-from garkcli.comparison.likeness import Likeness
-from garkcli.comparison.met import Met, conditions_met
+from garkcli.comparison.differences import BlockGap, Met, block_gaps, conditions_met
+from garkcli.comparison.grid import Grid, Likeness
 from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO
@@ -21,7 +19,7 @@ from garkcli.order.deciding import AnyOrder
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.meant import AnyTableau, meant
+from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -185,8 +183,7 @@ def _linear(method: GarkMethod) -> tuple[bool, ...]:
 
 
 def _analysed(method: GarkMethod, limit: int) -> Analysis:
-    further = method.further
-    return analyse(method.tableau, limit, method.tolerance, further=further)
+    return analyse(method.tableau, limit, method.tolerance, further=method.further)
 
 
 def _decided(gaps: tuple[BlockGap, ...], answer: Answer) -> tuple[BlockGap, ...]:
@@ -199,8 +196,7 @@ def _decided(gaps: tuple[BlockGap, ...], answer: Answer) -> tuple[BlockGap, ...]
 
 def form_of(tableau: Tableau) -> str:
     """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones."""
-    parts = [colour.part for colour in tableau.colours]
-    if parts == ["q", "p"]:
+    if [colour.part for colour in tableau.colours] == ["q", "p"]:
         return "prk"
     if tableau.is_partitioned:
         return "pair"
@@ -219,8 +215,8 @@ def _orders(one: Analysis, other: Analysis) -> tuple[OrderPair, ...]:
     )
 
 
-def _of_embedded(found: Analysis) -> AnyOrder | None:
-    return None if found.embedded is None else found.embedded.order
+def _of_embedded(analysis: Analysis) -> AnyOrder | None:
+    return None if analysis.embedded is None else analysis.embedded.order
 
 
 def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Grid) -> Met | None:
@@ -228,23 +224,20 @@ def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Gr
     if answer.sameness is not None or first.size != second.size:
         return None
     upto = max(one.order.order, other.order.order) + 1
-    return conditions_met(_side(one), _side(other), upto)
-
-
-def _side(found: Analysis) -> AnyTableau:
-    return meant(found.tableau, found.tolerance)
+    methods = [meant(x.tableau, x.tolerance) for x in (one, other)]
+    return conditions_met(methods[0], methods[1], upto)
 
 
 def _properties(one: Analysis, other: Analysis) -> tuple[PropertyPair, ...]:
-    found = []
+    different = []
     for key in KEYS:
         first, second = one.subject.verdict(key), other.subject.verdict(key)
         if _text(first) != _text(second):
-            found.append(PropertyPair(key, first, second))
+            different.append(PropertyPair(key, first, second))
     if one.symplectic != other.symplectic:
         verdicts = Verdict(one.symplectic), Verdict(other.symplectic)
-        found.append(PropertyPair("symplectic", *verdicts))
-    return tuple(found)
+        different.append(PropertyPair("symplectic", *verdicts))
+    return tuple(different)
 
 
 def _text(verdict: Verdict) -> tuple[str, bool, bool]:

@@ -1,16 +1,20 @@
-"""Where the entries of two methods differ, and by how much."""
+"""Where the entries of methods differ, and order conditions that one of them meets alone."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from flint import arb
 
-from garkcli.comparison.grid import DIGITS, CellRows, Grid, difference
-from garkcli.comparison.likeness import Likeness
+from garkcli.comparison.grid import DIGITS, CellRows, Grid, Likeness, difference
 from garkcli.exact.display import to_ball
+from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
+from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.count import count_by_root
+from garkcli.trees.tree import Tree
 
 
 @dataclass(frozen=True)
@@ -87,8 +91,7 @@ def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]
         ("embedded", one.embedded, other.embedded),
     ):
         yield from compare.weights(kind, 0, first, second)
-    degree = max(len(one.powers), len(other.powers))
-    for k in range(degree):
+    for k in range(max(len(one.powers), len(other.powers))):
         first_power = one.powers[k] if k < len(one.powers) else None
         other_power = other.powers[k] if k < len(other.powers) else None
         yield from compare.weights("dense", k + 1, first_power, other_power)
@@ -106,8 +109,7 @@ class _Compare:
         """Weights or nodes of all colours, which one of the methods may lack."""
         if one is None and other is None:
             return
-        colours = range(len(one or other or ()))
-        for l in colours:
+        for l in range(len(one or other or ())):
             first = None if one is None else (one[l],)
             second = None if other is None else (other[l],)
             place = BlockGap(kind, l, power=power)
@@ -123,10 +125,8 @@ class _Compare:
             yield _at(place, shapes=shapes)
             return
         gaps: list[EntryGap] = []
-        pairs = zip(one, other, strict=True)
-        for i, (first, second) in enumerate(pairs):
-            entries = zip(first, second, strict=True)
-            for j, (x, y) in enumerate(entries):
+        for i, (first, second) in enumerate(zip(one, other, strict=True)):
+            for j, (x, y) in enumerate(zip(first, second, strict=True)):
                 alike = self.likeness.cells(x, y)
                 if alike is not True:
                     row = None if is_row else i
@@ -153,3 +153,87 @@ def _shape(block: Block, is_row: bool) -> str:
         return str(len(block[0]))
     columns = len(block[0]) if block else 0
     return f"{len(block)} by {columns}"
+
+
+MAX_CONDITIONS = 2000
+"""More conditions are not compared, of all orders together."""
+
+
+@dataclass(frozen=True)
+class Met:
+    """Conditions of some orders that two methods do not meet alike.
+
+    Attributes:
+        order: all conditions up to this order were compared.
+        pairs: for each tree with one verdict for each method the two conditions.
+    """
+
+    order: int
+    pairs: tuple[tuple[Condition, Condition], ...]
+
+    @property
+    def first_only(self) -> tuple[tuple[Condition, Condition], ...]:
+        """What the first method meets and the second does not."""
+        return tuple(x for x in self.pairs if x[0].holds)
+
+    @property
+    def second_only(self) -> tuple[tuple[Condition, Condition], ...]:
+        """What the second method meets and the first does not."""
+        return tuple(x for x in self.pairs if x[1].holds)
+
+
+def conditions_met(one: AnyTableau, other: AnyTableau, upto: int) -> Met:
+    """The conditions that one method meets and the other does not.
+
+    Args:
+        one: a method.
+        other: another with the same number of colours.
+        upto: the highest order of interest; fewer are compared where there are more than
+            ``MAX_CONDITIONS`` conditions.
+    """
+    tableau = printed(one)
+    graph = _common_graph(tableau, printed(other))
+    roots = _common_roots(tableau, printed(other))
+    pairs: list[tuple[Condition, Condition]] = []
+    reached, total = 0, 0
+    for order in range(1, upto + 1):
+        by_root = count_by_root(tableau.size, order, *graph)
+        total += sum(by_root[root] for root in roots)
+        if total > MAX_CONDITIONS:
+            break
+        trees = list(_trees(tableau.size, order, graph, roots))
+        for first, second in zip(conditions(one, trees), conditions(other, trees), strict=True):
+            if first.holds != second.holds:
+                pairs.append((first, second))
+        reached = order
+    return Met(reached, tuple(pairs))
+
+
+_Graph = tuple[tuple[tuple[bool, ...], ...], frozenset[int]]
+
+
+def _common_graph(one: Tableau, other: Tableau) -> _Graph:
+    """Which trees both methods admit."""
+    edges, linear = coupling_graph(one)
+    others, linear_too = coupling_graph(other)
+    both = tuple(
+        tuple(x and y for x, y in zip(row, second, strict=True))
+        for row, second in zip(edges, others, strict=True)
+    )
+    return both, linear | linear_too
+
+
+def _common_roots(one: Tableau, other: Tableau) -> list[int]:
+    """Root colours, one of each group whose conditions are the same in both methods."""
+    twins = twin_roots(one)
+    if twins == twin_roots(other):
+        return list(twins)
+    return list(range(one.size))
+
+
+def _trees(colours: int, order: int, graph: _Graph, roots: Sequence[int]) -> Iterator[Tree]:
+    from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
+
+    edges, linear = graph
+    for block in iter_blocks(colours, order, edges=edges, linear=linear, roots=roots):
+        yield from block.trees()

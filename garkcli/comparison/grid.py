@@ -1,4 +1,7 @@
-"""Methods as they are compared: colour by colour, entry by entry."""
+"""Methods as they are compared, colour by colour and entry by entry.
+
+Two entries count as the same exactly, or within the rounding that their files admit.
+"""
 
 from __future__ import annotations
 
@@ -6,17 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
-from garkcli.conversion.sheet import (
-    CannotConvert,
-    Rows,
-    Sheet,
-    each_its_own,
-    in_one_field,
-    sheet_of,
-)
+from garkcli.conversion.sheet import CannotConvert, Sheet, each_its_own, in_one_field, sheet_of
 from garkcli.exact.display import to_ball
+from garkcli.exact.field import ZERO
+from garkcli.order.tolerance import within
+from garkcli.tableau.embedded import Weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import Block, Cell, Row, entries
 
@@ -93,8 +92,7 @@ def common_sheets(one: GarkMethod, other: GarkMethod) -> tuple[Sheet, Sheet] | N
     where the nodes of one have no simple radicals.
     """
     try:
-        sheets = [sheet_of(one), sheet_of(other)]
-        first, second = in_one_field(sheets)
+        first, second = in_one_field([sheet_of(one), sheet_of(other)])
     except CannotConvert:
         return None
     return each_its_own(first), each_its_own(second)
@@ -108,28 +106,22 @@ def grid_of(sheet: Sheet) -> Grid:
         A=tuple(tuple(tableau.block(l, m) for m in colours) for l in colours),
         b=tuple(colour.b for colour in tableau.colours),
         c=tuple(colour.c for colour in tableau.colours),
-        embedded=sheet.embedded,
-        powers=sheet.powers,
+        embedded=sheet.further.embedded,
+        powers=sheet.further.powers,
         linear=tuple(colour.is_linear for colour in tableau.colours),
     )
 
 
 def enclosed_grid(method: GarkMethod) -> Grid:
     """The entries as enclosures, good to ``DIGITS`` digits."""
-    found = entries(method.tableau, DIGITS).in_decimals(DIGITS)
-    powers: list[CellRows] = []
-    if method.dense is not None:
-        dense = method.dense
-        numbers = range(1, dense.degree + 1)
-        powers = [_enclosed(dense.coefficients(k)) for k in numbers]
-    embedded = None
-    if method.embedded is not None:
-        embedded = _enclosed(method.embedded)
+    cells = entries(method.tableau, DIGITS).in_decimals(DIGITS)
+    powers = tuple(map(_enclosed, method.further.powers))
+    embedded = None if method.embedded is None else _enclosed(method.embedded)
     linear = tuple(colour.is_linear for colour in method.tableau.colours)
-    return Grid(found.A, found.b, found.c, embedded, tuple(powers), linear)
+    return Grid(cells.A, cells.b, cells.c, embedded, powers, linear)
 
 
-def _enclosed(rows: Rows) -> CellRows:
+def _enclosed(rows: Weights) -> CellRows:
     return tuple(tuple(to_ball(x, DIGITS) for x in row) for row in rows)
 
 
@@ -143,3 +135,59 @@ def difference(one: Cell, other: Cell) -> Cell:
 
 def _ball(cell: Cell) -> arb:
     return cell if isinstance(cell, arb) else to_ball(cell, DIGITS)
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """Equality of entries.
+
+    Attributes:
+        allowed: how far rounding may have moved two equal entries apart; 0 where both are exact.
+    """
+
+    allowed: fmpq = ZERO
+
+    def cells(self, one: Cell, other: Cell) -> bool | None:
+        """Whether two entries are alike; None where enclosures leave it open."""
+        gap = difference(one, other)
+        if not isinstance(gap, arb):
+            return within(gap, self.allowed)
+        size = abs(gap)
+        if size <= self.allowed:
+            return True
+        return False if size > self.allowed else None
+
+    def rows(self, one: Row, other: Row) -> bool:
+        """Whether rows of one length may be alike, entry by entry."""
+        return all(self.cells(x, y) is not False for x, y in zip(one, other, strict=True))
+
+    def blocks(self, one: Block, other: Block) -> bool:
+        """Whether blocks may be alike: both missing, or alike entry by entry."""
+        if one is None or other is None:
+            return one is other
+        return all(self.rows(x, y) for x, y in zip(one, other, strict=True))
+
+    def grids(self, one: Grid, other: Grid) -> bool:
+        """Whether methods may be alike, stage by stage."""
+        if not have_one_shape(one, other):
+            return False
+        if not all(self.rows(x, y) for x, y in zip(_all_rows(one), _all_rows(other), strict=True)):
+            return False
+        return all(self.blocks(x, y) for x, y in zip(one.blocks, other.blocks, strict=True))
+
+
+def have_one_shape(one: Grid, other: Grid) -> bool:
+    """Whether methods have the same colours, stages and kinds of weights."""
+    if one.stages != other.stages or one.linear != other.linear:
+        return False
+    if (one.embedded is None) != (other.embedded is None):
+        return False
+    return len(one.powers) == len(other.powers)
+
+
+def _all_rows(grid: Grid) -> list[Row]:
+    """Nodes and weights of all kinds."""
+    rows = [*grid.c, *grid.b]
+    for weights in grid.further:
+        rows += weights
+    return rows

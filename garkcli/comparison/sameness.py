@@ -1,25 +1,145 @@
-"""In what sense two methods are the same one."""
+"""In what sense two methods are the same one: which renumbering turns one into the other."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import permutations
+from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.comparison.grid import Grid, common_sheets, enclosed_grid, grid_of
-from garkcli.comparison.likeness import Likeness
-from garkcli.comparison.matching import Images, find_matching
-from garkcli.conversion.sheet import CannotConvert, Rows, Sheet, of_weights
-from garkcli.conversion.stage_classes import stage_classes
+from garkcli.comparison.grid import (
+    Grid,
+    Likeness,
+    common_sheets,
+    enclosed_grid,
+    grid_of,
+    have_one_shape,
+)
+from garkcli.conversion.sheet import CannotConvert, Sheet, of_weights
+from garkcli.conversion.stages import stage_classes
 from garkcli.errors import LimitExceeded
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix
 from garkcli.properties.reduction import reduced
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.pointwise import Row
 from garkcli.tableau.tableau import Edge, Tableau
+
+Stage: TypeAlias = tuple[int, int]
+"""A stage: its colour, and its number there."""
+Images: TypeAlias = tuple[tuple[int, ...], ...]
+"""For each colour the stages of the other method that its stages are."""
+_Classes: TypeAlias = tuple[Mapping[Stage, int], Mapping[Stage, int]]
+_Candidates: TypeAlias = dict[Stage, list[int]]
+MAX_TRIALS = 3000
+"""So many stages are tried before the search ends."""
+
+
+def find_matching(
+    one: Grid, other: Grid, likeness: Likeness, classes: _Classes | None = None
+) -> Images | None:
+    """The stages of ``other`` that the stages of ``one`` are; None where no renumbering does it.
+
+    Args:
+        one: a method.
+        other: another.
+        likeness: when entries count as the same.
+        classes: stages in different classes are known to be different.
+
+    Raises:
+        LimitExceeded: more than ``MAX_TRIALS`` stages were tried.
+    """
+    if not have_one_shape(one, other):
+        return None
+    candidates: _Candidates = {}
+    for l, stages in enumerate(one.stages):
+        for i in range(stages):
+            own = _own(one, l, i)
+            candidates[l, i] = []
+            for j in range(stages):
+                if _are_apart(classes, (l, i), (l, j)):
+                    continue
+                if likeness.rows(own, _own(other, l, j)):
+                    candidates[l, i].append(j)
+    search = _Search(one, other, likeness)
+    chosen = next(search.completions(candidates, {}), None)
+    if chosen is None:
+        return None
+    return tuple(tuple(chosen[l, i] for i in range(stages)) for l, stages in enumerate(one.stages))
+
+
+def _are_apart(classes: _Classes | None, stage: Stage, other: Stage) -> bool:
+    """Whether classes are known, and tell two stages apart."""
+    if classes is None:
+        return False
+    first, second = classes
+    return first[stage] != second[other]
+
+
+def _own(grid: Grid, l: int, i: int) -> Row:
+    """What a stage has by itself: its node and its weights of all kinds."""
+    return grid.c[l][i], grid.b[l][i], *[weights[l][i] for weights in grid.further]
+
+
+class _Search:
+    """Depth first, the stage with the fewest candidates next."""
+
+    def __init__(self, one: Grid, other: Grid, likeness: Likeness) -> None:
+        self.one = one
+        self.other = other
+        self.likeness = likeness
+        self.trials = 0
+
+    def completions(
+        self, candidates: _Candidates, chosen: dict[Stage, int]
+    ) -> Iterator[dict[Stage, int]]:
+        """All ways to choose for the other stages too."""
+        if not candidates:
+            yield chosen
+            return
+        stage = min(candidates, key=lambda x: (len(candidates[x]), x))
+        for j in candidates[stage]:
+            self.trials += 1
+            if self.trials > MAX_TRIALS:
+                raise LimitExceeded(
+                    f"more than {MAX_TRIALS} renumberings of stages",
+                    "compare the canonical forms",
+                    code="too-many",
+                )
+            if not self._fits(stage, j, stage, j):
+                continue
+            rest = self._narrowed(candidates, stage, j)
+            if all(rest.values()):
+                yield from self.completions(rest, {**chosen, stage: j})
+
+    def _narrowed(self, candidates: _Candidates, stage: Stage, image: int) -> _Candidates:
+        """What is left for the other stages."""
+        rest: _Candidates = {}
+        for other, images in candidates.items():
+            if other == stage:
+                continue
+            is_same_colour = other[0] == stage[0]
+            rest[other] = []
+            for j in images:
+                is_taken = is_same_colour and j == image
+                if not is_taken and self._fits(stage, image, other, j):
+                    rest[other].append(j)
+        return rest
+
+    def _fits(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:
+        """Whether two stages see each other as their images do."""
+        return self._sees(x, image_x, y, image_y) and self._sees(y, image_y, x, image_x)
+
+    def _sees(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:
+        (l, i), (m, j) = x, y
+        block, other = self.one.A[l][m], self.other.A[l][m]
+        if block is None or other is None:
+            return block is other
+        return self.likeness.cells(block[i][j], other[image_x][image_y]) is not False
+
 
 MOST_COLOURS = 5
 """With more colours no other order of them is tried."""
@@ -107,15 +227,15 @@ def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmp
     if views.sheets is None and _same_algebra(one.tableau, other.tableau):
         return Answer(_plainly(views.one))
     try:
-        found = _found(views, ZERO) or _once_reduced(views)
-        if found is None and allowed:
-            found = _found(views, allowed)
+        same = _as_they_are(views, ZERO) or _once_reduced(views)
+        if same is None and allowed:
+            same = _as_they_are(views, allowed)
     except LimitExceeded as error:
         return Answer(None, error.message)
-    if found is not None and views.sheets is None and not found.allowed:
+    if same is not None and views.sheets is None and not same.allowed:
         # enclosures that overlap prove nothing
         return Answer(None, "the nodes have no simple radicals")
-    return Answer(found)
+    return Answer(same)
 
 
 def _plainly(grid: Grid) -> Sameness:
@@ -137,42 +257,40 @@ def _same_algebra(one: Tableau, other: Tableau) -> bool:
     return one.blocks == other.blocks
 
 
-def _found(views: Views, allowed: fmpq) -> Sameness | None:
+def _as_they_are(views: Views, allowed: fmpq) -> Sameness | None:
     """The methods as they are, with their further weights or without."""
     one, other = views.one, views.other
-    found = _matched(one, other, allowed, views.sheets)
+    same = _matched(one, other, allowed, views.sheets)
     has_further = one.further or other.further
-    if found is not None or not has_further:
-        return found
-    steps = None
-    if views.sheets is not None:
-        steps = _steps(views.sheets)
+    if same is not None or not has_further:
+        return same
+    steps = None if views.sheets is None else _steps(views.sheets)
     one, other = one.of_the_step, other.of_the_step
     return _marked(_matched(one, other, allowed, steps), step_only=True)
 
 
-def _marked(found: Sameness | None, **marks: bool) -> Sameness | None:
+def _marked(same: Sameness | None, **marks: bool) -> Sameness | None:
     """The same with what has to be said of it."""
-    return None if found is None else replace(found, **marks)  # type: ignore[arg-type]
+    return None if same is None else replace(same, **marks)  # type: ignore[arg-type]
 
 
 def _once_reduced(views: Views) -> Sameness | None:
     """The same of what is left of the methods when they are reduced."""
     if views.sheets is None:
         return None
-    found = _matched_when_reduced(views.sheets)
+    same = _matched_when_reduced(views.sheets)
     has_further = views.one.further or views.other.further
-    if found is None and has_further:
-        found = _matched_when_reduced(_steps(views.sheets))
-        found = _marked(found, step_only=True)
-    return _marked(found, is_reduced=True)
+    if same is None and has_further:
+        same = _matched_when_reduced(_steps(views.sheets))
+        same = _marked(same, step_only=True)
+    return _marked(same, is_reduced=True)
 
 
 def _matched_when_reduced(sheets: tuple[Sheet, Sheet]) -> Sameness | None:
     smaller = _smaller(sheets)
     if smaller is None:
         return None
-    one, other = _grids(smaller)
+    one, other = map(grid_of, smaller)
     return _matched(one, other, ZERO, smaller)
 
 
@@ -184,20 +302,14 @@ def _smaller(sheets: tuple[Sheet, Sheet]) -> tuple[Sheet, Sheet] | None:
         other = of_weights(second, reduced)
     except CannotConvert:
         return None
-    is_changed = one.tableau != first.tableau
-    if is_changed or other.tableau != second.tableau:
-        return one, other
-    return None
+    is_changed = one.tableau != first.tableau or other.tableau != second.tableau
+    return (one, other) if is_changed else None
 
 
 def _steps(sheets: tuple[Sheet, Sheet]) -> tuple[Sheet, Sheet]:
     """The same without further weights."""
     one, other = sheets
     return Sheet(one.tableau), Sheet(other.tableau)
-
-
-def _grids(sheets: tuple[Sheet, Sheet]) -> tuple[Grid, Grid]:
-    return grid_of(sheets[0]), grid_of(sheets[1])
 
 
 def _matched(
@@ -229,8 +341,7 @@ def _orders(one: Grid, other: Grid) -> Iterator[tuple[int, ...]]:
         yield colours
         return
     for order in permutations(colours):
-        stages = tuple(other.stages[l] for l in order)
-        if stages == one.stages:
+        if tuple(other.stages[l] for l in order) == one.stages:
             yield order
 
 
@@ -239,8 +350,8 @@ def _classes(
 ) -> tuple[Mapping[tuple[int, int], int], Mapping[tuple[int, int], int]]:
     """Classes of stages of the first method and of the second with its colours in an order."""
     turned = _with_colours(other, order)
-    has_alike = one.has_embedded == turned.has_embedded
-    if not has_alike or len(one.further) != len(turned.further):
+    has_embedded = [x.further.embedded is not None for x in (one, turned)]
+    if len({*has_embedded}) > 1 or len(one.further.rows) != len(turned.further.rows):
         one, turned = _steps((one, turned))
     first, second = stage_classes([one, turned])
     return first, second
@@ -257,11 +368,5 @@ def _with_colours(sheet: Sheet, order: tuple[int, ...]) -> Sheet:
     blocks: dict[Edge, Matrix] = {}
     for (l, m), block in old.blocks.items():
         blocks[place[l], place[m]] = block
-    spaces = tuple(old.spaces[l] for l in order)
-    tableau = Tableau(spaces, tuple(colours), blocks)
-    further = [_chosen(rows, order) for rows in sheet.further]
-    return replace(sheet, tableau=tableau, further=tuple(further))
-
-
-def _chosen(rows: Rows, order: tuple[int, ...]) -> Rows:
-    return tuple(rows[l] for l in order)
+    tableau = Tableau(tuple(old.spaces[l] for l in order), tuple(colours), blocks)
+    return Sheet(tableau, sheet.further.of_colours(order))

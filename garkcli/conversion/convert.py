@@ -6,10 +6,8 @@ from dataclasses import dataclass, replace
 
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
-from garkcli.conversion.padding import padded
-from garkcli.conversion.registry import TARGETS, target
-from garkcli.conversion.sheet import CannotConvert, Sheet
-from garkcli.conversion.target import Target
+from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
+from garkcli.conversion.targets import TARGETS, Target
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
@@ -18,8 +16,33 @@ from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import can_spell_out, write_method
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.tableau.embedded import Further
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
+
+
+def padded(sheet: Sheet, stages: int) -> Sheet:
+    """The method with as many stages a colour, the new ones first, with zeros.
+
+    A new stage is at the node 0, sees nothing and has no weight: its value is that before the step.
+    In front of the others it leaves explicit methods explicit, diagonally implicit ones diagonally
+    implicit, and last stages last.
+
+    Raises:
+        CannotConvert: a colour has more stages already.
+    """
+    spaces: list[list[Place]] = []
+    for k, space in enumerate(sheet.tableau.spaces):
+        missing = stages - space.stages
+        if missing < 0:
+            raise CannotConvert(
+                f"a colour has {space.stages} stages, more than {stages}",
+                "--to canonical leaves out those without influence",
+                code="too-many",
+            )
+        places: list[Place] = [None] * missing
+        places += [(k, i) for i in range(space.stages)]
+        spaces.append(places)
+    return arranged(sheet, spaces)
+
 
 KEPT = ("description", "reference")
 """What a file says of its method whatever form it has."""
@@ -64,7 +87,7 @@ def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = No
     """
     if to not in TARGETS:
         raise UsageProblem(f"no form {to!r}", did_you_mean(to, TARGETS), code="unknown-word")
-    goal = target(to)
+    goal = TARGETS[to]
     sheet = goal.convert(method)
     if stages is not None:
         sheet = padded(sheet, stages)
@@ -75,8 +98,7 @@ def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = No
             "--to gark has all of its colours",
         )
     text = _with_head(_written(method, goal, sheet), method)
-    had_further = method.embedded is not None or method.dense is not None
-    loses_further = had_further and not sheet.further
+    loses_further = bool(method.further) and not sheet.further
     if not isinstance(method, MethodFile):
         return Converted(loads(text), (), loses_further)
     return replace(_claimed(text, method, goal), loses_further=loses_further)
@@ -88,8 +110,7 @@ def _written(method: GarkMethod, goal: Target, sheet: Sheet) -> str:
     name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
         name = derived_name(goal.name, name)
-    further = Further(sheet.embedded, sheet.dense)
-    return write_method(sheet.tableau, name, method.tolerance, further)
+    return write_method(sheet.tableau, name, method.tolerance, sheet.further)
 
 
 def _with_head(text: str, method: GarkMethod) -> str:
@@ -118,7 +139,5 @@ def _failing(method: MethodFile) -> set[str]:
     if not method.claims:
         return set()
     reach = max(DEFAULT_LIMIT, highest_order(method.claims) + 1)
-    further = method.further
-    analysis = analyse(method.tableau, reach, method.tolerance, further=further)
-    claims = verify(method.claims, analysis)
-    return {claim.claim for claim in claims if not claim.holds}
+    analysis = analyse(method.tableau, reach, method.tolerance, further=method.further)
+    return {claim.claim for claim in verify(method.claims, analysis) if not claim.holds}

@@ -4,20 +4,73 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import TypeAlias
 
-from garkcli.conversion.one_field import OneField, all_numbers
 from garkcli.errors import LimitExceeded, MethodError
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.domain import Domain
+from garkcli.exact.field import ZERO, Algebraic, Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.tableau.embedded import DenseOutput
+from garkcli.exact.nodes import Expression
+from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
-Rows: TypeAlias = tuple[Vector, ...]
-"""A row of weights a colour, one weight a stage of that colour."""
+
+class OneField:
+    """The smallest field that holds all of some numbers, and the map into it.
+
+    Numbers can be added when they come from one ``NumberField`` object; those of two
+    files never do, though both may be in ℚ(√3).
+
+    Args:
+        numbers: from any fields; None of them needs to be irrational.
+
+    Raises:
+        LimitExceeded: together they generate too large a field.
+
+    >>> from garkcli.exact.expression import parse
+    >>> c = [parse(text) for text in ("sqrt(12)", "2*sqrt(3)", "sqrt(5)")]
+    >>> one, other, third = (Domain([x]).evaluate(x) for x in c)
+    >>> into = OneField([one, other, third])
+    >>> into.number(one) == into.number(other)
+    True
+    >>> into.number(one) * into.number(third)
+    2*sqrt(3)*sqrt(5)
+    """
+
+    def __init__(self, numbers: Iterable[Number]) -> None:
+        irrational = (x for x in numbers if isinstance(x, Algebraic))
+        fields = {id(x.field): x.field for x in irrational}.values()
+        self._images: dict[int, list[Number]] = {}
+        self._fields = fields  # kept, so that ids stay theirs
+        if len(fields) < 2:
+            return
+        radicals: list[Expression] = []
+        for field in fields:
+            radicals += [radical for radical, _ in field.radicals]
+        domain = Domain(radicals)
+        for field in fields:
+            self._images[id(field)] = [domain.evaluate(x) for x, _ in field.radicals]
+
+    def number(self, number: Number) -> Number:
+        """The same number in the common field."""
+        if not isinstance(number, Algebraic) or not self._images:
+            return number
+        image: Number = with_radicals(number, self._images[id(number.field)])
+        return image
+
+    def vector(self, row: Sequence[Number]) -> Vector:
+        """A row, number by number."""
+        return tuple(map(self.number, row))
+
+    def matrix(self, rows: Sequence[Sequence[Number]]) -> Matrix:
+        """A block, number by number."""
+        return tuple(map(self.vector, rows))
+
+
 Place: TypeAlias = tuple[int, int] | None
 """A stage (space, number) of the method before; None for one that is added, with zeros."""
 
@@ -34,35 +87,11 @@ class Sheet:
 
     Attributes:
         tableau: over point spaces, all numbers from one field.
-        further: rows of weights besides b: the embedded ones, then the coefficients of θ, θ², …
-            of the dense ones; a row a colour each.
-        has_embedded: whether the first of these are embedded ones.
+        further: its embedded weights and its dense output.
     """
 
     tableau: Tableau
-    further: tuple[Rows, ...] = ()
-    has_embedded: bool = False
-
-    @property
-    def embedded(self) -> Rows | None:
-        """The embedded weights; None where there are none."""
-        return self.further[0] if self.has_embedded else None
-
-    @property
-    def powers(self) -> tuple[Rows, ...]:
-        """What stands before θ, θ², … in the dense weights."""
-        return self.further[1:] if self.has_embedded else self.further
-
-    @property
-    def dense(self) -> DenseOutput | None:
-        """The dense weights; None where there are none."""
-        if not self.powers:
-            return None
-        weights = []
-        for l in range(self.tableau.size):
-            rows = [power[l] for power in self.powers]
-            weights.append(tuple(zip(*rows, strict=True)))
-        return DenseOutput(tuple(weights))
+    further: Further = NOTHING
 
 
 def sheet_of(method: GarkMethod) -> Sheet:
@@ -78,19 +107,7 @@ def sheet_of(method: GarkMethod) -> Sheet:
             "gark tableau --format yaml --digits 17 writes decimals",
             code="no-radicals",
         )
-    has_embedded = method.embedded is not None
-    sheet = Sheet(exact, _further(method), has_embedded)
-    return in_one_field([sheet])[0]
-
-
-def _further(method: GarkMethod) -> tuple[Rows, ...]:
-    rows: list[Rows] = []
-    if method.embedded is not None:
-        rows.append(method.embedded)
-    if method.dense is not None:
-        powers = range(1, method.dense.degree + 1)
-        rows += [method.dense.coefficients(power) for power in powers]
-    return tuple(rows)
+    return in_one_field([Sheet(exact, method.further)])[0]
 
 
 def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
@@ -99,11 +116,9 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
     Raises:
         CannotConvert: the numbers generate too large a field.
     """
-    rows: list[Vector] = []
-    for sheet in sheets:
-        rows += all_rows(sheet)
+    rows = chain.from_iterable(map(all_rows, sheets))
     try:
-        field = OneField(all_numbers(rows))
+        field = OneField(chain.from_iterable(rows))
     except LimitExceeded as error:
         raise CannotConvert(
             f"the numbers have no common field: {error.message}",
@@ -122,22 +137,17 @@ def all_rows(sheet: Sheet) -> Iterator[Vector]:
         yield colour.c
     for block in sheet.tableau.blocks.values():
         yield from block
-    for rows in sheet.further:
+    for rows in sheet.further.rows:
         yield from rows
 
 
 def _mapped(sheet: Sheet, field: OneField) -> Sheet:
     """The sheet with each number as it is in a larger field."""
     old = sheet.tableau
-    spaces = [PointSpace(field.vector(space.nodes)) for space in old.spaces]
-    colours = []
-    for colour in old.colours:
-        b, c = field.vector(colour.b), field.vector(colour.c)
-        colours.append(replace(colour, b=b, c=c))
+    spaces = tuple(PointSpace(field.vector(space.nodes)) for space in old.spaces)
+    colours = tuple(replace(x, b=field.vector(x.b), c=field.vector(x.c)) for x in old.colours)
     blocks = {key: field.matrix(block) for key, block in old.blocks.items()}
-    tableau = Tableau(tuple(spaces), tuple(colours), blocks)
-    further = tuple(field.matrix(rows) for rows in sheet.further)
-    return replace(sheet, tableau=tableau, further=further)
+    return Sheet(Tableau(spaces, colours, blocks), sheet.further.changed(field.number))
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
@@ -151,75 +161,55 @@ def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[i
     Raises:
         CannotConvert: a new space has stages that see a colour, and others that do not.
     """
-    old = sheet.tableau
-    made = [PointSpace(_nodes(old, places)) for places in spaces]
+    further = len(sheet.further.rows)
+
+    def change(tableau: Tableau) -> Tableau:
+        return _regrouped(tableau, spaces, [*homes] * (1 + further))
+
+    return of_weights(sheet, change)
+
+
+def _regrouped(old: Tableau, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Tableau:
+    """The same of a tableau, whose colours need not be seen."""
     colours = []
     for l, colour in enumerate(old.colours):
         places = spaces[homes[l]]
         b = _chosen(colour.b, colour.space, places)
-        c = _nodes_of(old, colour, places)
-        colours.append(replace(colour, space=homes[l], b=b, c=c))
+        colours.append(replace(colour, space=homes[l], b=b, c=_nodes_of(old, colour, places)))
     blocks: dict[Edge, Matrix] = {}
     for k, places in enumerate(spaces):
         for m, home in enumerate(homes):
             block = _block(old, m, places, spaces[home])
             if block is not None:
                 blocks[k, m] = block
-    tableau = Tableau(tuple(made), tuple(colours), blocks)
-    places_of = [spaces[home] for home in homes]
-    further = [_weights(old, rows, places_of) for rows in sheet.further]
-    return replace(sheet, tableau=tableau, further=tuple(further))
-
-
-def _weights(tableau: Tableau, rows: Rows, places_of: Sequence[Sequence[Place]]) -> Rows:
-    """Weights at the new stages of each colour."""
-    found = []
-    for l, colour in enumerate(tableau.colours):
-        row = _chosen(rows[l], colour.space, places_of[l])
-        found.append(row)
-    return tuple(found)
+    made = tuple(PointSpace(_nodes(old, places)) for places in spaces)
+    return Tableau(made, tuple(colours), blocks)
 
 
 def arranged(sheet: Sheet, spaces: Sequence[Sequence[Place]]) -> Sheet:
     """The method with the stages of each space arranged anew, its colours where they are."""
-    homes = [colour.space for colour in sheet.tableau.colours]
-    return regrouped(sheet, spaces, homes)
+    return regrouped(sheet, spaces, [colour.space for colour in sheet.tableau.colours])
 
 
 def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
     """The nodes of stages; 0 at those that are added."""
-    nodes: list[Number] = []
-    for place in places:
-        if place is None:
-            nodes.append(ZERO)
-        else:
-            space, stage = place
-            nodes.append(tableau.spaces[space].nodes[stage])
-    return tuple(nodes)
+    return tuple(
+        ZERO if place is None else tableau.spaces[place[0]].nodes[place[1]] for place in places
+    )
 
 
 def _nodes_of(tableau: Tableau, colour: Colour, places: Sequence[Place]) -> Vector:
     """The same, for the stages of a colour those that the colour has."""
     nodes = list(_nodes(tableau, places))
     for new, place in enumerate(places):
-        if place is None:
-            continue
-        space, stage = place
-        if space == colour.space:
-            nodes[new] = colour.c[stage]
+        if place is not None and place[0] == colour.space:
+            nodes[new] = colour.c[place[1]]
     return tuple(nodes)
 
 
 def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:
     """A row over the stages of one space; 0 at all others."""
-    chosen: list[Number] = []
-    for place in places:
-        if place is None or place[0] != space:
-            chosen.append(ZERO)
-        else:
-            _, stage = place
-            chosen.append(row[stage])
-    return tuple(chosen)
+    return tuple(ZERO if place is None or place[0] != space else row[place[1]] for place in places)
 
 
 def _block(
@@ -243,21 +233,18 @@ def _block(
             made.append((ZERO,) * len(columns))
             continue
         k, stage = place
-        row = tableau.blocks[k, m][stage]
-        made.append(_chosen(row, space, columns))
+        made.append(_chosen(tableau.blocks[k, m][stage], space, columns))
     return tuple(made)
 
 
 def each_its_own(sheet: Sheet) -> Sheet:
     """The method with stages of its own for every colour."""
     old = sheet.tableau
-    spaces = [_places(old, colour.space) for colour in old.colours]
-    return regrouped(sheet, spaces, range(old.size))
+    return regrouped(sheet, [_places(old, colour.space) for colour in old.colours], range(old.size))
 
 
 def _places(tableau: Tableau, space: int) -> list[Place]:
-    stages = tableau.spaces[space].stages
-    return [(space, i) for i in range(stages)]
+    return [(space, i) for i in range(tableau.spaces[space].stages)]
 
 
 def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> Sheet:
@@ -268,17 +255,7 @@ def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> She
     Raises:
         CannotConvert: the change is not made.
     """
-    old = sheet.tableau
-    colours = list(old.colours)
-    for rows in sheet.further:
-        for colour, row in zip(old.colours, rows, strict=True):
-            colours.append(replace(colour, b=row))
-    changed = change(replace(old, colours=tuple(colours)))
+    changed = change(as_colours(sheet.tableau, sheet.further))
     if changed is None:
         raise CannotConvert("equal stages are not looked for", "spell it out", code="no-radicals")
-    weights = [colour.b for colour in changed.colours]
-    starts = range(old.size, len(weights), old.size)
-    further = [tuple(weights[k : k + old.size]) for k in starts]
-    own = changed.colours[: old.size]
-    tableau = replace(changed, colours=own)
-    return replace(sheet, tableau=tableau, further=tuple(further))
+    return Sheet(*from_colours(changed, sheet.further))

@@ -69,6 +69,27 @@ class Further:
         """Whether there are any."""
         return self.embedded is not None or self.dense is not None
 
+    @property
+    def powers(self) -> tuple[Weights, ...]:
+        """What stands before θ, θ², … in dense output."""
+        if self.dense is None:
+            return ()
+        return tuple(self.dense.coefficients(power) for power in range(1, self.dense.degree + 1))
+
+    @property
+    def rows(self) -> tuple[Weights, ...]:
+        """All rows, the embedded ones first, then a power of θ after the other."""
+        return self.powers if self.embedded is None else (self.embedded, *self.powers)
+
+    def of_colours(self, order: Sequence[int]) -> Further:
+        """The same with the colours of the method in another order."""
+        embedded, dense = self.embedded, self.dense
+        if embedded is not None:
+            embedded = tuple(embedded[l] for l in order)
+        if dense is not None:
+            dense = DenseOutput(tuple(dense.weights[l] for l in order))
+        return Further(embedded, dense)
+
     def changed(self, change: Callable[[Number], Number]) -> Further:
         """Every number replaced by what ``change`` makes of it."""
 
@@ -141,7 +162,7 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
     What becomes of stages, such as that equal ones are made one, then becomes of these rows too.
     """
     colours = list(tableau.colours)
-    for weights in _rows(further):
+    for weights in further.rows:
         for colour, row in zip(tableau.colours, weights, strict=True):
             colours.append(replace(colour, b=row))
     return replace(tableau, colours=tuple(colours))
@@ -154,7 +175,7 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
         tableau: with colours for them.
         further: the weights as they were, for their kinds.
     """
-    size = tableau.size // (len(_rows(further)) + 1)
+    size = tableau.size // (len(further.rows) + 1)
     rows = [
         tuple(colour.b for colour in tableau.colours[start : start + size])
         for start in range(size, tableau.size, size)
@@ -170,14 +191,3 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
             blocks.append(tuple(stages))
         dense = DenseOutput(tuple(blocks))
     return replace(tableau, colours=tableau.colours[:size]), Further(embedded, dense)
-
-
-def _rows(further: Further) -> list[Weights]:
-    """All rows of further weights, the embedded ones first, then a power of θ after the other."""
-    rows = []
-    if further.embedded is not None:
-        rows.append(further.embedded)
-    dense = further.dense
-    if dense is not None:
-        rows += [dense.coefficients(power) for power in range(1, dense.degree + 1)]
-    return rows

@@ -17,10 +17,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from garkcli.comparison.comparison import Comparison, compare
-from garkcli.comparison.grid import grid_of
-from garkcli.comparison.likeness import Likeness
-from garkcli.comparison.matching import find_matching
-from garkcli.comparison.met import MAX_CONDITIONS, conditions_met
+from garkcli.comparison.differences import MAX_CONDITIONS, conditions_met
+from garkcli.comparison.grid import Likeness, grid_of
+from garkcli.comparison.sameness import find_matching
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import Sheet, each_its_own, sheet_of
 from garkcli.errors import LimitExceeded
@@ -270,7 +269,7 @@ def graph(rows: Any) -> str:
 
 def test_the_search_gives_up_honestly(monkeypatch: Any) -> None:
     """What is not decided is said so, with exit code 3."""
-    matching = "garkcli.comparison.matching.MAX_TRIALS"
+    matching = "garkcli.comparison.sameness.MAX_TRIALS"
     monkeypatch.setattr(matching, 0)
     one = grid_of(sheet_of(loads(HEUN)))
     with pytest.raises(LimitExceeded):

@@ -13,16 +13,14 @@ from hypothesis import strategies as st
 
 from garkcli.check.check_file import check_file
 from garkcli.conversion.convert import convert
-from garkcli.conversion.registry import TARGETS, target
 from garkcli.conversion.sheet import CannotConvert, Sheet, sheet_of
-from garkcli.conversion.targets.canonical import as_canonical
-from garkcli.conversion.targets.gark import as_gark
+from garkcli.conversion.targets import TARGETS, as_canonical, as_gark
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import can_spell_out, write_tableau_file
 from garkcli.order.conditions import admissible_trees, elementary_weight, is_admissible
-from garkcli.tableau.embedded import Further, with_weights
+from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
@@ -186,7 +184,7 @@ def of(tableau: Tableau, further: Further) -> GarkMethod:
 
 def of_sheet(sheet: Sheet) -> GarkMethod:
     """A sheet as a method."""
-    return GarkMethod(tableau=sheet.tableau, embedded=sheet.embedded, dense=sheet.dense)
+    return of(sheet.tableau, sheet.further)
 
 
 def with_stage_twice(sheet: Sheet, k: int) -> Sheet:
@@ -213,13 +211,15 @@ def with_stage_twice(sheet: Sheet, k: int) -> Sheet:
         if m == k:
             changed = tuple(map(doubled, changed))
         blocks[space, m] = changed
-    further = []
-    for rows_of in sheet.further:
-        found = list(rows_of)
-        found[k] = doubled(found[k])
-        further.append(tuple(found))
-    tableau = Tableau(tuple(spaces), tuple(colours), blocks)
-    return replace(sheet, tableau=tableau, further=tuple(further))
+    embedded, dense = sheet.further.embedded, sheet.further.dense
+    if embedded is not None:
+        embedded = (*embedded[:k], doubled(embedded[k]), *embedded[k + 1 :])
+    if dense is not None:
+        first, *others = dense.weights[k]
+        half = tuple(x / 2 for x in first)
+        own = (half, *others, half)
+        dense = DenseOutput((*dense.weights[:k], own, *dense.weights[k + 1 :]))
+    return Sheet(Tableau(tuple(spaces), tuple(colours), blocks), Further(embedded, dense))
 
 
 def test_sorting_keeps_explicit_methods_explicit() -> None:
@@ -325,9 +325,9 @@ def test_other_formats() -> None:
     assert "sqrt(2)" in gark("convert", path, "--format", "text").out
 
 
-def test_every_form_is_a_file() -> None:
+def test_every_form_has_a_name() -> None:
     """Its name and its line are there."""
-    for name in TARGETS:
-        assert target(name).name == name
-        assert target(name).summary
+    for name, target in TARGETS.items():
+        assert target.name == name
+        assert target.summary
     assert as_gark(loads(COMPLETE)).tableau == loads(COMPLETE).tableau

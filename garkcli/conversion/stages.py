@@ -1,4 +1,4 @@
-"""Stages told apart by their entries, whatever their numbers are.
+"""Stages told apart by their entries, whatever their numbers are, and put in an order.
 
 Every stage gets a class: first by its node and its weights, then again and again by the classes of
 the stages that it sees and that see it, with which entries, until no class divides any more (the
@@ -9,13 +9,16 @@ method turns into each other are in one class; classes have an order that no num
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cmp_to_key
+from heapq import heapify, heappop, heappush
 from typing import Any, TypeAlias
 
-from garkcli.conversion.sheet import Sheet, all_rows
+from garkcli.conversion.sheet import Place, Sheet, all_rows, arranged
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
 from garkcli.exact.roots import sign
+from garkcli.graph import components
 from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]
@@ -65,13 +68,8 @@ def _numbered(found: Sequence[Mapping[Stage, _Signature]]) -> list[Classes]:
     different: set[_Signature] = set()
     for signatures in found:
         different.update(signatures.values())
-    ordered = sorted(different)
-    place = {signature: k for k, signature in enumerate(ordered)}
-    classes = []
-    for signatures in found:
-        own = {stage: place[x] for stage, x in signatures.items()}
-        classes.append(own)
-    return classes
+    place = {signature: k for k, signature in enumerate(sorted(different))}
+    return [{stage: place[x] for stage, x in signatures.items()} for signatures in found]
 
 
 def _ranks(sheets: Iterable[Sheet]) -> _Ranks:
@@ -106,7 +104,7 @@ def _own_rows(sheet: Sheet, space: int) -> list[Vector]:
         if colour.space == space:
             rows.append(colour.c)
             rows.append(colour.b)
-            rows += [weights[l] for weights in sheet.further]
+            rows += [weights[l] for weights in sheet.further.rows]
     return rows
 
 
@@ -130,3 +128,102 @@ def _sights(tableau: Tableau, classes: Classes, ranks: _Ranks) -> dict[Stage, _S
         is_seen = tuple(sorted(seeing[stage]))
         found[stage] = (number, sees, is_seen)
     return found
+
+
+def in_order(sheet: Sheet) -> Sheet:
+    """The method with its stages sorted.
+
+    A stage comes after those that it needs, unless they need it too; what that leaves open is
+    decided by nodes, weights and entries. Two numberings of a method give the same, unless only
+    a search could tell their stages apart.
+    """
+    return _arranged(sheet, stage_classes([sheet])[0])
+
+
+def in_solving_order(sheet: Sheet) -> Sheet:
+    """The method with each stage after those that it needs, as near to its own order as can be."""
+    own: Classes = {stage: number for number, stage in enumerate(_stages(sheet.tableau))}
+    return _arranged(sheet, own)
+
+
+def _stages(tableau: Tableau) -> list[Stage]:
+    stages: list[Stage] = []
+    for k, space in enumerate(tableau.spaces):
+        stages += [(k, i) for i in range(space.stages)]
+    return stages
+
+
+def _arranged(sheet: Sheet, places: Classes) -> Sheet:
+    """The stages of each space, the first place first among those that nothing holds up."""
+    spaces: list[list[Place]] = [[] for _ in sheet.tableau.spaces]
+    for stage in _solved(sheet.tableau, places):
+        k, _ = stage
+        spaces[k].append(stage)
+    return arranged(sheet, spaces)
+
+
+@dataclass
+class _System:
+    """Stages that need each other, or a single one.
+
+    Attributes:
+        stages: in their order.
+        place: the least place of them, and the number of the system.
+        waits_for: the systems that it needs and that are not done yet, by their numbers.
+        wanted_by: those that need it.
+    """
+
+    stages: list[Stage]
+    place: tuple[int, int]
+    waits_for: set[int] = field(default_factory=set)
+    wanted_by: list[int] = field(default_factory=list)
+
+
+def _solved(tableau: Tableau, places: Classes) -> list[Stage]:
+    """All stages; of the systems that wait for no other any more the first place comes first."""
+    systems = _systems(tableau, places)
+    ready = [system.place for system in systems if not system.waits_for]
+    heapify(ready)
+    ordered: list[Stage] = []
+    while ready:
+        _, done = heappop(ready)
+        ordered += systems[done].stages
+        for k in systems[done].wanted_by:
+            other = systems[k]
+            other.waits_for.remove(done)
+            if not other.waits_for:
+                heappush(ready, other.place)
+    return ordered
+
+
+def _systems(tableau: Tableau, places: Classes) -> list[_System]:
+    """The stages in systems that are solved together, with what each of them needs."""
+    needs = _needs(tableau)
+    systems: list[_System] = []
+    number: dict[Stage, int] = {}
+    for k, stages in enumerate(components(needs)):
+        stages.sort(key=lambda stage: (places[stage], stage))
+        first = places[stages[0]]
+        systems.append(_System(stages, (first, k)))
+        for stage in stages:
+            number[stage] = k
+    for stage, needed in needs.items():
+        own = number[stage]
+        for other in needed:
+            before = number[other]
+            if before != own and before not in systems[own].waits_for:
+                systems[own].waits_for.add(before)
+                systems[before].wanted_by.append(own)
+    return systems
+
+
+def _needs(tableau: Tableau) -> dict[Stage, list[Stage]]:
+    """For each stage those that it sees with an entry that is not zero."""
+    needs: dict[Stage, list[Stage]] = {stage: [] for stage in _stages(tableau)}
+    for (k, m), block in tableau.blocks.items():
+        other = tableau.colours[m].space
+        for i, row in enumerate(block):
+            for j, entry in enumerate(row):
+                if entry:
+                    needs[k, i].append((other, j))
+    return needs

@@ -1,0 +1,221 @@
+"""The forms that methods can be brought into, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+from garkcli.conversion.sheet import (
+    CannotConvert,
+    Place,
+    Sheet,
+    each_its_own,
+    of_weights,
+    regrouped,
+    sheet_of,
+)
+from garkcli.conversion.stage_order import in_order, in_solving_order
+from garkcli.errors import counted
+from garkcli.properties.reduction import merged, reduced
+from garkcli.tableau.forms import pair
+from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.tableau import Part, Tableau
+
+
+@dataclass(frozen=True)
+class Target:
+    """What ``--to`` names.
+
+    Attributes:
+        name: as it is asked for.
+        summary: what it is, in a line.
+        convert: the entries in this form; raises ``CannotConvert`` with the reason.
+        claims: what the claims of the method become, by their keys; without it each claim that
+            holds of the result stays.
+        makes_another: whether the result is another method, made from this one.
+    """
+
+    name: str
+    summary: str
+    convert: Callable[[GarkMethod], Sheet]
+    claims: Mapping[str, str] = field(default_factory=dict)
+    makes_another: bool = False
+
+
+def as_gark(method: GarkMethod) -> Sheet:
+    """The method as a GARK method.
+
+    The parts q and p of a partitioned method become colours whose vector fields are zero in the
+    other part.
+    """
+    return without_parts(each_its_own(sheet_of(method)))
+
+
+def without_parts(sheet: Sheet) -> Sheet:
+    """The method for vector fields that drive all unknowns, its colours numbered."""
+    colours = []
+    for l, colour in enumerate(sheet.tableau.colours):
+        colours.append(replace(colour, name=str(l + 1), term=l, part="y"))
+    return replace(sheet, tableau=replace(sheet.tableau, colours=tuple(colours)))
+
+
+def as_ark(method: GarkMethod) -> Sheet:
+    """The method as an additive one.
+
+    Where the colours have the same stages already these are shared. Otherwise the stages of all
+    colours stand one after the other, each with zeros in the columns of the others, and those that
+    are equal become one.
+
+    Raises:
+        CannotConvert: a colour is linear, or some stages do not see every colour.
+    """
+    sheet = without_parts(sheet_of(method))
+    linear = [x.name for x in sheet.tableau.colours if x.is_linear]
+    if linear:
+        raise CannotConvert(
+            f"colour {linear[0]} is linear, which an additive method does not say",
+            "--to gark keeps it",
+        )
+    together = shared(sheet)
+    if together is None:
+        together = in_solving_order(_one_after_the_other(sheet))
+    return _with_one_row_of_nodes(together)
+
+
+def shared(sheet: Sheet) -> Sheet | None:
+    """The method with one stage space, where stage i of every colour is the same; else None."""
+    tableau = sheet.tableau
+    first, *others = range(len(tableau.spaces))
+    for k in others:
+        if not _are_alike(tableau, first, k):
+            return None
+    places: list[Place] = [(first, i) for i in range(tableau.spaces[first].stages)]
+    # the weights stay as they are: every space is the first one
+    colours = [replace(x, space=first) for x in tableau.colours]
+    blocks = {key: x for key, x in tableau.blocks.items() if key[0] == first}
+    alone = replace(sheet, tableau=replace(tableau, colours=tuple(colours), blocks=blocks))
+    return regrouped(alone, [places], [0] * tableau.size)
+
+
+def _are_alike(tableau: Tableau, one: int, other: int) -> bool:
+    """Whether two spaces have the same nodes and see the same."""
+    if tableau.spaces[one].nodes != tableau.spaces[other].nodes:
+        return False
+    return all(
+        tableau.blocks.get((one, m)) == tableau.blocks.get((other, m)) for m in range(tableau.size)
+    )
+
+
+def _one_after_the_other(sheet: Sheet) -> Sheet:
+    places: list[Place] = []
+    for k, space in enumerate(sheet.tableau.spaces):
+        places += [(k, i) for i in range(space.stages)]
+    return of_weights(regrouped(sheet, [places], [0] * sheet.tableau.size), merged)
+
+
+def _with_one_row_of_nodes(sheet: Sheet) -> Sheet:
+    """The method, where its colours have the same nodes.
+
+    Raises:
+        CannotConvert: they do not.
+    """
+    tableau = sheet.tableau
+    nodes = tableau.colours[0].c
+    for colour in tableau.colours:
+        if colour.c != nodes:
+            raise CannotConvert(
+                f"colour {colour.name} has nodes of its own; an additive"
+                " method has one row of them",
+                "--to gark keeps them",
+            )
+    return sheet
+
+
+def as_prk(method: GarkMethod) -> Sheet:
+    """The method as a partitioned one: colour 1 drives q, colour 2 drives p.
+
+    Raises:
+        CannotConvert: it has not two colours, or these neither share their stages nor leave
+            themselves unseen.
+    """
+    sheet = sheet_of(method)
+    tableau = sheet.tableau
+    if tableau.size != 2:
+        raise CannotConvert(
+            f"a partitioned method has two parts, this one has {counted(tableau.size, 'colour')}",
+            "--to gark has every number of colours",
+        )
+    if not _is_separable(tableau):
+        together = shared(sheet)
+        if together is None:
+            raise CannotConvert(
+                "the colours neither have the same stages nor leave themselves unseen (null)",
+                "--to ark puts all stages together first",
+            )
+        sheet = together
+    elif tableau.colours[1].is_linear:
+        raise CannotConvert(
+            "the file of a partitioned method says that q is linear, not p", "exchange the colours"
+        )
+    return _with_parts(sheet)
+
+
+def _is_separable(tableau: Tableau) -> bool:
+    """Whether each colour sees the other alone."""
+    return len(tableau.spaces) == 2 and set(tableau.edges()) == {(0, 1), (1, 0)}
+
+
+def _with_parts(sheet: Sheet) -> Sheet:
+    parts: tuple[Part, ...] = ("q", "p")
+    colours = []
+    for l, (colour, part) in enumerate(zip(sheet.tableau.colours, parts, strict=True)):
+        colours.append(replace(colour, name=part, term=l, part=part))
+    return replace(sheet, tableau=replace(sheet.tableau, colours=tuple(colours)))
+
+
+def as_pair(method: GarkMethod) -> Sheet:
+    """The pair (Q, P) of a method and its conjugate, as a GARK method: colours V¹…Vᴺ, then
+    F¹…Fᴺ.
+
+    Embedded weights and dense output are those of the method, not of the pair: they are left out.
+
+    Raises:
+        ZeroWeight: a conjugate would divide by zero.
+    """
+    both = GarkMethod(tableau=pair(method.tableau))
+    return without_parts(each_its_own(sheet_of(both)))
+
+
+def as_canonical(method: GarkMethod) -> Sheet:
+    """The smallest method that does the same, its stages in an order of their own.
+
+    Methods that differ in the numbers of their stages, in stages without influence or in stages
+    that stand there twice, or in whether colours share their stages, have the same canonical form.
+    """
+    sheet = sheet_of(method)
+    if not sheet.tableau.is_partitioned:
+        sheet = each_its_own(sheet)
+    smaller = in_order(of_weights(sheet, reduced))
+    if smaller.tableau.is_partitioned:
+        return smaller
+    return shared(smaller) or smaller
+
+
+TARGETS: Mapping[str, Target] = {
+    target.name: target
+    for target in (
+        Target("spelled-out", "the form that it has, every entry a number", sheet_of),
+        Target("gark", "every colour with stages of its own, block by block", as_gark),
+        Target("ark", "all colours on the same stages", as_ark),
+        Target("prk", "two colours as the parts q and p", as_prk),
+        Target(
+            "pair",
+            "the symplectic pair as one method of 2N colours",
+            as_pair,
+            {"pair-order": "order", "pair-bound": "bound", "pair-sharp-bound": "sharp-bound"},
+            makes_another=True,
+        ),
+        Target("canonical", "reduced, spelled out, its stages sorted", as_canonical),
+    )
+}
+"""Every form by name."""

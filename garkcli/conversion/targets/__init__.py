@@ -1,1 +1,0 @@
-"""One file a form that methods can be brought into."""
