@@ -15,7 +15,6 @@ import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import Fault, printable
-from garkcli.methodfile.scanning import QuickLoader
 
 MAX_NODES = 50_000
 """Most YAML values in one file, with aliases counted each time they are used."""
@@ -39,7 +38,7 @@ class TooLargeError(Exception):
         self.message, self.cure = message, cure
 
 
-class _Composer(QuickLoader):
+class _Composer(yaml.SafeLoader):
     """PyYAML's composer; it refuses too many values and too deep nesting as it meets them."""
 
     def __init__(self, text: str) -> None:

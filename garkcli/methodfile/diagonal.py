@@ -57,7 +57,7 @@ class DiagonalReader:
         if structure != "general" and len(items) != 2:
             wanted = f"structure: {structure} is for two colours"
             source.fault(node, f"{wanted}, not {len(items)}", code="not-together")
-        rules = self._rules(node, len(items), transfer)
+        rules = self._rules(len(items), transfer)
         if not methods or len(methods) < len(items):
             return None
         if self._is_too_large(methods, node):
@@ -67,13 +67,9 @@ class DiagonalReader:
         self._spelled_out.further.refuse_partial(further, names, node)
         return MethodsText(tuple(methods), rules)
 
-    def _rules(self, node: Node, colours: int, transfer: Node | None) -> TransferText:
+    def _rules(self, colours: int, transfer: Node | None) -> TransferText:
         """How the blocks between the methods are made."""
         if transfer is None:
-            if colours > 1:
-                message = "two colours or more need a transfer rule"
-                cure = "write transfer: collocation (or interpolation)"
-                self.source.fault(node, message, cure, code="missing-key")
             return TransferText(None, {})
         from garkcli.methodfile.transfers import TransferReader
 

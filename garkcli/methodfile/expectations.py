@@ -117,7 +117,7 @@ def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
     )
 
 
-EXPECT = Kind(mapping(more=claims).schema, _read)
+EXPECT = Kind(mapping(more=claims).schema, _read, claims)
 """What a file claims."""
 
 

@@ -7,28 +7,35 @@ of parameters and everything mathematical are for ``gark check``.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Mapping
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
-from yaml.nodes import Node
+from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.coefficients import DEFINITIONS, NUMBER
-from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, STRUCTURES
+from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import EXPECT
 from garkcli.methodfile.further import DENSE
 from garkcli.methodfile.grammar import (
     FLAG,
     TEXT,
     VERSION,
+    Beside,
     Key,
     Kind,
+    Rule,
     Schema,
+    Together,
+    Values,
+    Ways,
     count,
     defined,
+    homes,
     later,
     mapping,
     word,
@@ -36,6 +43,7 @@ from garkcli.methodfile.grammar import (
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.members import FAMILY
 from garkcli.methodfile.parameters import PARAMETERS
+from garkcli.methodfile.source import Home
 from garkcli.methodfile.spelled_out import BUTCHER, TABLEAU, TABLEAU_KEYS, rows_of
 from garkcli.methodfile.words import shortened
 
@@ -82,6 +90,7 @@ KEYS = {
             "name: Heun's method",
             TEXT,
             "What people call the method. Without it reports call it by its file.",
+            also=("title",),
         ),
         Key(
             "aliases: [DOPRI5, RK45]",
@@ -105,6 +114,7 @@ KEYS = {
             "The diagonal methods of the paper's construction, one a colour: families with their "
             "stages, or Butcher tableaus. One method on its own needs no list.",
             page=_PAPER,
+            also=("method",),
         ),
         *TABLEAU_KEYS,
         Key(
@@ -119,6 +129,7 @@ KEYS = {
             TABLEAU,
             "One Butcher tableau, or every block A^{l,m} of several colours spelled out.",
             page=f"{_PAGE}tableau-every-block-spelled-out",
+            also=("butcher",),
         ),
         Key(
             "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}",
@@ -202,6 +213,7 @@ KEYS = {
             PARAMETERS,
             "Names that coefficients are written with, each with a value, which may use the names "
             "before it; or free, for gark design, gark sweep and --set.",
+            also=("params",),
         ),
         Key(
             "tolerance: 1e-13",
@@ -215,17 +227,91 @@ KEYS = {
             EXPECT,
             "Claims that gark check confirms; gark claims FILE --write puts the true ones there.",
             page=f"{_PAGE}expect",
+            also=("claims",),
         ),
     )
 }
 """The keys of a method file by name, in the order of the documentation."""
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
 """The keys of a method, wherever it stands."""
+_TWO_COLOURS = Values(
+    {"type": "array", "minItems": 2},
+    lambda node: isinstance(node, SequenceNode) and len(node.value) > 1,
+)
+_NOT_GENERAL = Values({"not": {"const": "general"}}, lambda node: bool(node.value != "general"))
+_SEMI_SEPARABLE = Values(
+    {"const": "semi-separable"}, lambda node: bool(node.value == "semi-separable")
+)
+FORM = Ways(
+    "the coefficients are",
+    (*FORMS, "unknown", Together(("A", "b"), ("c",))),
+    "no coefficients",
+    "give A and b, or one of the keys methods, tableau, ark, prk",
+)
+"""The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
+_INSIDE: dict[str, str] = dict.fromkeys(
+    CONSTRUCTIONS, "give it beside the coefficients of the methods inside"
+)
+_SPELL_OUT: dict[str, str] = dict.fromkeys(
+    CONSTRUCTIONS, "gark tableau --format yaml spells the method out, for them"
+)
+BESIDE_FORM: tuple[Beside, ...] = (
+    Beside(
+        "methods",
+        "two colours or more need a transfer rule",
+        "write transfer: collocation (or interpolation)",
+        needs=("transfer",),
+        code="missing-key",
+        values=_TWO_COLOURS,
+    ),
+    Beside("transfer", "transfer goes with methods, not with {way}", needs=("methods",)),
+    Beside("linear", "linear goes with tableau, not with {way}", needs=("tableau", "A")),
+    Beside(
+        "parameters",
+        "parameters do not go with unknown: its unknowns have their names",
+        "leave them out, or spell the tableau out with them",
+        bars=("unknown",),
+    ),
+    *(
+        Beside(
+            key,
+            f"{key} stands beside b, and here is none",
+            {
+                "methods": "write it in each of the methods",
+                **_SPELL_OUT,
+                "unknown": 'spell A and b out, with "?" for the entries to be found',
+                "": "write it inside of {way}, beside b",
+            },
+            needs=("A",),
+            code="missing-key",
+        )
+        for key in BESIDE
+    ),
+    Beside(
+        "structure",
+        "structure does not go with {way}",
+        {**_INSIDE, "ark": "use methods, tableau or prk", "": "write absent blocks as null"},
+        needs=("methods", "prk", "unknown", "splitting"),
+        values=_NOT_GENERAL,
+    ),
+    Beside(
+        "structure",
+        "a prk cannot be semi-separable: that takes two Hamiltonians",
+        "use methods",
+        bars=("prk",),
+        values=_SEMI_SEPARABLE,
+    ),
+)
+"""What else a method has or has not, by its form."""
 
 
-def _schema(keys: Iterable[str], forms: Iterable[str]) -> Callable[[], Schema]:
-    rules = {"oneOf": [{"required": [form]} for form in forms], "allOf": _what_goes_together()}
-    return mapping(*(KEYS[key] for key in keys), rules=rules).schema
+@cache
+def elsewhere() -> Mapping[str, Home]:
+    """Where keys belong that stand at the top of a file and have no place there; what may be a
+    claim most often is one.
+    """
+    every = (x for x in KEYS.values() if x.name != "parameters")  # has keys below other names
+    return homes([KEYS["expect"], *every])
 
 
 def method_file_schema() -> Schema:
@@ -238,51 +324,27 @@ def method_file_schema() -> Schema:
         "type": "string",
         "description": "A single method of a family, or a name of the catalogue.",
     }
-    written = _schema(KEYS_OF_METHOD, (*FORMS, "A"))
-    whole = _schema(KEYS, (*FORMS, "unknown"))()
-    plain = {"required": ["A", "b"]}
+    rules: tuple[Rule, ...] = (FORM, *BESIDE_FORM)
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark method file",
         "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
-        **whole,
-        "oneOf": [*whole["oneOf"], plain],
+        **mapping(*KEYS.values(), rules=rules).schema(),
         "definitions": {
             **DEFINITIONS,
             "dense": DENSE.schema(),
             "butcher": BUTCHER.schema(),
             "method": {"oneOf": [FAMILY.schema(), defined("butcher").schema()]},
-            "part": {"anyOf": [name, FAMILY.schema(), written()]},
+            "part": {
+                "anyOf": [
+                    name,
+                    FAMILY.schema(),
+                    mapping(*(KEYS[key] for key in KEYS_OF_METHOD), rules=rules).schema(),
+                ]
+            },
             "rule": later("transfers", "RULE").schema(),
         },
     }
-
-
-def _what_goes_together() -> list[Schema]:
-    """Keys that need or exclude another, and values that do."""
-    several = {"methods": {"type": "array", "minItems": 2}}
-    not_general = {"structure": {"not": {"const": "general"}}}
-    of_two_parts = [{"required": [form]} for form in ("methods", "prk", "unknown", "splitting")]
-    one_hamiltonian = {"structure": {"not": {"const": "semi-separable"}}}
-    return [
-        _goes_with("transfer", {"required": ["methods"]}),
-        _goes_with("linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}),
-        _goes_with("unknown", {"not": {"required": ["parameters"]}}),
-        *(_goes_with(key, {"required": ["A"]}) for key in ("c", *BESIDE)),
-        {
-            "if": {"required": ["methods"], "properties": several},
-            "then": {"required": ["transfer"]},
-        },
-        {
-            "if": {"required": ["structure"], "properties": not_general},
-            "then": {"anyOf": of_two_parts},
-        },
-        _goes_with("prk", {"properties": one_hamiltonian}),
-    ]
-
-
-def _goes_with(key: str, form: Schema) -> Schema:
-    return {"if": {"required": [key]}, "then": form}
 
 
 def told(files: Files) -> Iterable[Entry]:

@@ -32,15 +32,6 @@ DENSE = mapping(
 
 _A_ROW_A_COLOUR = "give a row a colour, each with a weight a stage"
 _A_BLOCK_A_COLOUR = "give a block a colour, each with a row a stage"
-_SPELLINGS = (
-    *("bhat", "b_hat", "b-hat", "bh", "b2", "b*", "b^", "btilde", "bE"),
-    *("b_embedded", "bembed", "embedding"),
-)
-_WRITE_EMBEDDED = "write embedded weights as embedded: […], beside b"
-_WRITE_DENSE = "write dense output as dense: {degree, weights}, beside b"
-CURES = dict.fromkeys(_SPELLINGS, _WRITE_EMBEDDED)
-"""What people call embedded weights and dense output elsewhere."""
-CURES |= dict.fromkeys(("bi", "binterp", "b_theta"), _WRITE_DENSE)
 
 
 def names_beside(name_of_b: str) -> tuple[str, str]:

@@ -7,15 +7,15 @@ say of it.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.source import Cures, Entries, Home, Source
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Key as Entry
@@ -63,6 +63,7 @@ class Key:
         page: where more is said; empty for the page about such files.
         is_word: whether it is found by its own name too.
         is_listed: whether the page lists it.
+        also: what else people call it; a key of such a name is read as this one.
     """
 
     line: str
@@ -73,6 +74,7 @@ class Key:
     page: str = ""
     is_word: bool = True
     is_listed: bool = True
+    also: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -116,23 +118,214 @@ class Found(dict[str, Any]):
         self.nodes = nodes
         self.is_right = True
 
-    def way(self, source: Source, where: str, what: str, ways: Iterable[str]) -> str | None:
-        """The one of several keys that is given; None, with a fault noted for two of them."""
-        given = [key for key in ways if key in self.nodes]
-        for key in given[1:2]:
-            message = f"{where}: {what} given by {given[0]} already"
-            source.fault(
-                self.nodes[key], message, f"keep one of {', '.join(given)}", code="given-twice"
-            )
-        return given[0] if len(given) == 1 else None
+
+def required(*keys: str) -> Schema:
+    """That each of these keys is given."""
+    return {"required": list(keys)}
+
+
+def _any_given(keys: Sequence[str]) -> Schema:
+    each = [required(key) for key in keys]
+    return each[0] if len(each) == 1 else {"anyOf": each}
+
+
+class Together(NamedTuple):
+    """Keys that are one way to say something: all of the first are needed, the others may be
+    given.
+    """
+
+    needed: tuple[str, ...]
+    perhaps: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Keys that say the same in several ways, of which a mapping has one.
+
+    Attributes:
+        what: they say, with a verb: ``the substeps are``.
+        ways: a key each, or keys that go together.
+        none: what is wrong where there is none of them; empty where none is needed.
+        cure: for that.
+        is_one: whether there may be only one.
+    """
+
+    what: str
+    ways: tuple[str | Together, ...]
+    none: str = ""
+    cure: str = ""
+    is_one: bool = True
+
+    @property
+    def _keys(self) -> list[tuple[str, ...]]:
+        """The keys of each way."""
+        return [(x,) if isinstance(x, str) else x.needed + x.perhaps for x in self.ways]
+
+    def given(self, entries: Entries) -> list[str]:
+        """The first key of each way that a mapping has."""
+        return [key for keys in self._keys for key in [x for x in keys if x in entries][:1]]
+
+    def schema(self) -> Schema:
+        """What it says of a mapping."""
+        each = [_any_given(keys) for keys in self._keys]
+        if not self.is_one:
+            return {"anyOf": each}
+        choice = {"oneOf": each if self.none else [*each, {"not": {"anyOf": each}}]}
+        whole = [
+            {"if": _any_given(keys), "then": required(*way.needed)}
+            for way, keys in zip(self.ways, self._keys, strict=True)
+            if isinstance(way, Together)
+        ]
+        return {"allOf": [choice, *whole]}
+
+    def refuse(self, source: Source, node: Node, where: str, entries: Entries, _: str = "") -> None:
+        """Note what breaks it."""
+        given = self.given(entries)
+        cure = f"keep one of {', '.join(given)}"
+        for key in given[1:] if self.is_one else ():
+            message = f"{key if where == FILE else where}: {self.what} given by {given[0]} already"
+            source.fault(entries[key], message, cure, code="given-twice")
+        if self.none and not given:
+            source.fault(node, placed(where, self.none), self.cure, code="missing-key")
+        for way in self.ways:
+            if given[1:] or isinstance(way, str):
+                continue
+            missing = [key for key in way.needed if key not in entries]
+            there = [key for key in way.needed + way.perhaps if key in entries]
+            if missing and there:
+                message = placed(
+                    where, f"{' and '.join(missing)} missing beside {', '.join(there)}"
+                )
+                cure = f"give {' and '.join(way.needed)}"
+                if way.perhaps:
+                    cure = f"give {', '.join(way.needed)} and perhaps {', '.join(way.perhaps)}"
+                source.fault(entries[there[0]], message, cure, code="missing-key")
+
+
+class Values(NamedTuple):
+    """Some of the values that a key may have.
+
+    Attributes:
+        schema: of them.
+        has: whether a node is one of them.
+    """
+
+    schema: Schema
+    has: Callable[[Node], bool]
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What a key needs beside it, or what bars it.
+
+    Attributes:
+        key: it is about.
+        message: what is wrong, with ``{way}`` for what a mapping has instead of what is needed.
+        cure: for that, or cures by what it has instead, with one for all others under ``""``.
+        needs: keys of which one has to be there too; none for any.
+        bars: keys beside which it may not stand.
+        code: the kind of fault.
+        values: that it is about; None for all.
+    """
+
+    key: str
+    message: str
+    cure: str | Mapping[str, str] = "leave it out"
+    needs: tuple[str, ...] = ()
+    bars: tuple[str, ...] = ()
+    code: str = "not-together"
+    values: Values | None = None
+
+    def schema(self) -> Schema:
+        """What it says of a mapping."""
+        about = required(self.key)
+        if self.values is not None:
+            about["properties"] = {self.key: self.values.schema}
+        then = _any_given(self.needs) if self.needs else {"not": _any_given(self.bars)}
+        return {"if": about, "then": then}
+
+    def refuse(self, source: Source, _: Node, where: str, entries: Entries, way: str = "") -> None:
+        """Note what breaks it; ``way`` is what the mapping has instead of what is needed."""
+        node = entries.get(self.key)
+        if node is None or (self.values is not None and not self.values.has(node)):
+            return
+        if self.needs and not entries.keys().isdisjoint(self.needs):
+            return
+        if self.needs or not entries.keys().isdisjoint(self.bars):
+            cure = self.cure
+            if not isinstance(cure, str):
+                cure = cure.get(way, cure[""])
+            message, cure = (x.replace("{way}", way) for x in (self.message, cure))
+            source.fault(node, placed(where, message), cure, code=self.code)
+
+
+@dataclass(frozen=True)
+class OfSchema:
+    """What the schema alone says of a mapping; its reader finds it out otherwise."""
+
+    rule: Schema
+
+    def schema(self) -> Schema:
+        """That."""
+        return self.rule
+
+    def refuse(self, *_: object) -> None:
+        """Nothing."""
+
+
+Rule: TypeAlias = Ways | Beside | OfSchema
+"""Which keys need each other or exclude each other: for readers and for the schema."""
+
+
+def placed(where: str, message: str) -> str:
+    """A message about a mapping, with what it is; the whole file needs no name."""
+    return message if where == FILE else f"{where}: {message}"
+
+
+def homes(keys: Iterable[Key]) -> dict[str, Home]:
+    """Where keys belong that stand inside of others, by their names; the first of several places.
+
+    A name that is also one of these keys, or of what people call them, has its meaning there.
+    """
+    found: dict[str, Home] = {}
+    known = list(keys)
+    taken = {word.lower() for key in known for word in (key.name, *key.also)}
+    for key in known:
+        for inner in key.kind.inside():
+            if inner.name.lower() not in taken:
+                found.setdefault(inner.name, Home(key.name, inner.line))
+    return found
+
+
+def entries_in(
+    source: Source,
+    node: Node,
+    where: str,
+    keys: Mapping[str, Key],
+    cures: Cures = dict,
+    form: str = "",
+) -> Entries:
+    """The entries of a mapping, with what is misspelt or called otherwise as what it is; faults
+    are noted.
+
+    Args:
+        source: the file.
+        node: the mapping.
+        where: what it is, for messages.
+        keys: those there are, by their names.
+        cures: what to do about keys that are expected elsewhere.
+        form: the cure where there is no mapping.
+    """
+    words = {word: name for name, key in keys.items() for word in key.also}
+    return source.mapping(node, where, keys, cures, form, words)
 
 
 def mapping(
     *keys: Key,
     more: Callable[[], Iterable[Key]] = tuple,
     form: str = "",
-    cures: Mapping[str, str] = NOTHING,
-    rules: Mapping[str, Any] = NOTHING,
+    cures: Cures = dict,
+    rules: Iterable[Rule] = (),
 ) -> Kind:
     """Keys with their values, and no others.
 
@@ -141,7 +334,7 @@ def mapping(
         more: those that only a file with them, or a schema, has to know.
         form: the cure where there is no such mapping, or a key is missing.
         cures: what to do about keys that are expected elsewhere.
-        rules: of the schema: which keys go together.
+        rules: which keys need or exclude each other.
     """
 
     @cache
@@ -151,12 +344,13 @@ def mapping(
     def schema() -> Schema:
         needed = [key.name for key in every().values() if key.is_needed]
         inside = {name: key.schema() for name, key in every().items()}
-        return {**closed(inside, *needed), **rules}
+        together = {"allOf": [rule.schema() for rule in rules]} if rules else {}
+        return {**closed(inside, *needed), **together}
 
     def read(at: Any, node: Node, where: str) -> Found | None:
         source: Source = at.source
         before = len(source.faults)
-        found = Found(node, source.mapping(node, where, every(), cures, form))
+        found = Found(node, entries_in(source, node, where, every(), cures, form))
         if not isinstance(node, MappingNode):
             return None
         for name, value in found.nodes.items():
@@ -166,8 +360,13 @@ def mapping(
                 found[name] = one
         missing = [x.name for x in every().values() if x.is_needed and x.name not in found.nodes]
         if missing:
-            place = "" if where == FILE else f"{where}: "
-            source.fault(node, f"{place}{' and '.join(missing)} missing", form, code="missing-key")
+            message = placed(where, f"{' and '.join(missing)} missing")
+            source.fault(node, message, form, code="missing-key")
+        way = ""
+        for rule in rules:
+            rule.refuse(source, node, where, found.nodes, way)
+            if isinstance(rule, Ways):
+                way = next(iter(rule.given(found.nodes)), "")
         found.is_right = len(source.faults) == before
         return found
 

@@ -9,14 +9,13 @@ from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, recipe_of
 from garkcli.methodfile.coefficients import NUMBER
 from garkcli.methodfile.description import FamilyText
-from garkcli.methodfile.further import CURES
-from garkcli.methodfile.grammar import Key, Kind, Schema, count, mapping, word
+from garkcli.methodfile.grammar import Key, Kind, OfSchema, Schema, count, entries_in, mapping, word
 from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.spelled_out import BUTCHER_KEYS
+from garkcli.methodfile.spelled_out import BUTCHER
 
 _FORM = "write for instance {family: gauss, stages: 2}"
-_BESIDE = [key for key in BUTCHER_KEYS if key.name not in {"A", "b", "c"}]
+_BESIDE = [key for key in BUTCHER.inside() if key.name not in {"A", "b", "c"}]
 
 
 def _kind_of(option: Option) -> Kind:
@@ -50,12 +49,13 @@ FAMILY = mapping(
         "The name of a family of methods, as gark list shows them.",
         is_needed=True,
     ),
-    *_BESIDE,
     *_CHOSEN,
+    *_BESIDE,
     form=_FORM,
-    rules={"allOf": [_member(family) for family in FAMILIES.values()]},
+    rules=[OfSchema(_member(family)) for family in FAMILIES.values()],
 )
 """A member of a family."""
+_KEYS = {key.name: key for key in FAMILY.inside()}
 
 
 class FamilyReader:
@@ -69,9 +69,9 @@ class FamilyReader:
         """A member of a family, which exists, with its keys; None where a fault was noted."""
         before = len(self.source.faults)
         family = _family_named(node)
-        keys = OPTIONS if family is None else family.keys
-        allowed = ("family", *keys, *(key.name for key in _BESIDE))
-        entries = self.source.mapping(node, where, allowed, CURES, _FORM)
+        barred = set() if family is None else OPTIONS.keys() - set(family.keys)
+        keys = {name: key for name, key in _KEYS.items() if name not in barred}
+        entries = entries_in(self.source, node, where, keys, form=_FORM)
         if "family" not in entries or len(self.source.faults) > before:
             return None
         name = self.source.scalar(entries["family"], f"{where}, family")

@@ -14,13 +14,17 @@ from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.grammar import (
     TEXT,
     VERSION,
+    Beside,
     Key,
     Kind,
+    OfSchema,
     Schema,
+    Ways,
     by_name,
     defined,
     mapping,
     one_or_more,
+    required,
 )
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.problems.vectorfield import TIME
@@ -133,6 +137,15 @@ KEYS = {
     )
 }
 """The keys of a problem file by name, in the order of the documentation."""
+FORM = Ways(
+    "the problem is",
+    FORMS,
+    "no hamiltonian, no lagrangian and no rhs",
+    "write one of them, a formula or a list with one for each colour",
+)
+SOLUTION = Beside("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
+START = Ways("", ("initial", "exact"), "initial missing", is_one=False)
+"""What a problem begins with: its initial values, or those of its solution."""
 
 
 def problem_file_schema() -> Schema:
@@ -141,13 +154,13 @@ def problem_file_schema() -> Schema:
     >>> problem_file_schema()["title"]
     'gark problem file'
     """
-    rules = {"oneOf": [_of_momenta("hamiltonian"), _of_momenta("lagrangian"), _of_rhs()]}
+    of_names = [OfSchema({"if": required("rhs"), "then": _of_rhs(), "else": _of_momenta()})]
     number: Schema = {"type": ["number", "string"], "pattern": _SIGNS}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark problem file",
         "description": "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
-        **mapping(*KEYS.values(), rules=rules).schema(),
+        **mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, *of_names]).schema(),
         "definitions": {
             "formula": {"description": "A formula such as px**2/2 - cos(x).", **number},
             "constant": {
@@ -158,22 +171,20 @@ def problem_file_schema() -> Schema:
     }
 
 
-def _of_momenta(form: str) -> Schema:
-    """What a file with a Hamiltonian or a Lagrangian has and has not."""
+def _of_momenta() -> Schema:
+    """What names the variables of a Hamiltonian or a Lagrangian may have."""
     variables = _told_anew("variables", _names(_name_but({*RESERVED, *_CLASHING})))
-    return {"required": [form, "initial"], "properties": {"variables": variables, "exact": False}}
+    return {"properties": {"variables": variables}}
 
 
 def _of_rhs() -> Schema:
-    """What a file with right-hand sides has: a start, be it that of its solution."""
+    """The same of right-hand sides, with parameters."""
     without_time = Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
     return {
-        "required": ["rhs"],
-        "anyOf": [{"required": ["initial"]}, {"required": ["exact"]}],
         "properties": {
             "variables": _told_anew("variables", _names(_name_but({*RESERVED, TIME}))),
             "parameters": _told_anew("parameters", without_time),
-        },
+        }
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,13 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas
-from garkcli.methodfile.grammar import FILE
+from garkcli.methodfile.grammar import FILE, entries_in
 from garkcli.methodfile.nodes import keys_of
-from garkcli.methodfile.problem_keys import FORMS, KEYS, MAX_INVARIANTS
+from garkcli.methodfile.problem_keys import FORM, FORMS, KEYS, MAX_INVARIANTS, SOLUTION, START
 from garkcli.methodfile.problem_text import DEFAULT_T_END, STIFFNESS, ProblemText, Side, Sides
 from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.variables import Variables, read_variables
 from garkcli.methodfile.words import one_line
-
-_WITH_ARTICLE = {"hamiltonian": "a hamiltonian", "lagrangian": "a lagrangian", "rhs": "an rhs"}
 
 
 class ProblemReader:
@@ -44,18 +43,17 @@ class ProblemReader:
         root = source.compose()
         if root is None or self._is_method_file(root):
             return None
-        entries = source.mapping(root, FILE, KEYS)
+        entries = entries_in(source, root, FILE, KEYS)
         for key in ("gark", "description", "reference"):
             self._value(key, entries)
         before = len(source.faults)
         variables = read_variables(source, root, entries.get("variables"))
-        form = self._form(root, entries)
+        form = self._form(root, entries, variables)
         variables.refuse_clashes(form or "hamiltonian")
         are_named = len(source.faults) == before
         parameters = entries.get("parameters")
         self.formulas.read_parameters(parameters)
         variables.refuse_taken(form or "hamiltonian", parameters)
-        self._check_start(root, entries, variables, form)
         self._check_stiffness(root, form)
         if form is None:
             return None
@@ -93,31 +91,19 @@ class ProblemReader:
         self.source.fault(root, message, "see docs/problem-file.md", code="other-file")
         return True
 
-    def _form(self, root: Node, entries: Entries) -> str | None:
-        """Which of the three forms the file has; None where it has none."""
-        present = [key for key in FORMS if key in entries]
-        if not present:
-            message = "no hamiltonian, no lagrangian and no rhs"
-            cure = "write one of them, "
-            cure += "a formula or a list with one for each colour"
-            self.source.fault(root, message, cure, code="missing-key")
-            return None
-        if len(present) > 1:
-            message = " and ".join(_WITH_ARTICLE[key] for key in present)
-            self.source.fault(entries[present[1]], message, "keep one of them", code="given-twice")
-        return present[0]
+    def _form(self, root: Node, entries: Entries, variables: Variables) -> str | None:
+        """Which of the three forms the file has; None where it has none.
 
-    def _check_start(
-        self, root: Node, entries: Entries, variables: Variables, form: str | None
-    ) -> None:
-        """Refuse a file without initial values, and a solution of what has none."""
-        is_rhs = form == "rhs"
-        if "initial" not in entries and not (is_rhs and "exact" in entries):
-            cure = f"write {variables.example_start(form)}"
-            self.source.fault(root, "initial missing", cure, code="missing-key")
-        if "exact" in entries and not is_rhs and form is not None:
-            message = f"exact is for rhs, and this is a {form}"
-            self.source.fault(entries["exact"], message, "leave it out", code="not-together")
+        What does not go with it is noted.
+        """
+        FORM.refuse(self.source, root, FILE, entries)
+        form = next(iter(FORM.given(entries)), None)
+        if form is not None:
+            SOLUTION.refuse(self.source, root, FILE, entries, form)
+        start = {key: x for key, x in entries.items() if key != "exact" or form == "rhs"}
+        cure = f"write {variables.example_start(form)}"
+        replace(START, cure=cure).refuse(self.source, root, FILE, start)
+        return form
 
     def _check_stiffness(self, root: Node, form: str | None) -> None:
         """Refuse a stiffness that would change nothing."""

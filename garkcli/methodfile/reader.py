@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 from yaml.nodes import MappingNode, Node
 
-from garkcli.methodfile.content import CURES, ContentReader
+from garkcli.methodfile.content import ContentReader
 from garkcli.methodfile.description import FORMS, ConstructionText, Description
-from garkcli.methodfile.file_keys import KEYS
-from garkcli.methodfile.grammar import FILE
+from garkcli.methodfile.file_keys import KEYS, elsewhere
+from garkcli.methodfile.grammar import FILE, entries_in
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_unknown_settings
@@ -63,7 +63,7 @@ class Reader:
         root = source.compose()
         if root is None or self._is_problem_file(root):
             return None
-        entries = source.mapping(root, FILE, KEYS, CURES)
+        entries = entries_in(source, root, FILE, KEYS, elsewhere)
         self.keys = frozenset(entries)
         self.design = entries.get("design")
         self._root = root

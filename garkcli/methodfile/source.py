@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
@@ -28,7 +28,23 @@ MAX_FAULTS_READ = 1_000
 
 Entries: TypeAlias = dict[str, Node]
 """The values of a mapping by their keys."""
-_NO_CURES: Mapping[str, str] = {}
+
+
+class Home(NamedTuple):
+    """Where a key belongs.
+
+    Attributes:
+        key: of the mapping that it stands in.
+        line: an example with the key itself.
+    """
+
+    key: str
+    line: str
+
+
+Cures: TypeAlias = Callable[[], Mapping[str, str | Home]]
+"""What to do about keys that are expected elsewhere, or not at all: asked where one is met."""
+_NOTHING: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
 """What tags begin with that make objects of Python."""
 
@@ -173,8 +189,9 @@ class Source:
         node: Node,
         where: str,
         allowed: Iterable[str],
-        cures: Mapping[str, str] = _NO_CURES,
+        cures: Cures = dict,
         form: str = "",
+        words: Mapping[str, str] = _NOTHING,
     ) -> Entries:
         """The entries of a mapping by key; doubled and unknown keys are noted.
 
@@ -187,6 +204,7 @@ class Source:
             allowed: the keys there are; none for any.
             cures: what to do about keys that are expected elsewhere.
             form: the cure where there is no mapping at all.
+            words: what people call keys besides their names.
         """
         if not isinstance(node, MappingNode):
             message = f"{where}: a mapping of keys to values is expected here"
@@ -209,12 +227,13 @@ class Source:
             else:
                 unknown.append(key_node)
                 # no more are told, so no more are compared with the known ones
-                if len(unknown) > MAX_FAULTS or key in cures:
+                if len(unknown) > MAX_FAULTS or key in cures():
                     continue
-                meant = meant_key(key, known)
+                meant = meant_key(key, known, words)
                 if meant and meant not in given:
                     entries[meant] = value
-        self._unknown_keys(unknown, where, known, cures)
+        if unknown:
+            self._unknown_keys(unknown, where, known, cures(), words)
         return entries
 
     def _unknown_keys(
@@ -222,25 +241,30 @@ class Source:
         unknown: Sequence[ScalarNode],
         where: str,
         known: Sequence[str],
-        cures: Mapping[str, str],
+        cures: Mapping[str, str | Home],
+        words: Mapping[str, str],
     ) -> None:
         """Note keys that there are not; those that belong to one other place as one fault."""
-        together: dict[str, list[ScalarNode]] = {}
+        together: dict[object, list[ScalarNode]] = {}
         for number, key_node in enumerate(unknown[:MAX_FAULTS]):
-            cure = cures.get(key_node.value, "")
-            together.setdefault(cure or str(number), []).append(key_node)
-        for cure, nodes in together.items():
-            first = nodes[0].value
-            shown = [shortened(x.value) for x in nodes[:MAX_PLACES]]
-            names = ", ".join(shown)
+            there = cures.get(key_node.value, number)
+            group = there.key if isinstance(there, Home) else there
+            together.setdefault(group, []).append(key_node)
+        for nodes in together.values():
+            shown = nodes[:MAX_PLACES]
             noun = "key" if len(nodes) == 1 else "keys"
-            message = f"{where}: unknown {noun} {names}"
-            if first not in cures:
-                cure = did_you_mean(first, known)
-                meant = meant_key(first, known)
-                if meant:
-                    cure = f"did you mean {meant!r}?"
-            self.fault(nodes[0], message, cure, code="unknown-key")
+            names = ", ".join(shortened(x.value) for x in shown)
+            first = nodes[0].value
+            cure = cures.get(first)
+            if isinstance(cure, Home):
+                lines = [
+                    x.line for x in (cures[node.value] for node in shown) if isinstance(x, Home)
+                ]
+                cure = f"write {cure.key}: {{{', '.join(lines)}}}"
+            elif cure is None:
+                meant = meant_key(first, known, words)
+                cure = f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
+            self.fault(nodes[0], f"{where}: unknown {noun} {names}", cure, code="unknown-key")
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
             message = f"{where}: and {count} more unknown keys"

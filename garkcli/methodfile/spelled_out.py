@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -22,7 +22,7 @@ from garkcli.methodfile.further import DENSE, FurtherReader
 from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, defined, mapping
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Numbers, Row, Rows
-from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.source import Entries, Home, Source
 
 Weights: TypeAlias = tuple[Row, ...]
 """A row a colour."""
@@ -32,13 +32,7 @@ BlockRow: TypeAlias = tuple[Rows | None, ...]
 """The blocks A^{l,m} of one colour l, None for absent ones."""
 Names: TypeAlias = tuple[str, str, str]
 """What A, b and c are called in messages."""
-CURES = further.CURES | {
-    "family": "a family is listed under methods: [{family: gauss, stages: 2}]",
-    "stages": "the number of entries in b says it",
-    "s": "the number of entries in b says it",
-    "order": "claims go under expect: {order: 4}",
-}
-"""What people write into a Butcher tableau besides A, b and c."""
+_SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
     "a method of one colour has A: [[…], …] and b: […], one of two A: [[A11, A12], [A21, A22]]"
@@ -68,11 +62,13 @@ TABLEAU_KEYS = (
         "The matrix of a Butcher tableau, row by row; rows may end at the diagonal or before it. "
         "Of several colours rows of blocks A^{l,m}, null where colour l does not see colour m.",
         page="docs/method-file.md#a-b-c-a-butcher-tableau",
+        also=("matrix", "coefficients"),
     ),
     Key(
         "b: [0, 1]",
         _all_of(_ROW, rows_of(_ROW)),
         "The weights, one a stage; of several colours a row each.",
+        also=("weights", "weight"),
     ),
     Key(
         "c: [0, 1/2]",
@@ -80,12 +76,17 @@ TABLEAU_KEYS = (
         "The nodes, one a stage; of several colours a row each. Where they are left out they are "
         "the row sums of A. Order conditions do not depend on them, B, C, D and the "
         "non-autonomous order do.",
+        also=("nodes", "abscissae", "abscissas"),
     ),
     Key(
         "embedded: [1, 0]",
         _all_of(_ROW, rows_of(_ROW)),
         "Embedded weights, one a stage; of several colours a row each. They stand beside b.",
         page=_PAGE,
+        also=(
+            *("bhat", "b_hat", "b-hat", "bh", "b2", "b*", "b^", "btilde", "be"),
+            *("b_embedded", "bembed", "embedding"),
+        ),
     ),
     Key(
         "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}",
@@ -93,15 +94,26 @@ TABLEAU_KEYS = (
         "Dense output: weights that are polynomials in θ without constant terms. It stands beside "
         "b.",
         page=_PAGE,
+        also=("bi", "binterp", "b_theta"),
     ),
 )
 """What a Butcher tableau has, wherever it stands."""
 
 
 def with_coefficients(*keys: Key, form: str) -> Kind:
-    """A mapping with these keys, of which it needs A and b."""
-    needed = [replace(key, is_needed=key.name in {"A", "b"}) for key in keys]
-    return mapping(*needed, form=form, cures=CURES)
+    """A mapping with these keys, of which it needs A and b; called as at the top of a file."""
+    also = {key.name: key.also for key in TABLEAU_KEYS}
+    needed = [
+        replace(key, is_needed=key.name in {"A", "b"}, also=also.get(key.name, ())) for key in keys
+    ]
+    return mapping(*needed, form=form, cures=_elsewhere)
+
+
+def _elsewhere() -> Mapping[str, str | Home]:
+    """What to do about keys that stand in a Butcher tableau and belong elsewhere."""
+    from garkcli.methodfile.file_keys import elsewhere  # which has this tableau in it
+
+    return {**elsewhere(), **_SAID_BY_B}
 
 
 TABLEAU = with_coefficients(

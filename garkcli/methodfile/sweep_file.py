@@ -25,10 +25,12 @@ from garkcli.methodfile.grammar import (
     FILE,
     FLAG,
     TEXT,
+    Beside,
     Found,
     Key,
     Kind,
     Schema,
+    Ways,
     count,
     mapping,
     one_or_more,
@@ -295,7 +297,16 @@ def file_of(kinds: Mapping[str, str]) -> Kind:
             "Columns of the Pareto front: the methods that none surpasses in all of them.",
         ),
         form="write columns: [order, error]",
-        rules={"anyOf": [{"required": ["methods"]}, {"required": ["files"]}]},
+        rules=[
+            Ways(
+                "",
+                ("methods", "files"),
+                "no methods and no files",
+                "write methods: [{family: gauss, stages: 1..4}], or files",
+                is_one=False,
+            ),
+            Beside("transfer", "transfer without methods", "add methods", needs=("methods",)),
+        ],
     )
 
 
@@ -365,15 +376,8 @@ class _Reader:
         if is_right and "methods" in said and len(entries) == len(said.nodes["methods"].value):
             methods.read(said.nodes["methods"], entries, said.get("transfer"))
             is_whole = True
-        elif "transfer" in said and "methods" not in said.nodes:
-            source.fault(
-                said["transfer"], "transfer without methods", "add methods", code="not-together"
-            )
         if "files" in said:
             methods.read_files(said["files"], self.folder)
-        if not {"methods", "files"} & said.nodes.keys():
-            cure = "write methods: [{family: gauss, stages: 1..4}], or files"
-            source.fault(root, "no methods and no files", cure, code="missing-key")
         if is_whole and len(source.faults) == before:
             self._refuse_unused(said, found)
         self._refuse_large(root, found)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
+from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.pasted import Pasted
 from garkcli.methodfile.writer import quoted
 
@@ -12,6 +15,8 @@ HEAD = (
     "# gark check FILE proves the claims under expect; gark claims FILE --write",
     "# renews them; gark explain WORD says what a key means.",
 )
+_MEANS = re.compile("[;:.]")
+"""What ends the first part of a text about a key, which says what it is."""
 
 
 @dataclass(frozen=True)
@@ -22,21 +27,30 @@ class Member:
     stages: int
 
 
+Values: TypeAlias = Mapping[str, str | Sequence[str]]
+"""What stands under keys of a file: a text in its line, or the items of a list below it."""
+
+
+def new_file(values: Values) -> str:
+    """A method file with some keys, each with what it means."""
+    return "\n".join([*HEAD, *_lines(values), ""])
+
+
+def _lines(values: Values) -> Iterator[str]:
+    for key in (key for name, key in KEYS.items() if name in values):
+        value, meaning = values[key.name], _MEANS.split(key.text, maxsplit=1)[0]
+        comment = f"# {meaning[0].lower()}{meaning[1:]}"
+        if isinstance(value, str):
+            yield f"{key.name}: {value}" + (f"  {comment}" if key.name != "name" else "")
+        else:
+            yield from (comment, f"{key.name}:", *(f"  - {item}" for item in value))
+
+
 def of_tableau(name: str, found: Pasted) -> str:
     """A method file of a pasted tableau."""
-    return "\n".join([*HEAD, f"name: {quoted(name)}", *_tableau(found), ""])
-
-
-def _tableau(found: Pasted) -> Iterator[str]:
-    yield "# the matrix, a row a stage"
-    yield "A:"
-    for row in found.A:
-        yield f"  - {_row(row)}"
-    yield f"b: {_row(found.b)}  # weights"
-    if found.c is not None:
-        yield f"c: {_row(found.c)}  # nodes"
-    if found.embedded is not None:
-        yield f"embedded: {_row(found.embedded)}  # embedded weights"
+    rows = {"b": found.b, "c": found.c, "embedded": found.embedded}
+    given = {key: _row(row) for key, row in rows.items() if row is not None}
+    return new_file({"name": quoted(name), "A": [_row(row) for row in found.A], **given})
 
 
 def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
@@ -47,13 +61,9 @@ def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
         members: one a colour.
         transfer: the rule for the blocks between them.
     """
-    lines = [*HEAD, f"name: {quoted(name)}"]
-    lines += ["# the diagonal methods, one a colour", "methods:"]
-    for member in members:
-        lines.append(f"  - {{family: {member.family}, stages: {member.stages}}}")
-    if len(members) > 1:
-        lines.append(f"transfer: {transfer}  # how the blocks between are made")
-    return "\n".join([*lines, ""])
+    methods = [f"{{family: {x.family}, stages: {x.stages}}}" for x in members]
+    between = {"transfer": transfer} if len(members) > 1 else {}
+    return new_file({"name": quoted(name), "methods": methods, **between})
 
 
 def _row(numbers: Sequence[str]) -> str:

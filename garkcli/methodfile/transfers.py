@@ -15,7 +15,7 @@ from garkcli.methodfile.description import (
     TransferText,
     block_name,
 )
-from garkcli.methodfile.grammar import Key, Kind, by_name, defined, mapping, word
+from garkcli.methodfile.grammar import Key, Kind, OfSchema, by_name, defined, mapping, word
 from garkcli.methodfile.nodes import key_nodes, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Source
@@ -31,7 +31,7 @@ def _weight(rule: str) -> Key:
 ALL_RULES = (*RULES, *PAIR_RULES)
 """The words for rules."""
 _WORDS = word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
-_WEIGHTS = mapping(*map(_weight, RULES), rules={"minProperties": 1})
+_WEIGHTS = mapping(*map(_weight, RULES), rules=[OfSchema({"minProperties": 1})])
 RULE = Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema()]})
 """How a block is made: one of the rules, or several with weights."""
 _OF_RULE = defined("rule").schema()
@@ -50,7 +50,7 @@ _PARTS = mapping(
         "Blocks that differ from the default, by the numbers of their colours: a rule, weights of "
         "rules, or the matrix itself.",
     ),
-    rules={"minProperties": 1},
+    rules=[OfSchema({"minProperties": 1})],
 )
 TRANSFER = Kind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema()]},

@@ -2,31 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from garkcli.errors import nearest
 
-_OTHER_WORDS = {
-    "weights": "b",
-    "weight": "b",
-    "nodes": "c",
-    "abscissae": "c",
-    "abscissas": "c",
-    "matrix": "A",
-    "coefficients": "A",
-    "title": "name",
-    "method": "methods",
-    "params": "parameters",
-    "butcher": "tableau",
-    "claims": "expect",
-}
-"""What people call keys besides their names."""
 
+def meant_key(key: str, known: Sequence[str], words: Mapping[str, str]) -> str:
+    """The key that an unknown one stands for; empty where it is none of them.
 
-def meant_key(key: str, known: Sequence[str]) -> str:
-    """The key that an unknown one stands for; empty where it is none of them."""
-    other = _OTHER_WORDS.get(key.lower(), "")
-    return other if other in known else nearest(key, known)
+    Args:
+        key: as it is written.
+        known: the keys there are.
+        words: what people call some of them besides.
+    """
+    return words.get(key.lower(), "") or nearest(key, known)
 
 
 def one_line(text: str) -> str:

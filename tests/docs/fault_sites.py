@@ -24,6 +24,8 @@ ERRORS = {
 READERS = PACKAGE / "bridges" / "readers"
 METHODS = {"fault": 1, "error": 0, "__init__": 0}
 """Methods that make faults, with the place of the message among their arguments."""
+DECLARED = {"Beside": (1, "not-together"), "Ways": (2, "missing-key")}
+"""Rules about keys: where their message stands among their arguments, and its kind."""
 HOLE = "{}"
 
 
@@ -75,7 +77,12 @@ class _File:
 @cache
 def _files() -> tuple[_File, ...]:
     """The files that make errors."""
-    words = (*(f"{name}(" for name in ERRORS), ".fault(", ".error(", "super().__init__(f")
+    words = (
+        *(f"{name}(" for name in (*ERRORS, *DECLARED)),
+        ".fault(",
+        ".error(",
+        "super().__init__(f",
+    )
     found = []
     for path in _paths():
         text = path.read_text(encoding="utf-8")
@@ -127,6 +134,8 @@ def _code(call: ast.Call, file: _File) -> str:
     said = _argument(call, len(call.args), "code")
     if said is None:
         name = _name(call.func)
+        if name in DECLARED:
+            return DECLARED[name][1]
         return _code_of_class(file.owner.get(file.around[call], name) if name in METHODS else name)
     return str(said.value) if isinstance(said, ast.Constant) else HOLE
 
@@ -160,6 +169,8 @@ def _message_place(call: ast.Call) -> int | None:
     name = _name(call.func)
     if isinstance(call.func, ast.Name) and name in ERRORS:
         return 0
+    if isinstance(call.func, ast.Name) and name in DECLARED:
+        return DECLARED[name][0]
     if isinstance(call.func, ast.Attribute) and name in METHODS:
         return METHODS[name]
     return None
@@ -183,7 +194,7 @@ def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
 def _texts(node: ast.expr, file: _File, at: ast.AST, depth: int) -> Iterator[str]:
     """What an expression may say; nothing where it hands on what another site has said."""
     if isinstance(node, ast.Constant):
-        yield str(node.value)
+        yield str(node.value).replace("{way}", HOLE)
     elif isinstance(node, ast.JoinedStr):
         yield "".join(str(x.value) if isinstance(x, ast.Constant) else HOLE for x in node.values)
     elif isinstance(node, ast.IfExp):

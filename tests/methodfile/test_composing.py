@@ -1,4 +1,4 @@
-"""Files are read and composed as PyYAML itself would, only sooner."""
+"""Files are read and composed as by PyYAML itself, within limits."""
 
 import os
 from pathlib import Path

@@ -164,7 +164,7 @@ def test_momenta_of_a_lagrangian() -> None:
         ),
         (ONE + "inital: {}", [(4, 1, "the file: unknown key 'inital'")]),
         (ONE + "initial: {}", [(4, 1, "the file: the key 'initial' stands here twice")]),
-        (ONE + "lagrangian: vx**2", [(4, 13, "a hamiltonian and a lagrangian")]),
+        (ONE + "lagrangian: vx**2", [(4, 13, "given by hamiltonian already")]),
         (ONE + "gark: 2", [(4, 7, "gark: this program reads version 1")]),
         (ONE + "name: [a]", [(4, 7, "name: a single value is expected here")]),
         (ONE + "t_end: 0", [(4, 8, "t_end: a positive rational number")]),

@@ -90,7 +90,7 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
         ),
         (HEAD + "rhs: {x: y, y: -x}\n", [(1, 1, "initial missing")]),
         (HEAD + "rhs: {x: y}\ninitial: {x: 1}\n", [(3, 10, "no value for y")]),
-        (HEAD + "rhs: {x: y}\nhamiltonian: px\n" + TAIL, [(2, 6, "a hamiltonian and an rhs")]),
+        (HEAD + "rhs: {x: y}\nhamiltonian: px\n" + TAIL, [(2, 6, "given by hamiltonian already")]),
         (HEAD + "rhs: {x: 1/(x - 1)}\n" + TAIL, [(2, 13, "at the initial values")]),
         (HEAD + "rhs: {x: sqrt(y - 2)}\n" + TAIL, [(2, 10, "no derivative by y")]),
         (HEAD + "rhs: {x: log(-1)*x}\n" + TAIL, [(2, 10, "f")]),

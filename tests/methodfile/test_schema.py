@@ -160,11 +160,9 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     """
     properties = SCHEMA["properties"]
     assert set(properties) == set(KEYS)
-    assert [x["required"] for x in SCHEMA["oneOf"]] == [
-        *([form] for form in FORMS),
-        ["unknown"],
-        ["A", "b"],
-    ]
+    *forms, plain = SCHEMA["allOf"][0]["allOf"][0]["oneOf"]
+    assert [x["required"] for x in forms] == [[form] for form in (*FORMS, "unknown")]
+    assert [x["required"] for x in plain["anyOf"]] == [[key] for key in PLAIN]
     assert set(properties["tableau"]["properties"]) == {*PLAIN, *BESIDE}
     assert properties["structure"]["enum"] == list(STRUCTURES)
     assert set(properties["expect"]["properties"]) == set(CLAIMS)
@@ -221,6 +219,18 @@ def test_stages_are_needed_where_the_loader_needs_them(name: str) -> None:
         "methods: [{family: rk4}]\ngark: 2",
         "methods: [{family: rk4}]\ntableau: {A: [[[[1/2]]]], b: [[1]]}",
         "name: nothing else",
+        "c: [0]",
+        "A: [[0]]\nc: [0]",
+        "unknown: {stages: 2, shape: sdirk}\nlinear: [1]",
+        "compose: {of: rk4, steps: [1], scheme: suzuki}",
+        "compose: {scheme: suzuki}",
+        "compose: {of: rk4, steps: [1], order: 4}",
+        "extrapolate: {of: rk4}",
+        "extrapolate: {of: rk4, sequence: harmonic}",
+        "extrapolate: {of: rk4, sequence: [1, 2], order: 6}",
+        "splitting: {a: [1]}",
+        "splitting: {a: [1/2, 1/2], b: [1], scheme: strang}",
+        "splitting: {terms: 2}",
         "[]",
     ],
 )

@@ -16,7 +16,19 @@ from garkcli.exact.expression import read_decimal
 from garkcli.methodfile.coefficients import NUMBER
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
-from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, either, list_of, mapping, word
+from garkcli.methodfile.grammar import (
+    FLAG,
+    Beside,
+    Found,
+    Key,
+    Kind,
+    Ways,
+    count,
+    either,
+    list_of,
+    mapping,
+    word,
+)
 from garkcli.methodfile.numbers import Entry
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
@@ -91,6 +103,21 @@ _KEYS = mapping(
         "A method π: the step is π, then the substeps, then the inverse of π.",
     ),
     form=_FORM,
+    rules=[
+        Ways("the substeps are", ("scheme", "steps")),
+        Ways(
+            "",
+            ("steps", "scheme", "processor"),
+            "no substeps",
+            "give steps: [1/2, 1/2] or scheme: triple-jump",
+            is_one=False,
+        ),
+        Beside("scheme", "of missing beside scheme", _FORM, needs=("of",), code="missing-key"),
+        *(
+            Beside(key, f"{key} goes with scheme", needs=("scheme",), code="option-alone")
+            for key in ("order", "from")
+        ),
+    ],
 )
 
 
@@ -99,23 +126,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     source = at.source
     before = len(source.faults)
     found: Found | None = _KEYS.read(at, node, where)
-    if found is None:
-        return None
-    found.way(source, where, "the substeps are", ("scheme", "steps"))
-    if "scheme" in found.nodes and "of" not in found.nodes:
-        source.fault(node, f"{where}: of missing beside scheme", _FORM, code="missing-key")
-    for key in found.nodes.keys() & {"order", "from"}:
-        if "scheme" not in found.nodes:
-            source.fault(
-                found.nodes[key],
-                f"{where}: {key} goes with scheme",
-                "leave it out",
-                code="option-alone",
-            )
-    if not found.nodes.keys() & {"steps", "scheme", "processor"}:
-        cure = "give steps: [1/2, 1/2] or scheme: triple-jump"
-        source.fault(node, f"{where}: no substeps", cure, code="missing-key")
-    if len(source.faults) > before:
+    if found is None or not found.is_right:
         return None
     steps = [*_steps(at, found, where)]
     if "processor" in found:

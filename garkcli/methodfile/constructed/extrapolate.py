@@ -14,14 +14,27 @@ from garkcli.exact.field import ZERO
 from garkcli.families.extrapolated import SEQUENCES, sequence
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
-from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, either, mapping, word
-from garkcli.methodfile.values import Values
+from garkcli.methodfile.grammar import (
+    FLAG,
+    Beside,
+    Found,
+    Key,
+    Kind,
+    Values,
+    Ways,
+    count,
+    either,
+    mapping,
+    word,
+)
+from garkcli.methodfile.values import Values as Numbers
 from garkcli.order.deciding import order_of
 from garkcli.properties.symmetry import symmetry
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 _FORM = "write for instance {of: {family: gauss, stages: 1}, order: 6}"
+_HOW_FAR, _GIVE_ORDER = "how far is missing", "give order: 6, or sequence: [1, 2, 3]"
 MAX_ORDER = 40
 """Largest order that is extrapolated to."""
 MAX_PARTS = 200
@@ -85,25 +98,34 @@ _KEYS = mapping(
         "is found where it is left out and no parameter is free.",
     ),
     form=_FORM,
+    rules=[
+        Ways("", ("order", "sequence"), _HOW_FAR, _GIVE_ORDER, is_one=False),
+        Beside(
+            "sequence",
+            "the numbers of sequence say the order",
+            "keep one of them",
+            bars=("order",),
+            code="given-twice",
+            values=Values({"type": "array"}, lambda node: isinstance(node, SequenceNode)),
+        ),
+        Beside(
+            "sequence",
+            _HOW_FAR,
+            _GIVE_ORDER,
+            needs=("order",),
+            code="missing-key",
+            values=Values(
+                {"not": {"type": "array"}}, lambda node: not isinstance(node, SequenceNode)
+            ),
+        ),
+    ],
 )
 
 
 def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     """The method and the numbers of its substeps."""
-    source = at.source
     found: Found | None = _KEYS.read(at, node, where)
-    if found is None:
-        return None
-    has_numbers = isinstance(found.nodes.get("sequence"), SequenceNode)
-    if has_numbers and "order" in found:
-        message = f"{where}: the numbers of sequence say the order"
-        source.fault(found.nodes["order"], message, "keep one of them", code="given-twice")
-        return None
-    if not has_numbers and "order" not in found.nodes:
-        cure = "give order: 6, or sequence: [1, 2, 3]"
-        source.fault(node, f"{where}: how far is missing", cure, code="missing-key")
-        return None
-    if not found.is_right:
+    if found is None or not found.is_right:
         return None
     plan = _Plan(
         found.get("sequence", "harmonic"),
@@ -113,7 +135,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
         at.rounding(at.tolerance),
     )
 
-    def made(tableau_of: Callable[[PartText], Tableau], _: Values) -> Tableau:
+    def made(tableau_of: Callable[[PartText], Tableau], _: Numbers) -> Tableau:
         return plan.made(tableau_of(found["of"]))
 
     return at.made(node, made)

@@ -26,9 +26,11 @@ from garkcli.methodfile.coefficients import MATRIX, ROW
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.grammar import (
+    Beside,
     Found,
     Key,
     Kind,
+    Ways,
     as_it_is,
     count,
     either,
@@ -98,8 +100,9 @@ _MRI = mapping(
         "The coefficients of the explicit slow part beside an implicit one.",
     ),
     form=_FORM_OF_MRI,
-    rules={"anyOf": [{"required": ["gamma"]}, {"required": ["omega"]}]},
+    rules=[Ways("", ("gamma", "omega"), "gamma missing", _FORM_OF_MRI, is_one=False)],
 )
+_SLOW = Ways("the slow part is", ("slow", "mis", "mri"), "the slow method is missing", _FORM)
 _KEYS = mapping(
     Key("fast: rk4", METHOD, "The method of the fast part, of one colour.", is_needed=True),
     Key(
@@ -125,7 +128,7 @@ _KEYS = mapping(
         "Multirate infinitesimal steps whose forcing has polynomials in time.",
     ),
     form=_FORM,
-    rules={"oneOf": [{"required": [key]} for key in ("slow", "mis", "mri")]},
+    rules=[_SLOW, Beside("coupling", "coupling does not go with {way}", needs=("slow",))],
 )
 
 
@@ -161,22 +164,12 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     found: Found | None = _KEYS.read(at, node, where)
     if found is None:
         return None
-    way = found.way(at.source, where, "the slow part is", ("slow", "mis", "mri"))
-    if way is None and not found.nodes.keys() & {"slow", "mis", "mri"}:
-        at.source.fault(node, f"{where}: the slow method is missing", _FORM, code="missing-key")
-    elif way != "slow" and "coupling" in found.nodes:
-        message = f"{where}: coupling does not go with {way}"
-        at.source.fault(found.nodes["coupling"], message, "leave it out", code="not-together")
-    if way == "mri" and "mri" in found and not found["mri"].nodes.keys() & {"gamma", "omega"}:
-        at.source.fault(
-            found.nodes["mri"], f"{where}, mri: gamma missing", _FORM_OF_MRI, code="missing-key"
-        )
-    if len(at.source.faults) > before:
+    if not found.is_right:
         return None
     make: Make
-    if way == "slow":
+    if "slow" in found:
         make = _coupled(at, found)
-    elif way == "mis":
+    elif "mis" in found:
         make = Infinitesimal(
             found["fast"],
             lambda tableau_of, _: mis_coupling(_method(tableau_of, found["mis"], "mis")),

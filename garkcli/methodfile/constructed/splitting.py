@@ -17,6 +17,8 @@ from garkcli.methodfile.grammar import (
     Found,
     Key,
     Kind,
+    Together,
+    Ways,
     by_name,
     count,
     list_of,
@@ -37,6 +39,7 @@ MAX_FLOWS = 400
 _Flow: TypeAlias = tuple[int, Entry]
 """A part of the problem, counted from 0, and for which fraction of the step it flows."""
 
+_WAYS = Ways("the flows are", (Together(("a", "b")), "flows", "scheme"), "no flows", _FORM)
 _FLOW = by_name(NUMBER, propertyNames={"pattern": "^[1-9][0-9]?$"}, minProperties=1)
 _KEYS = mapping(
     Key(
@@ -64,6 +67,7 @@ _KEYS = mapping(
         "terms: 3", count(2, MAX_TERMS), "How many parts there are, where nothing else says it.", 2
     ),
     form=_FORM,
+    rules=[_WAYS],
 )
 
 
@@ -75,18 +79,14 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     if found is None:
         return None
     terms = _terms(at, found, where)
-    first = "a" if "a" in found.nodes else "b"
-    way = found.way(source, where, "the flows are", (first, "flows", "scheme"))
-    if way is None and len(source.faults) == before:
-        source.fault(node, f"{where}: no flows", _FORM, code="missing-key")
-    if len(source.faults) > before or way is None:
+    if len(source.faults) > before:
         return None
     rounding = None
-    if way == "scheme":
+    if "scheme" in found:
         flows = [*_by_scheme(at, found, terms, where)]
         tolerance = SPLITTINGS[found["scheme"]].tolerance
         rounding = read_decimal(tolerance) if tolerance else None
-    elif way == "flows":
+    elif "flows" in found:
         flows = [*_one_by_one(at, found["flows"], terms)]
     else:
         flows = [*_alternating(at, found, where)]
@@ -140,12 +140,6 @@ def _largest(flows: Node | None) -> int:
 
 def _alternating(at: PartReader, found: Found, where: str) -> Iterator[_Flow]:
     """Part 1 for a_1, part 2 for b_1, and so on."""
-    for key, other in (("a", "b"), ("b", "a")):
-        if key not in found:
-            at.source.fault(
-                found.node, f"{where}: {key} missing beside {other}", _FORM, code="missing-key"
-            )
-            return
     a, b = found["a"], found["b"]
     if len(a) - len(b) not in {0, 1}:
         message = f"{where}: a has {len(a)} numbers and b has {len(b)}"
