@@ -14,7 +14,7 @@ from garkcli.conversion.sheet import (
     regrouped,
     sheet_of,
 )
-from garkcli.conversion.stage_order import in_order, in_solving_order
+from garkcli.conversion.stages import in_order, in_solving_order
 from garkcli.errors import counted
 from garkcli.properties.reduction import merged, reduced
 from garkcli.tableau.forms import pair
