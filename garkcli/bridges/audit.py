@@ -10,7 +10,6 @@ from typing import Literal, TypeAlias
 from garkcli.bridges.importing import orders_of, read
 from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
-from garkcli.bridges.readers.found import FoundTable
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
@@ -20,6 +19,7 @@ from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.tolerance import within
+from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
@@ -60,6 +60,7 @@ CODES = {
     "embedded-order-higher": "the embedded order is higher than declared",
     "open": "the digits leave open whether the order is as declared",
     "unread": "coefficients are not written out",
+    "other-kind": "the table is not one of a Runge–Kutta method",
 }
 """Every kind of finding."""
 
@@ -131,6 +132,9 @@ def unlike(paths: Iterable[str]) -> Iterator[str]:
 
 def audit(table: FoundTable) -> Audited | None:
     """What is true of a table; None where it is no method at all."""
+    if table.kind:
+        message = f"a {table.kind} table, which is not judged as one of Runge–Kutta"
+        return Audited(table, findings=(AuditFinding("other-kind", message, level="note"),))
     if table.trouble:
         return Audited(table, findings=(_of_trouble(table),))
     try:

@@ -9,13 +9,13 @@ from pathlib import PurePath
 
 from garkcli.bridges.importing import Imported, imported
 from garkcli.bridges.plausible import is_plausible
-from garkcli.bridges.readers.found import FoundTable, Reader
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.recognising import Proposal, Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME, source_text
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
 from garkcli.page.plaintext import plain_line
+from garkcli.sources.found import FoundTable, Reader
 
 SUFFIX = ".gark.yaml"
 _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
@@ -117,6 +117,8 @@ def collected(
 
 
 def _result(table: FoundTable, name: str, is_recognising: bool) -> Result:
+    if table.kind:
+        return Result(table, trouble=f"a {table.kind} table is none of a Runge–Kutta method")
     if table.trouble:
         return Result(table, trouble=table.trouble)
     try:

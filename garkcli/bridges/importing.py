@@ -10,7 +10,6 @@ from functools import lru_cache
 from flint import fmpq
 
 from garkcli.bridges.judging import Judged, judged
-from garkcli.bridges.readers.found import FoundTable, Row, Rows
 from garkcli.errors import ExpressionError, printable
 from garkcli.exact.display import decimal
 from garkcli.exact.domain import Domain
@@ -20,6 +19,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import quoted
 from garkcli.page.plaintext import plain_line
+from garkcli.sources.found import FoundTable, Row, Rows
 from garkcli.tableau.embedded import with_weights
 
 SHORT = 8

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from flint import arb
 
-from garkcli.bridges.readers.found import FoundTable
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
 from garkcli.methodfile.build import MethodFile
+from garkcli.sources.found import FoundTable
 
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.bridges.importing import Imported, imported
-from garkcli.bridges.readers.found import FoundTable, Row, Rows
 from garkcli.design.search.recognise import minimal_polynomial, rational
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
@@ -18,6 +17,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_text
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.order.tolerance import rounded_up
+from garkcli.sources.found import FoundTable, Row, Rows
 
 FEWEST_DIGITS = 6
 """Decimals with fewer digits are exact already."""

@@ -6,11 +6,11 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import PurePath
 
-from garkcli.bridges.readers.found import MAX_CHARACTERS
 from garkcli.bridges.readers.registry import suffixes
 from garkcli.errors import UsageProblem, printable
 from garkcli.files import STDIN, NotAFile, leads_away, read_bytes
 from garkcli.methodfile.folders import no_one
+from garkcli.sources.found import MAX_CHARACTERS
 
 STDIN_NAME = "<stdin>"
 MAX_FILES = 100_000

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from garkcli.bridges.judging import Judged, digits_of, judged
-from garkcli.bridges.readers.found import FoundTable
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.simplifying import RoundedDefects
+from garkcli.sources.found import FoundTable
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from garkcli.bridges.collecting import Result
-    from garkcli.bridges.readers.found import FoundTable, Reader
+    from garkcli.sources.found import FoundTable, Reader
 
 
 @declared("import", (*FORMATS, "yaml"))

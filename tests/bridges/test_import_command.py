@@ -28,7 +28,7 @@ def test_files_and_their_claims(tmp_path: Path) -> None:
     checked = gark("check", "-q", str(folder))
     assert checked.code == 0, checked.out
     first = files[0].read_text(encoding="utf-8")
-    assert first.startswith(f"# from {SOURCES / 'heun_euler.def'}:5, read as c")
+    assert first.startswith(f"# from {SOURCES / 'heun_euler.def'}:1, read as c")
 
 
 def test_standard_input() -> None:

@@ -14,8 +14,8 @@ from garkcli.bridges.sources import source_files
 
 SOURCES = Path(__file__).parent / "sources"
 FOUND = {
-    ("heun_euler.def", 5): ("MY_HEUN_EULER_2_1_2", 1, 2, 1),
-    ("heun_euler.def", 17): ("MY_SDIRK_2_1_2", 1, 2, 1),
+    ("heun_euler.def", 1): ("MY_HEUN_EULER_2_1_2", 1, 2, 1),
+    ("heun_euler.def", 12): ("MY_SDIRK_2_1_2", 1, 2, 1),
     ("kutta.csv", 1): ("kutta", 1, 3, None),
     ("kutta.m", 3): ("kutta", 1, 3, None),
     ("kutta.m", 11): ("imex", 2, 2, None),
@@ -100,7 +100,7 @@ SAME = {
     ("kutta.m", 3): KUTTA,
     ("kutta.csv", 1): KUTTA,
     ("solvers.py", 31): KUTTA,
-    ("heun_euler.def", 17): SDIRK,
+    ("heun_euler.def", 12): SDIRK,
     ("rklab.m", 14): SDIRK,
 }
 

@@ -8,10 +8,10 @@ import pytest
 from flint import arb, fmpq
 
 from garkcli.bridges.importing import imported
-from garkcli.bridges.readers.found import FoundTable
 from garkcli.bridges.recognising import proposed, recognised
 from garkcli.exact.display import to_decimal
 from garkcli.families.registry import diagonal_method
+from garkcli.sources.found import FoundTable
 from garkcli.tableau.forms import gark as gark_tableau
 from garkcli.tableau.pointwise import Cell, entries
 

@@ -23,7 +23,6 @@ from garkcli.bridges.importing import entry_text, read
 from garkcli.bridges.orders import Orders
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
-from garkcli.bridges.readers.found import FoundTable
 from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridges
 from garkcli.exact.display import to_ball
@@ -31,6 +30,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic
 from garkcli.methodfile.load import load
+from garkcli.sources.found import FoundTable
 
 ROOT = Path(__file__).parents[2]
 CATALOGUE = sorted((ROOT / "garkcli/catalogue/data").glob("*/*.gark.yaml"))

@@ -73,7 +73,7 @@ VALUES = (
     "design.stable_values:StableValues",
     "design.search.run:Result",
     "bridges.audit:Audited",
-    "bridges.readers.found:FoundTable",
+    "sources.found:FoundTable",
     "report.sweep:SweepReport",
     "check.meanings:Meaning",
 )

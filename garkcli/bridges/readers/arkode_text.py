@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import MAX_STAGES, FoundTable, Reader, Row
 
 NAME = "arkode-text"
 _ROW = re.compile(r"[ \t]*([Acbd])[ \t]*=[ \t]*([-+0-9.eE \t,]*)")

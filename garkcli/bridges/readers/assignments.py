@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
 from garkcli.bridges.readers.parsing import ValueParser
-from garkcli.bridges.readers.scalars import Value
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import Unreadable
+from garkcli.sources.scalars import Value
 
 MAX_MEMBERS = 10
 """Most members of a name, such as those of ``a.b.c``."""

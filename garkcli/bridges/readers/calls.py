@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.lexing import Token
-from garkcli.bridges.readers.scalars import (
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import Unreadable
+from garkcli.sources.scalars import (
     Scalar,
     Value,
     combined,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.blocks import MAX_COLOURS, table_of_blocks
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable
-from garkcli.bridges.readers.naming import ROLES, Scope
-from garkcli.bridges.readers.scalars import Scalar, Value, number
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.blocks import MAX_COLOURS, table_of_blocks
+from garkcli.sources.found import MAX_STAGES, FoundTable
+from garkcli.sources.naming import ROLES, Scope
+from garkcli.sources.scalars import Scalar, Value, number
 
 _Indexed = dict[tuple[int, ...], Value]
 

@@ -7,11 +7,11 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePath
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.blocks import MAX_COLOURS
 from garkcli.bridges.readers.cells import Cells
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row, TooLarge
-from garkcli.bridges.readers.scalars import Scalar, Value
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.blocks import MAX_COLOURS
+from garkcli.sources.found import MAX_STAGES, FoundTable, Reader, Row, TooLarge
+from garkcli.sources.scalars import Scalar, Value
 
 NAME = "csv"
 COLUMNS = ["part", "l", "m", "i", "j", "value"]

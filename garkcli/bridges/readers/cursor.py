@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
-from garkcli.bridges.readers.scalars import Value
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import Unreadable
+from garkcli.sources.scalars import Value
 
 MAX_DEPTH = 40
 """Deepest nesting of brackets, signs and functions."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Begun, Called, Walk
-from garkcli.bridges.readers.found import FoundTable
-from garkcli.bridges.readers.naming import Scope
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import FoundTable
+from garkcli.sources.naming import Scope
 
 
 class Finder:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from garkcli.bridges.readers.scalars import ROOTS
+from garkcli.sources.scalars import ROOTS
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.blocks import table_of_blocks
-from garkcli.bridges.readers.found import FoundTable, Reader
-from garkcli.bridges.readers.naming import ROLES, Scope
-from garkcli.bridges.readers.scalars import Scalar, Value, number
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.blocks import table_of_blocks
+from garkcli.sources.found import FoundTable, Reader
+from garkcli.sources.naming import ROLES, Scope
+from garkcli.sources.scalars import Scalar, Value, number
 
 NAME = "json"
 MAX_DEPTH = 12

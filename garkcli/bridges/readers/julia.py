@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Called, Walk
-from garkcli.bridges.readers.blocks import assembled, table_of_blocks
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.found import FoundTable, Reader, Unreadable, troubled
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import JULIA, Token, tokens_of, without
-from garkcli.bridges.readers.naming import ROLES
-from garkcli.bridges.readers.scalars import Value, is_row, rows_of, whole
-from garkcli.bridges.readers.shaping import square, weights
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.blocks import assembled, table_of_blocks
+from garkcli.sources.found import FoundTable, Reader, Unreadable, troubled
+from garkcli.sources.naming import ROLES
+from garkcli.sources.scalars import Value, is_row, rows_of, whole
+from garkcli.sources.shaping import square, weights
 
 NAME = "julia"
 _TYPES = (

@@ -5,17 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import (
-    MAX_STAGES,
-    FoundTable,
-    Grid,
-    Reader,
-    Row,
-    Rows,
-    Unreadable,
-)
 from garkcli.bridges.readers.latex_numbers import number_of
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import MAX_STAGES, FoundTable, Grid, Reader, Row, Rows, Unreadable
 
 NAME = "latex"
 _BEGIN = re.compile(r"\\begin\{(?:array|tabular|butchertable)\}")

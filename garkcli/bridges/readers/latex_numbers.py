@@ -4,17 +4,8 @@ from __future__ import annotations
 
 import re
 
-from garkcli.bridges.readers.found import Unreadable
-from garkcli.bridges.readers.scalars import (
-    Scalar,
-    Value,
-    combined,
-    negated,
-    number,
-    power,
-    rooted,
-    whole,
-)
+from garkcli.sources.found import Unreadable
+from garkcli.sources.scalars import Scalar, Value, combined, negated, number, power, rooted, whole
 
 MAX_CELL = 40_000
 """Longest text of a number."""

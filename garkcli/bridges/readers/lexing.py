@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from functools import cache
 
-from garkcli.bridges.readers.found import TooLarge
+from garkcli.sources.found import TooLarge
 
 MAX_TOKENS = 1_000_000
 """Most tokens of a source."""

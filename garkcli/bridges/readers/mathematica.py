@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Walk
-from garkcli.bridges.readers.blocks import table_of_blocks
 from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.found import FoundTable, Reader, Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import MATHEMATICA, Token, tokens_of, without
-from garkcli.bridges.readers.naming import ROLES
-from garkcli.bridges.readers.scalars import Scalar, Value, is_matrix, is_row, row_of
-from garkcli.bridges.readers.shaping import difference, square, weights
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.blocks import table_of_blocks
+from garkcli.sources.found import FoundTable, Reader, Unreadable
+from garkcli.sources.naming import ROLES
+from garkcli.sources.scalars import Scalar, Value, is_matrix, is_row, row_of
+from garkcli.sources.shaping import difference, square, weights
 
 NAME = "mathematica"
 GRAMMAR = Grammar(

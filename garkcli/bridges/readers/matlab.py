@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.bridges.readers.allowance import Allowance
 from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader, Row, Rows, Unreadable
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import MATLAB, Token, tokens_of, without
-from garkcli.bridges.readers.naming import Scope
-from garkcli.bridges.readers.scalars import Value, rows_of
-from garkcli.bridges.readers.shaping import is_zero
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import MAX_STAGES, FoundTable, Reader, Row, Rows, Unreadable
+from garkcli.sources.naming import Scope
+from garkcli.sources.scalars import Value, rows_of
+from garkcli.sources.shaping import is_zero
 
 NAME = "matlab"
 GRAMMAR = Grammar(

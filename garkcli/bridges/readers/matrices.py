@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.bridges.readers.scalars import Scalar, Value
+from garkcli.sources.scalars import Scalar, Value
 
 
 def joined(rows: list[list[Value]], has_semicolons: bool) -> Value:

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from garkcli.bridges.readers.calls import end_of_argument, passed_on, reshaped, root_value
 from garkcli.bridges.readers.cursor import Cursor
-from garkcli.bridges.readers.found import Unreadable
 from garkcli.bridges.readers.matrices import joined
-from garkcli.bridges.readers.scalars import UNKNOWN, Value, negated, number, of_text, power, whole
+from garkcli.sources.found import Unreadable
+from garkcli.sources.scalars import UNKNOWN, Value, negated, number, of_text, power, whole
 
 _QUOTIENTS = frozenset({"/", "//", "./"})
 _PRODUCTS = frozenset({"*", ".*"})

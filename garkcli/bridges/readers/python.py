@@ -9,13 +9,13 @@ from collections import ChainMap
 from collections.abc import Mapping, Sequence
 from itertools import islice
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.blocks import table_of_blocks
-from garkcli.bridges.readers.found import FoundTable, Reader, Row, TooLarge, Unreadable, troubled
-from garkcli.bridges.readers.naming import Scope
 from garkcli.bridges.readers.python_values import Literals, as_number, called, targets_of
-from garkcli.bridges.readers.scalars import Value, whole
-from garkcli.bridges.readers.shaping import is_zero, square, total, weights
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.blocks import table_of_blocks
+from garkcli.sources.found import FoundTable, Reader, Row, TooLarge, Unreadable, troubled
+from garkcli.sources.naming import Scope
+from garkcli.sources.scalars import Value, whole
+from garkcli.sources.shaping import is_zero, square, total, weights
 
 NAME = "python"
 SCIPY = frozenset({"RungeKutta"})

@@ -6,18 +6,9 @@ import ast
 from collections.abc import Mapping, Sequence
 from itertools import chain
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import MAX_STAGES, Unreadable
-from garkcli.bridges.readers.scalars import (
-    Scalar,
-    Value,
-    negated,
-    number,
-    of_text,
-    power,
-    rooted,
-    whole,
-)
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import MAX_STAGES, Unreadable
+from garkcli.sources.scalars import Scalar, Value, negated, number, of_text, power, rooted, whole
 
 MAX_DEPTH = 60
 """Deepest nesting of expressions."""

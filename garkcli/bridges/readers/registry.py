@@ -1,4 +1,4 @@
-"""The readers of ``gark import`` and ``gark audit``, found in the files of this folder."""
+"""The readers of ``gark import`` and ``gark audit``, found in the files of two folders."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from importlib import import_module
 from pathlib import PurePath
 
 from garkcli.bridges import readers
-from garkcli.bridges.readers.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, troubled
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.sources import languages
+from garkcli.sources.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, troubled
 
 
 @lru_cache(maxsize=1)
 def all_readers() -> Mapping[str, Reader]:
     """Every reader by its name, in alphabetical order."""
     found: dict[str, Reader] = {}
-    for module in pkgutil.iter_modules(readers.__path__):
-        place = f"{readers.__name__}.{module.name}"
-        reader = getattr(import_module(place), "READER", None)
-        if isinstance(reader, Reader):
-            found[reader.name] = reader
+    for package in (readers, languages):
+        for module in pkgutil.iter_modules(package.__path__):
+            place = import_module(f"{package.__name__}.{module.name}")
+            found |= {x.name: x for x in vars(place).values() if isinstance(x, Reader)}
     return dict(sorted(found.items()))
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import PurePath
 
-from garkcli.bridges.readers.allowance import Allowance
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Reader
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import MAX_STAGES, FoundTable, Reader
 
 NAME = "tsv"
 _HEAD = re.compile(r"#[ \t]*([0-9]{1,3})[ \t]+([0-9]{1,3})[ \t]+([A-Za-z]\S*)")

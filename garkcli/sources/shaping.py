@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from garkcli.bridges.readers.found import MAX_STAGES, FoundTable, Row, Rows, Unreadable
-from garkcli.bridges.readers.scalars import Value, combined, is_row, number, row_of
+from garkcli.sources.found import MAX_STAGES, FoundTable, Row, Rows, Unreadable
+from garkcli.sources.scalars import Value, combined, is_row, number, row_of
 
 ZERO = "0"
 

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from garkcli.bridges.readers.found import FoundTable, Row, Rows, Unreadable, unlike_a_table
-from garkcli.bridges.readers.scalars import Value, is_matrix, is_row, rows_of, whole
-from garkcli.bridges.readers.shaping import difference, square, weights
+from garkcli.sources.found import FoundTable, Row, Rows, Unreadable, unlike_a_table
+from garkcli.sources.scalars import Value, is_matrix, is_row, rows_of, whole
+from garkcli.sources.shaping import difference, square, weights
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix"),
@@ -18,7 +18,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
         *("bhat", "b_hat", "bh", "bembed", "bstar", "b_star", "btilde"),
         *("b_tilde", "b_embedded", "bemb", "b_err_weights", "b_low_order"),
         *("embedded", "b2", "bhat_vec", "d", "αEEst", "alphaEEst", "b̂"),
-        "bEEst",
+        *("bEEst", "α̂", "b_low", "b_lower"),
     ),
     "error": ("E", "e", "evec", "b_error", "b_err", "c_error", "err"),
     "dense": ("P", "dense", "binterp", "binterpt"),

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from garkcli.bridges.readers.found import FoundTable, Grid, Row, Rows, Unreadable
-from garkcli.bridges.readers.scalars import Value, is_matrix, is_row, rows_of, whole
-from garkcli.bridges.readers.shaping import weights
+from garkcli.sources.found import FoundTable, Grid, Row, Rows, Unreadable
+from garkcli.sources.scalars import Value, is_matrix, is_row, rows_of, whole
+from garkcli.sources.shaping import weights
 
 MAX_COLOURS = 60
 """Most vector fields of a table."""

@@ -64,6 +64,8 @@ class FoundTable:
         is_sure: whether the source says that this is a method; otherwise names alone do.
         notes: what people should know of how it was read.
         trouble: what is wrong with the table itself; then it has no coefficients to judge.
+        kind: of another method, such as Rosenbrock; empty for Runge–Kutta.
+        is_assembled: whether it was put together from single numbers, by their names.
     """
 
     source: str
@@ -85,6 +87,8 @@ class FoundTable:
     is_sure: bool = True
     notes: tuple[str, ...] = ()
     trouble: str = ""
+    kind: str = ""
+    is_assembled: bool = False
 
     @property
     def colours(self) -> int:

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, Union
 
-from garkcli.bridges.readers.found import MAX_LENGTH, MAX_STAGES, Unreadable
 from garkcli.errors import ExpressionError
 from garkcli.exact.expression import parse
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.root_of import polynomial_in_x
 from garkcli.exact.roots import real_roots
+from garkcli.sources.found import MAX_LENGTH, MAX_STAGES, Unreadable
 
 SUM, PRODUCT, ATOM = range(3)
 """How tightly the parts of a text hold together."""

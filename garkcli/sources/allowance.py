@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from garkcli.bridges.readers.found import MAX_TABLES, FoundTable, Row, TooLarge
-from garkcli.bridges.readers.scalars import Scalar, Value, combined, transposed, zeros
+from garkcli.sources.found import MAX_TABLES, FoundTable, Row, TooLarge
+from garkcli.sources.scalars import Scalar, Value, combined, transposed, zeros
 
 MAX_WRITTEN = 10_000_000
 """Most characters of the numbers of a source, its names and zeros written out."""

@@ -1,0 +1,1 @@
+"""Tables of coefficients in program sources: parsed, evaluated exactly, found; never executed."""

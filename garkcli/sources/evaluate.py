@@ -1,0 +1,893 @@
+"""What sources say, evaluated: exact constants, unknown where anything is, nothing executed.
+
+Every scope is walked once, with a budget of steps; calls of functions with several statements are
+not followed. A branch whose condition is not known is walked in every way, each with names of its
+own; where these are too many, what it assigns is unknown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Protocol, TypeAlias
+
+from garkcli.sources import ir
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.found import MAX_STAGES
+from garkcli.sources.known import CALLS, CONSTANTS, CONVERSIONS, Call, conversion
+from garkcli.sources.signatures import SIGNATURES, other_kind
+from garkcli.sources.values import (
+    FILL,
+    NULL,
+    Array,
+    Function,
+    Null,
+    Number,
+    Record,
+    Type,
+    Unknown,
+    Value,
+    Word,
+    computed,
+    copied,
+    described,
+    integer,
+    literal,
+    negative,
+    real,
+    size,
+    transposed,
+    truncated,
+    whole,
+)
+
+MAX_WORLDS = 8
+"""Most ways through one scope that are walked side by side."""
+MAX_STEPS = 60_000
+"""Most steps for one function."""
+MAX_TURNS = 4_000
+"""Most turns of a loop."""
+MAX_DEPTH = 80
+"""Deepest nesting of expressions."""
+MAX_INLINED = 8
+"""Deepest nesting of calls of functions of one expression."""
+_SELF = frozenset({"self", "this", "cls"})
+_GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
+_METHODS = _GROWING | {"resize", "reserve", "clear", "reinit"}
+
+
+class OutOfSteps(Exception):
+    """A function takes too many steps."""
+
+
+class Space(dict[str, Value]):
+    """The names of a scope.
+
+    Attributes:
+        up: the scope around it, which is only read.
+        calls: records that were made.
+        lines: where names were assigned first.
+        returned: the value of the function; None before it is known.
+    """
+
+    def __init__(self, up: Space | None = None) -> None:
+        super().__init__()
+        self.up = up
+        self.calls: list[Record] = []
+        self.lines: dict[str, int] = {}
+        self.returned: Value | None = None
+
+    def find(self, name: str) -> Value | None:
+        """The value of a name, here or around."""
+        space: Space | None = self
+        while space is not None:
+            if name in space:
+                return space[name]
+            space = space.up
+        return None
+
+    def fork(self) -> Space:
+        """The same names with values of their own."""
+        other = Space(self.up)
+        other.update({name: copied(value) for name, value in self.items()})
+        other.calls, other.lines = list(self.calls), dict(self.lines)
+        return other
+
+
+Place: TypeAlias = tuple[Array, int]
+
+
+class Finder(Protocol):
+    """Who looks for tables among the names of a scope."""
+
+    def ended(self, scope: ir.Scope, space: Space) -> None:
+        """A scope ends; this is called once for each way through it."""
+
+    def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
+        """An array is about to be assigned anew."""
+
+
+class Evaluator:
+    """Walks over the statements of one source.
+
+    Args:
+        base: the index of the first entry of an array.
+        allowance: of the source.
+        finder: who is told of scopes.
+        is_growing: whether all arrays grow.
+        has_whole_quotients: whether ``1/2`` is 0.
+
+    Attributes:
+        given_up: the scopes that take too many steps.
+    """
+
+    def __init__(
+        self,
+        base: int,
+        allowance: Allowance,
+        finder: Finder,
+        is_growing: bool = False,
+        has_whole_quotients: bool = False,
+    ) -> None:
+        self.base = base
+        self.allowance = allowance
+        self.line = 1
+        self.given_up: list[ir.Scope] = []
+        self._finder = finder
+        self._scopes: list[ir.Scope] = []
+        self._is_growing = is_growing
+        self._has_whole_quotients = has_whole_quotients
+        self._steps = 0
+        self._worlds = 1
+        self._depth = 0
+        self._inlined = 0
+        self._lengths: list[int] = []
+
+    def module(self, body: ir.Body) -> None:
+        """The whole source."""
+        top = ir.Scope("module", "", body, 1)
+        self._walked(top, Space())
+
+    def array(self, items: Iterable[Value]) -> Array:
+        """An array of this language."""
+        return Array(list(items), self.base, self._is_growing)
+
+    def unknown(self, reason: str) -> Unknown:
+        """What is not known at the line that is walked."""
+        return Unknown(reason, self.line)
+
+    # statements
+
+    def _walked(self, scope: ir.Scope, space: Space) -> list[Space]:
+        self._scopes.append(scope)
+        try:
+            spaces = self._run(scope.body, [space])
+        except OutOfSteps:
+            self.given_up.append(scope)
+            return []
+        finally:
+            self._scopes.pop()
+        for each in spaces:
+            self._finder.ended(scope, each)
+        return spaces
+
+    def _run(self, body: ir.Body, spaces: list[Space]) -> list[Space]:
+        for statement in body:
+            walked = []
+            for space in spaces:
+                walked += [space] if space.returned is not None else self._step(statement, space)
+            spaces = walked
+        return spaces
+
+    def _step(self, statement: ir.Statement, space: Space) -> list[Space]:
+        self._steps += 1
+        if self._steps > MAX_STEPS:
+            raise OutOfSteps
+        self.line = self.allowance.line = statement.line
+        match statement:
+            case ir.Assign():
+                self._assign(statement, space)
+            case ir.Do(value=value):
+                self.value(value, space)
+            case ir.Return(value=value):
+                space.returned = self.value(value, space)
+            case ir.Scope():
+                self._scope(statement, space)
+            case ir.Branch():
+                return self._branch(statement, space)
+            case ir.Loop():
+                self._loop(statement, space)
+        return [space]
+
+    def _scope(self, scope: ir.Scope, space: Space) -> None:
+        if scope.kind == "record":
+            return
+        inner = Space(space)
+        for name, _ in scope.parameters:
+            inner[name] = Unknown(f"the argument {name}", scope.line)
+        inner.update({name: Type() for name in scope.types})
+        match scope.body:
+            case (ir.Return(value=value),) if not isinstance(value, (ir.Call, ir.Fields)):
+                names = tuple(name for name, _ in scope.parameters)
+                if scope.kind == "function" and scope.name not in space:
+                    space[scope.name] = Function(names, value, inner)
+        before, self._steps = self._steps, 0
+        worlds, self._worlds = self._worlds, 1
+        ended = self._walked(scope, inner)
+        self._steps, self._worlds = before, worlds
+        if scope.kind == "class" and len(ended) == 1:
+            fields = dict(ended[0])
+            space[scope.name] = Record(scope.name, fields, (), scope.line)
+
+    def _branch(self, branch: ir.Branch, space: Space) -> list[Space]:
+        arms = [arm for arm in branch.arms if _has_effect(arm)]
+        if not arms:
+            return [space]
+        ways: list[ir.Body] = list(arms)
+        if not branch.is_total or len(arms) < len(branch.arms):
+            ways.append(())
+        if not any(map(_has_numbers, arms)):
+            for target, line in _targets(arms):
+                self.spoil(target, space, "assigned in one of several branches", line)
+            return [space]
+        if self._worlds * len(ways) > MAX_WORLDS:
+            # each arm on its own, and nothing is known behind them
+            for arm in arms:
+                inside = ir.Scope("entry", self._scopes[-1].name, arm, branch.line)
+                for each in self._run(arm, [space.fork()]):
+                    self._finder.ended(inside, each)
+            for target, line in _targets(arms):
+                self.spoil(target, space, "assigned in one of several branches", line)
+            return [space]
+        self._worlds *= len(ways)
+        spaces = [each for way in ways for each in self._run(way, [space.fork()])]
+        self._worlds //= len(ways)
+        return _distinct(spaces)
+
+    def _loop(self, loop: ir.Loop, space: Space) -> None:
+        over = self.value(loop.over, space) if loop.name else self.unknown("a loop")
+        if isinstance(over, Array) and len(over.items) <= MAX_TURNS and _is_plain(loop.body):
+            for item in over.items:
+                space[loop.name] = item
+                self._run(loop.body, [space])
+            return
+        for target, line in _targets([loop.body]):
+            self.spoil(target, space, "assigned in a loop", line)
+
+    def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
+        """All entries of an array, or a name, become unknown."""
+        while isinstance(target, ir.Index | ir.Field) and not _is_of_self(target):
+            target = target.of
+        if isinstance(target, ir.Items):
+            for item in target.items:
+                self.spoil(item, space, reason, line)
+        elif isinstance(target, ir.Name | ir.Field):
+            unknown = Unknown(reason, line)
+            old = space.get(target.name)
+            is_array = isinstance(old, Array) and bool(old.items)
+            if is_array:
+                assert isinstance(old, Array)
+                space[target.name] = old.map(lambda _: unknown)
+            else:
+                space[target.name] = unknown
+
+    def _assign(self, statement: ir.Assign, space: Space) -> None:
+        target, line = statement.target, statement.line
+        value: Value = self.unknown("never assigned")
+        if statement.value is not None:
+            value = self.value(statement.value, space)
+        if isinstance(value, Record) and not value.key and isinstance(target, ir.Name):
+            value.key = target.name
+        if isinstance(target, ir.Items):
+            self._taken_apart(target, value, space, line)
+            return
+        if statement.sign and statement.sign != ".":
+            value = self.combined(statement.sign, self.value(target, space), value)
+        if statement.extents:
+            sizes = [None if x is None else self.value(x, space) for x in statement.extents]
+            value = self._extended(value, sizes, is_filled=statement.value is not None)
+        if statement.is_real:
+            value = real(value)
+        if statement.sign == ".":
+            old = self.value(target, space)
+            if isinstance(old, Array) and not isinstance(value, Array):
+                filling = value
+                value = old.map(lambda _: filling)
+        self._store(target, value, space, line)
+
+    def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
+        items: Sequence[Value] = ()
+        if isinstance(value, Array) and len(value.items) == len(target.items):
+            items = value.items
+        for i, each in enumerate(target.items):
+            item = items[i] if items else self.unknown(f"a part of {described(value)}")
+            self._store(each, item, space, line)
+
+    def _extended(self, value: Value, sizes: Sequence[Value | None], is_filled: bool) -> Value:
+        """An array with declared extents, as C fills it."""
+        counts = [None if x is None else whole(x) for x in sizes]
+        for size_, count in zip(sizes, counts, strict=True):
+            if size_ is not None and (count is None or not 0 <= count <= MAX_STAGES**2):
+                is_array = isinstance(value, Array) and is_filled
+                return value if is_array else self.unknown("an extent that is not known")
+        fill: Value = FILL if is_filled else self.unknown("never assigned")
+        found = self._shaped(value if is_filled else None, counts, fill)
+        self.allowance.spend(size(found))
+        return found
+
+    def _shaped(self, value: Value | None, counts: Sequence[int | None], fill: Value) -> Value:
+        if not counts:
+            return fill if value is None else value
+        if isinstance(value, (Unknown, Record)):
+            return value
+        items: list[Value] = []
+        if value is not None:
+            items = list(value.items) if isinstance(value, Array) else [value]
+        columns = counts[1] if len(counts) > 1 else None
+        if columns and items and not any(isinstance(x, Array) for x in items):
+            rows = range(0, len(items), columns)
+            items = [Array(items[i : i + columns], self.base) for i in rows]
+        count = len(items) if counts[0] is None else counts[0]
+        self.allowance.spend(count)
+        given: list[Value | None] = [*items, *[None] * (count - len(items))]
+        return self.array(self._shaped(x, counts[1:], fill) for x in given)
+
+    # places that are assigned to
+
+    def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
+        self.allowance.spend(size(value))
+        if isinstance(value, Array) or not isinstance(target, ir.Name):
+            # no array is in two places, and no record in itself
+            value = copied(value)
+        match target:
+            case ir.Name(name=name):
+                old = space.get(name)
+                are_arrays = isinstance(old, Array) and isinstance(value, Array)
+                if old is not None and are_arrays and _shown(old) != _shown(value):
+                    self._finder.replaced(self._scopes[-1], space, name)
+                space[name] = value
+                space.lines[name] = line
+            case ir.Field(name=name) if _is_of_self(target):
+                space[name] = value
+                space.lines[name] = line
+            case ir.Field(of=of, name=name):
+                record = self._record(of, space)
+                if record is not None:
+                    record.fields[name] = value
+            case ir.Index(of=of, at=at):
+                if not self._put(of, at, value, space):
+                    self.spoil(of, space, "an entry at an unknown place", line)
+
+    def _record(self, of: ir.Expr, space: Space) -> Record | None:
+        """The record whose field is assigned, made where there is none."""
+        found = self._held(of, space)
+        if isinstance(found, Record):
+            return found
+        if found is None or isinstance(found, Unknown):
+            made = Record("", {}, (), self.line)
+            if isinstance(of, ir.Name | ir.Field):
+                self._store(of, made, space, self.line)
+            return made
+        return None
+
+    def _held(self, of: ir.Expr, space: Space) -> Value | None:
+        """The value of a name, a field or an entry, to be changed; None where there is none yet."""
+        match of:
+            case ir.Name(name=name):
+                if name not in space and space.find(name) is not None:
+                    found = space.find(name)
+                    assert found is not None
+                    space[name] = copied(found)
+                return space.get(name)
+            case ir.Field(name=name) if _is_of_self(of):
+                return space.get(name)
+            case ir.Field(of=inner, name=name):
+                record = self._held(inner, space)
+                if record is None or isinstance(record, Unknown):
+                    record = self._record(inner, space)
+                return record.fields.get(name) if isinstance(record, Record) else None
+            case ir.Index(of=inner, at=at):
+                places = self._places(self._box(inner, space), at, space)
+                if len(places) == 1:
+                    array, i = places[0]
+                    return array.items[i]
+        return None
+
+    def _box(self, of: ir.Expr, space: Space) -> Array | None:
+        """The array whose entry is assigned, made where there is none."""
+        found = self._held(of, space)
+        is_new = found is None or (isinstance(found, Unknown) and found.reason == "never assigned")
+        if is_new or found is FILL or isinstance(found, Null):
+            made = Array([], self.base, is_growing=True)
+            match of:
+                case ir.Name(name=name):
+                    space[name] = made
+                    space.lines.setdefault(name, self.line)
+                case ir.Field(of=inner, name=name):
+                    record = self._record(inner, space)
+                    if record is not None:
+                        record.fields[name] = made
+                case ir.Index(of=inner, at=at):
+                    for array, i in self._places(self._box(inner, space), at, space):
+                        array.items[i] = made
+            return made
+        return found if isinstance(found, Array) else None
+
+    def _put(self, of: ir.Expr, at: Sequence[ir.Expr], value: Value, space: Space) -> bool:
+        """Whether the entries are known and were assigned."""
+        if isinstance(at[0], ir.Text):
+            record = self._record(of, space)
+            if record is not None:
+                record.fields[at[0].text] = value
+            return True
+        places = self._places(self._box(of, space), at, space)
+        if not places:
+            return False
+        items: Sequence[Value] = [value] * len(places)
+        if isinstance(value, Array) and any(isinstance(x, ir.Range) for x in at):
+            items = value.items if len(value.items) == len(places) else list(value.flat())
+            if len(items) != len(places):
+                return False
+        for (array, i), item in zip(places, items, strict=True):
+            array.items[i] = item
+        return True
+
+    def _places(self, box: Array | None, at: Sequence[ir.Expr], space: Space) -> list[Place]:
+        """The entries that indices name, none where one of them is not known."""
+        if box is None:
+            return []
+        places: list[Place] = []
+        numbers = self._numbers(at[0], box, space)
+        for i in numbers:
+            if box.is_growing and len(box.items) <= i < MAX_STAGES:
+                self.allowance.spend(i)
+                box.items += [FILL] * (i + 1 - len(box.items))
+            if not 0 <= i < len(box.items):
+                return []
+            if len(at) == 1:
+                places.append((box, i))
+                continue
+            row = box.items[i]
+            if box.is_growing and row is FILL:
+                row = box.items[i] = Array([], self.base, is_growing=True)
+            if not isinstance(row, Array):
+                return []
+            inner = self._places(row, at[1:], space)
+            if not inner:
+                return []
+            places += inner
+        return places
+
+    def _numbers(self, at: ir.Expr, box: Array, space: Space) -> Sequence[int]:
+        """The indices from 0 that an expression names; none where they are not known."""
+        count = len(box.items)
+        self._lengths.append(count)
+        try:
+            if not isinstance(at, ir.Range):
+                i = whole(self.value(at, space))
+                if i is None:
+                    return ()
+                return [i + count if i < 0 == self.base else i - self.base]
+            first = self._end(at.first, 0, count, space)
+            last = self._end(at.last, count - 1, count, space)
+            if first is None or last is None or last - first > MAX_TURNS:
+                return ()
+            return range(first, last + 1)
+        finally:
+            self._lengths.pop()
+
+    def _end(self, at: ir.Expr | None, default: int, count: int, space: Space) -> int | None:
+        if at is None:
+            return default
+        i = whole(self.value(at, space))
+        if i is None:
+            return None
+        return i + count if i < 0 == self.base and default else i - self.base
+
+    # expressions
+
+    def value(self, expr: ir.Expr, space: Space) -> Value:
+        """The value of an expression."""
+        self._depth += 1
+        self._steps += 1
+        try:
+            if self._depth > MAX_DEPTH or self._steps > 50 * MAX_STEPS:
+                return self.unknown("an expression that is too deep")
+            return self._value(expr, space)
+        finally:
+            self._depth -= 1
+
+    def _value(self, expr: ir.Expr, space: Space) -> Value:
+        match expr:
+            case ir.Literal(text=text, is_whole=is_whole):
+                return literal(text, self.line, is_whole)
+            case ir.Name(name=name):
+                return self._named(name, space)
+            case ir.Text(text=text):
+                return Word(text)
+            case ir.Nothing():
+                return NULL
+            case ir.Items(items=items):
+                return self._listed(items, space)
+            case ir.Rows():
+                return self._rows(expr, space)
+            case ir.Unary(sign=sign, of=of):
+                value = self.value(of, space)
+                return self.negated(value) if sign == "-" else value
+            case ir.Binary(sign=sign, left=left, right=right):
+                return self.combined(sign, self.value(left, space), self.value(right, space))
+            case ir.Call():
+                return self._called(expr, space)
+            case ir.Index():
+                return self._entry(expr, space)
+            case ir.Field():
+                return self._field(expr, space)
+            case ir.Fields(pairs=pairs):
+                line = self.line
+                fields = {name: self._kept(self.value(x, space)) for name, x in pairs}
+                for name, value in fields.items():
+                    if isinstance(value, Record):
+                        value.key = name
+                record = Record("", fields, (), line)
+                space.calls.append(record)
+                return record
+            case ir.Transposed(of=of):
+                return transposed(self.value(of, space), self.line)
+            case ir.Range(first=first, last=last):
+                return self._ranged(first, last, space)
+            case ir.Lambda(parameters=parameters, body=body):
+                return Function(parameters, body, space)
+            case ir.Opaque(reason=reason):
+                return self.unknown(reason)
+
+    def _kept(self, value: Value) -> Value:
+        """A value that stands in another: with arrays of its own."""
+        if isinstance(value, Array):
+            self.allowance.spend(size(value))
+            return copied(value)
+        return value
+
+    def _named(self, name: str, space: Space) -> Value:
+        if name == "end" and self._lengths:
+            return integer(self._lengths[-1] - 1 + self.base)
+        found = space.find(name)
+        if found is not None:
+            return found
+        plain = name.rpartition("::")[2]
+        if plain in CONSTANTS:
+            return CONSTANTS[plain]
+        if plain in CONVERSIONS:
+            return Type()
+        return self.unknown(f"the name {name}")
+
+    def _listed(self, items: Sequence[ir.Expr], space: Space) -> Value:
+        return self.array(self._kept(self.value(x, space)) for x in items)
+
+    def _rows(self, rows: ir.Rows, space: Space) -> Value:
+        values = [[self._kept(self.value(x, space)) for x in row] for row in rows.rows]
+        values = [row for row in values if row]
+        if not any(isinstance(x, Array) for row in values for x in row):
+            is_list = len(values) == 1 and not rows.is_row_a_matrix
+            is_column = rows.is_row_a_matrix and all(len(row) == 1 for row in values)
+            if is_list or is_column:
+                return self.array(x for row in values for x in row)
+            return self.array(self.array(row) for row in values)
+        return self._blocks(values)
+
+    def _blocks(self, values: Sequence[Sequence[Value]]) -> Value:
+        """Blocks beside and below one another; a list is a column, unless it can be but a row."""
+        if len(values) == 1 and len(values[0]) == 1:
+            return values[0][0]
+        if all(len(row) == 1 for row in values):
+            items: list[Value] = []
+            for row in values:
+                items += row[0].items if isinstance(row[0], Array) else [row[0]]
+            return self.array(items)
+        joined: list[Value] = []
+        for row in values:
+            height = max(_height(x) for x in row)
+            lines: list[list[Value]] = [[] for _ in range(height)]
+            for x in row:
+                parts = _lines(x, height)
+                if parts is None:
+                    return self.unknown("blocks that do not fit together")
+                for line, part in zip(lines, parts, strict=True):
+                    line += part
+            joined += [self.array(line) for line in lines]
+        if len(values) == 1 and len(joined) == 1:
+            return joined[0]
+        return self.array(joined)
+
+    def _ranged(self, first: ir.Expr | None, last: ir.Expr | None, space: Space) -> Value:
+        ends = [None if x is None else whole(self.value(x, space)) for x in (first, last)]
+        if ends[0] is None or ends[1] is None or ends[1] - ends[0] > MAX_TURNS:
+            return self.unknown("a range")
+        return self.array(integer(i) for i in range(ends[0], ends[1] + 1))
+
+    def _field(self, expr: ir.Field, space: Space) -> Value:
+        if _is_of_self(expr):
+            return self._named(expr.name, space)
+        of = self.value(expr.of, space)
+        if isinstance(of, Record) and expr.name in of.fields:
+            return of.fields[expr.name]
+        if isinstance(of, Array) and expr.name == "T":
+            return transposed(of, self.line)
+        if isinstance(of, Unknown):
+            # np.pi, math.sqrt: what a module has
+            found = self._named(expr.name, Space())
+            return of if isinstance(found, Unknown) else found
+        return self.unknown(f"the field {expr.name}")
+
+    def _entry(self, expr: ir.Index, space: Space) -> Value:
+        of = self.value(expr.of, space)
+        at = list(expr.at)
+        while at and isinstance(of, Record) and isinstance(at[0], ir.Text):
+            key = at.pop(0)
+            assert isinstance(key, ir.Text)
+            of = of.fields.get(key.text, self.unknown(f"the key {key.text}"))
+        if not at:
+            return of
+        if not isinstance(of, Array):
+            return of if isinstance(of, Unknown) else self.unknown("an entry of what is no array")
+        return self._sliced(of, at, space)
+
+    def _sliced(self, of: Array, at: Sequence[ir.Expr], space: Space) -> Value:
+        numbers = self._numbers(at[0], of, space)
+        is_slice = isinstance(at[0], ir.Range)
+        if not numbers and not is_slice:
+            return self.unknown("an entry at an unknown place")
+        if any(not 0 <= i < len(of.items) for i in numbers):
+            return self.unknown("an entry that is not there")
+        found: list[Value] = []
+        for i in numbers:
+            item = of.items[i]
+            if len(at) > 1:
+                if not isinstance(item, Array):
+                    return item if isinstance(item, Unknown) else self.unknown("a slice")
+                item = self._sliced(item, at[1:], space)
+            found.append(item)
+        return self.array(found) if is_slice else found[0]
+
+    def negated(self, value: Value) -> Value:
+        """The value with the other sign."""
+        return negative(value, self.line)
+
+    def combined(self, sign: str, x: Value, y: Value) -> Value:
+        """An operation, entry by entry on arrays."""
+        if isinstance(x, Array) and isinstance(y, Array):
+            if sign == "*" and (x.is_matrix or y.is_matrix):
+                return self.unknown("a product of matrices")
+            if len(x.items) != len(y.items):
+                return self.unknown("arrays of different lengths")
+            pairs = zip(x.items, y.items, strict=True)
+            return self._counted(self.combined(sign, a, b) for a, b in pairs)
+        if isinstance(x, Array):
+            return self._counted(self.combined(sign, a, y) for a in x.items)
+        if isinstance(y, Array):
+            return self._counted(self.combined(sign, x, b) for b in y.items)
+        if sign == "/" and self._has_whole_quotients and _are_whole(x, y):
+            return truncated(x, y, self.line)
+        return computed(sign, x, y, self.line)
+
+    def _counted(self, items: Iterator[Value]) -> Array:
+        found: list[Value] = []
+        for x in items:
+            if not isinstance(x, Array):
+                self.allowance.spend(size(x))
+            found.append(x)
+        return self.array(found)
+
+    # calls
+
+    def _called(self, call: ir.Call, space: Space) -> Value:
+        callee = call.callee
+        name = callee.name if isinstance(callee, ir.Name | ir.Field) else ""
+        if isinstance(callee, ir.Field) and name in _METHODS:
+            return self._method(callee.of, name, call.args, space)
+        line = self.line
+        args = [self.value(x, space) for x in call.args]
+        named = {key: self.value(x, space) for key, x in call.named}
+        target = space.find(name) if isinstance(callee, ir.Name) else None
+        if isinstance(target, Function) and len(target.parameters) == len(args):
+            return self._applied(target, args)
+        plain = name.rpartition("::")[2]
+        if isinstance(target, Type) or (_is_an_argument(target, name) and len(args) == 1):
+            return conversion(args, self.line) if args else self.unknown(f"the call {name}")
+        if plain in CALLS and not isinstance(target, Array):
+            made = CALLS[plain](Call(plain, call, args, named, self))
+            if made is not None:
+                return made
+        if isinstance(target, Array) and args:
+            return self._sliced(target, call.args, space)
+        if isinstance(callee, ir.Field) and isinstance(target := self.value(callee, space), Array):
+            return self._sliced(target, call.args, space)
+        if isinstance(callee, ir.Field) and plain in {"copy", "astype", "tolist", "to", "clone"}:
+            return self.value(callee.of, space)
+        if plain.endswith("!"):
+            for arg in call.args:
+                if isinstance(arg, ir.Name) and isinstance(space.find(arg.name), Array):
+                    self.spoil(arg, space, f"changed by {plain}", self.line)
+        if not _may_make_a_table(plain, args, named):
+            return self.unknown(f"the call {plain}")
+        inner = [self._alone(x) for x in args]
+        record = Record(plain, {key: self._alone(x) for key, x in named.items()}, inner, line)
+        space.calls.append(record)
+        return record
+
+    def _alone(self, value: Value) -> Value:
+        """What a call is given; a record in it is one of its own."""
+        return self.unknown(described(value)) if isinstance(value, Record) else value
+
+    def _applied(self, function: Function, args: Sequence[Value]) -> Value:
+        if self._inlined >= MAX_INLINED:
+            return self.unknown("calls that are nested too deep")
+        inner = Space(function.space)
+        inner.update(zip(function.parameters, args, strict=True))
+        self._inlined += 1
+        try:
+            return self.value(function.body, inner)
+        finally:
+            self._inlined -= 1
+
+    def _method(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
+        """What changes an array in place."""
+        box = self._box(of, space)
+        values = [self.value(x, space) for x in args]
+        if box is None:
+            return NULL
+        if name in _GROWING and values:
+            self.allowance.spend(size(values[0]))
+            box.items.append(copied(values[0]))
+        elif name == "clear":
+            box.items.clear()
+        elif name in {"resize", "reinit"} and values:
+            counts: list[int | None] = [whole(x) for x in values]
+            if None in counts or any(n is None or not 0 <= n <= MAX_STAGES for n in counts):
+                self.spoil(of, space, "an array of unknown length", self.line)
+                return NULL
+            shaped = self._shaped(None, counts, FILL)
+            assert isinstance(shaped, Array)
+            kept = box.items if name == "resize" and len(counts) == 1 else []
+            box.items[:] = [*kept[: len(shaped.items)], *shaped.items[len(kept) :]]
+        return NULL
+
+
+def _is_of_self(expr: ir.Expr) -> bool:
+    """Whether it is ``self.name``."""
+    match expr:
+        case ir.Field(of=ir.Name(name=name)):
+            return name in _SELF
+    return False
+
+
+def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Value]) -> bool:
+    """Whether a call is given arrays, or several numbers, or makes tables by its name."""
+    values = [*args, *named.values()]
+    if name in SIGNATURES or any(isinstance(x, Array) for x in values):
+        return True
+    return len(values) > 2 and (bool(other_kind(name)) or sum(map(_is_number, values)) > 2)
+
+
+def _is_number(value: Value) -> bool:
+    return isinstance(value, Number)
+
+
+def _is_an_argument(value: Value | None, name: str) -> bool:
+    """Whether a function is one that is given: ``T(0.5)`` converts."""
+    return isinstance(value, Unknown) and value.reason == f"the argument {name}"
+
+
+def _are_whole(x: Value, y: Value) -> bool:
+    return all(isinstance(v, Number) and v.is_whole for v in (x, y))
+
+
+def _has_effect(arm: ir.Body) -> bool:
+    """Whether an arm does more than to refuse or to leave."""
+    return any(_matters(x) for x in arm)
+
+
+def _has_numbers(body: ir.Body) -> bool:
+    """Whether fractions, decimals, lists or entries are assigned or given to calls."""
+    for statement in body:
+        match statement:
+            case ir.Assign(value=value) | ir.Do(value=value) | ir.Return(value=value):
+                if value is not None and _is_numeric(value):
+                    return True
+            case ir.Branch(arms=arms):
+                if any(map(_has_numbers, arms)):
+                    return True
+            case ir.Loop(body=inner) | ir.Scope(body=inner):
+                if _has_numbers(inner):
+                    return True
+    return False
+
+
+def _is_numeric(expr: ir.Expr) -> bool:
+    match expr:
+        case ir.Literal(text=text):
+            return "." in text
+        case ir.Items(items=items):
+            return bool(items)
+        case ir.Rows():
+            return True
+        case ir.Binary(sign=sign, left=left, right=right):
+            is_quotient = sign == "/" and isinstance(left, ir.Literal)
+            return is_quotient or _is_numeric(left) or _is_numeric(right)
+        case ir.Unary(of=of) | ir.Transposed(of=of):
+            return _is_numeric(of)
+        case ir.Call(args=args, named=named):
+            return any(map(_is_numeric, args)) or any(_is_numeric(x) for _, x in named)
+    return False
+
+
+_REFUSALS = frozenset({"error", "throw", "ArgumentError", "print", "println", "warn", "raise"})
+
+
+def _matters(statement: ir.Statement) -> bool:
+    match statement:
+        case ir.Return(value=value):
+            return isinstance(value, ir.Call | ir.Fields | ir.Items)
+        case ir.Do(value=ir.Call(callee=ir.Name(name=name))):
+            return name not in _REFUSALS
+        case ir.Do():
+            return False
+    return True
+
+
+def _is_plain(body: ir.Body) -> bool:
+    """Whether a body has one way through it."""
+    return not any(isinstance(x, ir.Branch | ir.Scope | ir.Return) for x in body)
+
+
+def _targets(bodies: Iterable[ir.Body]) -> Iterator[tuple[ir.Expr, int]]:
+    """What is assigned in some bodies, and where."""
+    for body in bodies:
+        for statement in body:
+            match statement:
+                case ir.Assign(target=target, line=line):
+                    yield target, line
+                case ir.Branch(arms=arms):
+                    yield from _targets(arms)
+                case ir.Loop(body=inner):
+                    yield from _targets([inner])
+                case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
+                    if name in _METHODS:
+                        yield of, line
+
+
+def _distinct(spaces: Sequence[Space]) -> list[Space]:
+    """Ways that end with the same names and values are one."""
+    kept: dict[object, Space] = {}
+    for space in spaces:
+        names = tuple((name, _shown(value)) for name, value in sorted(space.items()))
+        kept.setdefault((names, len(space.calls), space.returned is None), space)
+    return list(kept.values())
+
+
+def _shown(value: Value) -> object:
+    match value:
+        case Number():
+            return value.scalar.text
+        case Array(items=items):
+            return tuple(map(_shown, items))
+        case Record(kind=kind, fields=fields):
+            return kind, tuple((name, _shown(x)) for name, x in fields.items())
+        case Word(text=text):
+            return text
+    return type(value).__name__
+
+
+def _height(value: Value) -> int:
+    is_matrix = isinstance(value, Array) and value.is_matrix
+    return len(value.items) if isinstance(value, Array) and is_matrix else 1
+
+
+def _lines(value: Value, height: int) -> list[list[Value]] | None:
+    """A block as rows: a list is a row where one is wanted, and else a column."""
+    if not isinstance(value, Array):
+        return [[value]] if height == 1 else None
+    if value.is_matrix:
+        rows = [x.items for x in value.items if isinstance(x, Array)]
+        return [list(x) for x in rows] if len(rows) == height else None
+    if height == 1:
+        return [list(value.items)]
+    return [[x] for x in value.items] if len(value.items) == height else None

@@ -1,0 +1,305 @@
+"""Tables among the values of a source: by the calls that make them, by records, by names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from garkcli.sources import ir
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.assembling import Meant, NoTable, Roles, table_of
+from garkcli.sources.evaluate import Space
+from garkcli.sources.found import FoundTable
+from garkcli.sources.naming import ROLES, role_of
+from garkcli.sources.scalar_names import scalar_roles
+from garkcli.sources.signatures import SIGNATURES, other_kind
+from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, integer
+
+_NUMBERED = re.compile(
+    r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
+    r"_?(?P<l>[0-9]{1,2})(?:_(?P<m>[0-9]{1,2}))?"
+)
+"""Names of arrays with the numbers of vector fields."""
+_TABLE = "ARKodeButcherTable_Alloc"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the files of a tree know of each other.
+
+    Attributes:
+        records: the fields of records, by their names.
+        orders: what the methods of these names declare.
+    """
+
+    records: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    orders: Mapping[str, int] = field(default_factory=dict)
+
+
+class TableFinder:
+    """Collects the tables of one source.
+
+    Args:
+        source: what it is called.
+        format: of its language.
+        allowance: of it.
+        facts: of the tree that it is in.
+    """
+
+    def __init__(self, source: str, format: str, allowance: Allowance, facts: Facts) -> None:
+        self._source = source
+        self._format = format
+        self._allowance = allowance
+        self._facts = facts
+        self._meant: list[Meant] = []
+        self._other: dict[tuple[str, int], FoundTable] = {}
+
+    def tables(self) -> list[FoundTable]:
+        """All of them, each once; arrays that a call takes are found with it."""
+        found: dict[object, FoundTable] = {}
+        for meant in self._meant:
+            try:
+                table = table_of(meant, self._source, self._format)
+            except NoTable:
+                continue
+            key = (table.A, table.b, table.c, table.line if table.is_sure else 0, table.name)
+            if key not in found:
+                found[key] = self._allowance.table(table)
+        tables = [*found.values(), *self._other.values()]
+        sure = {(x.A, x.b) for x in tables if x.is_sure and x.b}
+        kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b) not in sure]
+        read = {x.line for x in kept if x.b}
+        kept = [x for x in kept if not x.trouble or x.line not in read]
+        return sorted(kept, key=lambda x: x.line)
+
+    # a scope
+
+    def ended(self, scope: ir.Scope, space: Space) -> None:
+        """The tables of a scope."""
+        made = list(space.calls)
+        if isinstance(space.returned, Record) and space.returned not in made:
+            made.append(space.returned)
+        made += [x for x in space.values() if isinstance(x, Record) and x.kind in {"", _TABLE}]
+        if scope.kind == "class":
+            self._declared_by_class(space)
+        count = len(self._meant) + len(self._other)
+        for record in made:
+            self._record(record, scope)
+        if len(self._meant) + len(self._other) > count:
+            return
+        values, lines = dict(space), space.lines
+        self._named(values, lines, scope)
+        if len(self._meant) + len(self._other) == count:
+            self._scalars(scope.name, values, scope.line)
+
+    def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
+        """Arrays that are complete are a table before one of them is assigned anew."""
+        told = role_of(name)
+        if told is None or told[1] not in {"A", "b", "c", "embedded"}:
+            return
+        if any(x.kind in SIGNATURES or other_kind(x.kind) for x in space.calls):
+            # calls take the arrays of this scope
+            return
+        stem = told[0]
+        names = [x for x in space if (role_of(x) or ("", ""))[0] == stem and role_of(x)]
+        roles = {told[1] for told in map(role_of, names) if told}
+        if not {"A", "b"} <= roles:
+            return
+        values = {x: space[x] for x in names}
+        self._named(values, space.lines, scope)
+
+    def _declared_by_class(self, space: Space) -> None:
+        """The order of a class is that of the table which it uses."""
+        order = space.get("order")
+        if not isinstance(order, Number):
+            return
+        used = {(x.kind, x.line) for x in space.values() if isinstance(x, Record)}
+        for meant in self._meant:
+            if (meant.maker, meant.line) in used:
+                meant.roles.setdefault("order", order)
+
+    # records and calls
+
+    def _record(self, record: Record, scope: ir.Scope) -> None:
+        kind = other_kind(record.kind)
+        if kind:
+            if len(record.args) + len(record.fields) >= 3:
+                line = scope.line if scope.kind == "entry" else record.line
+                name = self._name(record, scope)
+                self._other[name, line] = _other(self._source, line, self._format, name, kind)
+            return
+        signature = SIGNATURES.get(record.kind)
+        fields = dict(record.fields)
+        roles: Roles = {}
+        if signature is not None:
+            if not record.args and len(fields) < 2:
+                return
+            roles = dict(zip(signature.roles, record.args, strict=False))
+            roles.pop("-", None)
+            if any(isinstance(x, Unknown) and _is_given(x) for x in roles.values()):
+                return
+        elif record.kind in self._facts.records:
+            names = self._facts.records[record.kind]
+            if len(names) == len(record.args):
+                fields |= dict(zip(names, record.args, strict=True))
+        for name, value in fields.items():
+            role = ROLES.get(name)
+            if role is not None and not isinstance(value, Null):
+                roles.setdefault(role, value)
+        _with_diagonal(roles, fields)
+        if record.kind == _TABLE and not _is_written(fields.get("d")):
+            roles.pop("embedded", None)
+        if "title" not in roles or not isinstance(roles["title"], Word):
+            roles.pop("title", None)
+        is_complete = ("A" in roles and ("b" in roles or "A2" in roles)) or "drifts" in roles
+        if signature is None and not is_complete:
+            self._scalars(self._name(record, scope), fields, record.line)
+            return
+        if not is_complete and not (signature and signature.has_default_weights):
+            return
+        line = record.line
+        if record.kind == _TABLE and scope.kind == "entry":
+            line = scope.line
+        is_sure = signature is not None or record.kind == _TABLE
+        self._meant.append(
+            Meant(
+                self._name(record, scope),
+                line,
+                roles,
+                record.kind,
+                signature,
+                is_sure,
+                is_counted=bool(signature and signature.counts),
+                arguments=len(record.args),
+            )
+        )
+
+    def _name(self, record: Record, scope: ir.Scope) -> str:
+        """What people call a table: a title, a constant, the function that makes it."""
+        signature = SIGNATURES.get(record.kind)
+        first = record.args[0] if record.args else None
+        if isinstance(first, Word):
+            return first.text
+        if isinstance(first, Unknown) and (signature is None or signature.roles[0] == "title"):
+            name = first.reason.removeprefix("the name ")
+            if name != first.reason and " " not in name:
+                return name
+        is_entry = scope.kind == "entry" and scope.name
+        return scope.name if is_entry else record.key or scope.name
+
+    # arrays by their names
+
+    def _named(
+        self, values: Mapping[str, Value], lines: Mapping[str, int], scope: ir.Scope
+    ) -> None:
+        groups: dict[str, Roles] = {}
+        blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}
+        begins: dict[str, int] = {}
+        for name, value in values.items():
+            plain = name.rpartition("::")[2]
+            told = role_of(plain)
+            numbered = _NUMBERED.fullmatch(plain)
+            line = lines.get(name, scope.line)
+            if numbered and isinstance(value, Array):
+                stem = numbered["stem"] or ""
+                at = tuple(int(x) for x in (numbered["l"], numbered["m"]) if x)
+                role = ROLES[numbered["word"]]
+                blocks.setdefault(stem, {}).setdefault(role, {})[at] = value
+            elif told is not None and _fits(told[1], value):
+                stem = told[0]
+                groups.setdefault(stem, {})[told[1]] = value
+            else:
+                continue
+            begins[stem] = min(line, begins.get(stem, line))
+        for stem, of_role in blocks.items():
+            if "A" in of_role and all(len(at) == 2 for at in of_role["A"]):
+                groups[stem] = {**groups.get(stem, {}), **_grid(of_role)}
+        for stem, roles in groups.items():
+            if not {"A", "b"} <= set(roles):
+                continue
+            title = roles.pop("title", None)
+            name = stem or scope.name
+            if isinstance(title, Word):
+                name = title.text
+            bases = scope.bases if scope.kind == "class" else ()
+            meant = Meant(name, begins[stem], roles, "", None, bases=bases)
+            if "RungeKutta" in {x.rpartition(".")[2] for x in bases}:
+                meant = replace(meant, is_sure=True, line=scope.line)
+            self._meant.append(meant)
+
+    def _scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
+        """Coefficients with names of their own: a21, b1."""
+        found = scalar_roles(values)
+        if found is None:
+            return
+        if found.kind:
+            table = _other(self._source, line, self._format, name, found.kind)
+            self._other[name, line] = table
+            return
+        order = self._order_of(name)
+        if order is not None:
+            found.roles.setdefault("order", order)
+        self._meant.append(
+            Meant(name, line, found.roles, "", None, notes=found.notes, is_assembled=True)
+        )
+
+    def _order_of(self, name: str) -> Number | None:
+        """The order that another file declares for the method of a cache."""
+        stem = re.sub(r"(?:ConstantCacheActual|ConstantCache|Cache|Tableau)$", "", name)
+        order = self._facts.orders.get(stem)
+        return None if order is None else integer(order)
+
+
+def _other(source: str, line: int, format: str, name: str, kind: str) -> FoundTable:
+    return FoundTable(source, line, format, name, (), (), (), kind=kind)
+
+
+def _is_given(value: Unknown) -> bool:
+    """Whether a value is an argument, or a part of one: then a table is used, and none is made."""
+    return "the argument" in value.reason
+
+
+def _is_written(value: Value | None) -> bool:
+    """Whether somebody wrote an entry of an array that was made with zeros."""
+    if not isinstance(value, Array):
+        return False
+    return any(not isinstance(x, Number) or x.is_given for x in value.flat())
+
+
+def _fits(role: str, value: Value) -> bool:
+    """Whether a value may be what its name says."""
+    if role in {"order", "embedded_order", "stages"}:
+        return isinstance(value, Number)
+    if role in {"title", "fsal"}:
+        return isinstance(value, Word)
+    return isinstance(value, Array) and bool(value.items)
+
+
+def _grid(of_role: Mapping[str, Mapping[tuple[int, ...], Value]]) -> Roles:
+    """Blocks ``A1_2`` and weights ``b1`` as nested arrays."""
+    found: Roles = {}
+    count = max(max(at) for at in of_role["A"])
+    numbers = range(1, count + 1)
+    blocks = of_role["A"]
+    found["A"] = Array([Array([blocks.get((l, m), Null()) for m in numbers]) for l in numbers])
+    for role, rows in of_role.items():
+        if role != "A" and all(len(at) == 1 for at in rows):
+            found[role] = Array([rows.get((l,), Null()) for l in numbers])
+    return found
+
+
+def _with_diagonal(roles: Roles, fields: Mapping[str, Value]) -> None:
+    """A diagonal that stands apart is put into the matrix."""
+    diagonal, A = fields.get("a_diagonal"), roles.get("A")
+    if not isinstance(diagonal, Array) or not isinstance(A, Array):
+        return
+    count = len(diagonal.items)
+    rows = [x.items if isinstance(x, Array) else [x] for x in A.items]
+    if len(rows) == count - 1:
+        rows.insert(0, [])
+    if len(rows) == count:
+        joined = [
+            [*row[:i], x] for i, (row, x) in enumerate(zip(rows, diagonal.items, strict=True))
+        ]
+        roles["A"] = Array([Array(row) for row in joined])

@@ -1,0 +1,203 @@
+"""Tables whose coefficients have names of their own: a21, c2, b1, btilde1."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from garkcli.sources.found import MAX_STAGES
+from garkcli.sources.values import ONE, ZERO, Array, Number, Unknown, Value, computed
+
+_NAME = re.compile(r"(?P<stem>[^\W\d_]+[̂̃]?)_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}))?")
+_MATRICES = ("a", "A", "aa", "b")
+_DIAGONALS = ("γ", "gamma", "gam", "d")
+_EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e")
+NEAR = 1e-4
+"""Numbers that differ by less are meant to be the same."""
+_Entries = dict[tuple[int, int], Value]
+_Row = dict[int, Value]
+
+
+@dataclass
+class Scalars:
+    """What names alone say of a table.
+
+    Attributes:
+        roles: its values.
+        notes: how they were put together.
+        kind: of another method.
+    """
+
+    roles: dict[str, Value] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    kind: str = ""
+
+
+def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
+    """The table that numbers make by their names; None where they make none.
+
+    The family with the most entries below the diagonal is the matrix. It is taken only where all
+    nodes that are given are its row sums, with a diagonal that may be a number of its own.
+    """
+    entries, rows = _families(values)
+    stem = _matrix_stem(entries)
+    if stem is None:
+        return None
+    matrix = entries[stem]
+    if stem in {"a", "A"} and {"C", "gamma", "γ"} & set(entries):
+        return Scalars(kind="Rosenbrock")
+    unknown = next((x for x in matrix.values() if isinstance(x, Unknown)), None)
+    if unknown is not None and "argument" in unknown.reason:
+        # a table is used, and none is made
+        return None
+    weight, node = ("c", "a") if stem == "b" else ("b", "c")
+    low = 0 if min(j for _, j in matrix) == 0 else 1
+    given = {i: x for i, x in rows.get(weight, {}).items() if not isinstance(x, Unknown)}
+    stages = max(i for i, _ in matrix) - low + 1
+    first = 0 if given and min(given) == 0 else 1
+    if given:
+        stages = max(stages, max(given) - first + 1)
+    if not 2 <= stages <= MAX_STAGES or len(matrix) + len(given) < 4:
+        return None
+    found = Scalars()
+    if unknown is not None:
+        return _unread(found, unknown)
+    A = _filled(matrix, stages, low)
+    nodes: _Row = {i: x for i, x in rows.get(node, {}).items() if isinstance(x, Number)}
+    fitted = _fitted(A, nodes, values, found)
+    if fitted is None:
+        if len(nodes) > 1:
+            return _unread(found, Unknown("rows and nodes that do not fit together"))
+        fitted = A, None
+    A, c = fitted
+    found.roles["A"] = Array([Array(list(row)) for row in A])
+    if c is not None:
+        found.roles["c"] = Array(list(c))
+    if given and _is_near(_total(list(given.values())), ONE):
+        found.roles["b"] = Array([given.get(i + first, ZERO) for i in range(stages)])
+    elif not given and _is_near(_total(A[-1]), ONE):
+        found.roles["b"] = Array(list(A[-1]))
+        found.notes.append("no weights are written out: they are the last row of A")
+    elif len(nodes) + len(matrix) > 4:
+        return _unread(found, Unknown("no weights with the sum 1"))
+    else:
+        return None
+    _with_embedded(found, rows, stages, low)
+    return found
+
+
+def _unread(found: Scalars, unknown: Unknown) -> Scalars:
+    found.roles = {"A": Array([unknown]), "b": Array([unknown])}
+    return found
+
+
+def _families(values: Mapping[str, Value]) -> tuple[dict[str, _Entries], dict[str, _Row]]:
+    """Numbers by the letters of their names: those with two indices, those with one."""
+    entries: dict[str, _Entries] = {}
+    rows: dict[str, _Row] = {}
+    for name, value in values.items():
+        found = _NAME.fullmatch(name)
+        if found is None or not isinstance(value, (Number, Unknown)):
+            continue
+        stem, i, j = found["stem"], found["i"], found["j"]
+        if j:
+            entries.setdefault(stem, {})[int(i), int(j)] = value
+        elif len(i) == 1 or (len(i) == 2 and (i[0] in "01" and stem not in _MATRICES)):
+            rows.setdefault(stem, {})[int(i)] = value
+        elif len(i) == 2:
+            entries.setdefault(stem, {})[int(i[0]), int(i[1])] = value
+        else:
+            cut = 2
+            entries.setdefault(stem, {})[int(i[:cut]), int(i[cut:])] = value
+    for stem, row in rows.items():
+        # b10, b11 … behind b9 are weights
+        longer = entries.get(stem, {})
+        if max(row) == 9 and longer and stem != "a" and all(i < 3 for i, _ in longer):
+            row |= {10 * i + j: x for (i, j), x in longer.items()}
+            entries.pop(stem)
+    return entries, rows
+
+
+def _matrix_stem(entries: Mapping[str, _Entries]) -> str | None:
+    below = [x for x in _MATRICES if x in entries and all(i >= j for i, j in entries[x])]
+    return max(below, key=lambda x: len(entries[x]), default=None)
+
+
+def _filled(matrix: _Entries, stages: int, low: int) -> list[list[Value]]:
+    numbers = range(low, stages + low)
+    return [[matrix.get((i, j), ZERO) for j in numbers] for i in numbers]
+
+
+_Fitted = tuple[list[list[Value]], Sequence[Value] | None]
+
+
+def _fitted(
+    A: list[list[Value]], nodes: _Row, values: Mapping[str, Value], found: Scalars
+) -> _Fitted | None:
+    """The matrix whose row sums are the nodes, as it is or with a diagonal, and the nodes."""
+    stages = len(A)
+    gamma = next((values[x] for x in _DIAGONALS if isinstance(values.get(x), Number)), None)
+    ways: list[tuple[str, list[list[Value]]]] = [("", A)]
+    has_diagonal = any(not _is_zero(A[i][i]) for i in range(stages))
+    if gamma is not None and not has_diagonal:
+        told = "the diagonal is a number of its own"
+        if stages > 1 and _is_zero(A[1][0]):
+            ways.append(
+                (told, _with(A, lambda i, j: (i == j and i > 0) or (i, j) == (1, 0), gamma))
+            )
+        ways.append((told, _with(A, lambda i, j: i == j and i > 0, gamma)))
+        ways.append((told, _with(A, lambda i, j: i == j, gamma)))
+    for note, matrix in ways:
+        sums = [_total(row) for row in matrix]
+        for shift in (1, 0, 2):
+            given = [nodes.get(i + shift) for i in range(stages)]
+            count = sum(x is not None for x in given)
+            if not count or count < min(len(nodes), 2):
+                continue
+            pairs = zip(given, sums, strict=True)
+            if all(x is None or _is_near(x, y) for x, y in pairs):
+                if note:
+                    found.notes.append(note)
+                full = [y if x is None else x for x, y in zip(given, sums, strict=True)]
+                return matrix, full
+    return None
+
+
+def _with(
+    A: list[list[Value]], is_changed: Callable[[int, int], bool], value: Value
+) -> list[list[Value]]:
+    return [
+        [value if is_changed(i, j) else x for j, x in enumerate(row)] for i, row in enumerate(A)
+    ]
+
+
+def _with_embedded(found: Scalars, rows: Mapping[str, _Row], stages: int, low: int) -> None:
+    for stem in _EMBEDDED:
+        row = rows.get(stem)
+        if not row or any(isinstance(x, Unknown) for x in row.values()):
+            continue
+        first = 0 if min(row) == 0 and low == 0 else 1
+        count = max(stages, max(row) - first + 1)
+        total = _total(list(row.values()))
+        is_error, is_weights = _is_near(total, ZERO), _is_near(total, ONE)
+        if (is_error or is_weights) and count <= stages + 1:
+            entries: list[Value] = [row.get(i + first, ZERO) for i in range(count)]
+            found.roles["error" if is_error else "embedded"] = Array(entries)
+            return
+
+
+def _total(row: Sequence[Value]) -> Value:
+    found: Value = ZERO
+    for x in row:
+        found = computed("+", found, x, 0)
+    return found
+
+
+def _is_zero(value: Value) -> bool:
+    return isinstance(value, Number) and value.is_zero
+
+
+def _is_near(x: Value, y: Value) -> bool:
+    is_number = isinstance(x, Number) and isinstance(y, Number)
+    return is_number and abs(x.near - y.near) < NEAR  # type: ignore[union-attr]

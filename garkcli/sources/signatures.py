@@ -1,0 +1,96 @@
+"""What the calls that make tables are given, by place; which tables are of other methods."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Signature:
+    """A call that makes a table.
+
+    Attributes:
+        roles: of its arguments, in order; ``-`` for those that say nothing of a table.
+        form: ``rk``, ``ark`` (two parts on shared stages), ``lists`` (a list of each), ``steps``
+            (weights of kicks and drifts).
+        counts: how many arguments it has; empty where that is not fixed.
+        format: of the table, where it is another one than that of the language.
+        has_default_weights: whether missing weights are the last row of the matrix.
+    """
+
+    roles: Sequence[str]
+    form: str = "rk"
+    counts: Sequence[int] = ()
+    format: str = ""
+    has_default_weights: bool = False
+    flags: Mapping[str, bool] = field(default_factory=dict)
+
+
+def _rk(roles: str, *counts: int) -> Signature:
+    return Signature(roles.split(), counts=counts)
+
+
+_PETSC_RK = Signature(
+    ["title", "order", "stages", "A", "b", "c", "embedded"],
+    counts=(9,),
+    format="petsc",
+    has_default_weights=True,
+)
+SIGNATURES: Mapping[str, Signature] = {
+    "ARKodeButcherTable_Create": _rk("stages order embedded_order c A b embedded", 7),
+    "ARKodeSPRKTable_Create": Signature(
+        ["stages", "order", "drifts", "kicks"], "force-first", counts=(4,)
+    ),
+    "TSRKRegister": _PETSC_RK,
+    "TSDIRKRegister": _PETSC_RK,
+    "TSARKIMEXRegister": Signature(
+        ["title", "order", "stages", "A2", "b2", "c2", "A", "b", "c", "embedded2", "embedded"],
+        "ark",
+        counts=(14,),
+        format="petsc",
+        has_default_weights=True,
+    ),
+    "TSBasicSymplecticRegister": Signature(
+        ["title", "order", "stages", "drifts", "kicks"], "drift-first", counts=(5,), format="petsc"
+    ),
+    "ExplicitRKTableau": _rk("A c b order"),
+    "ImplicitRKTableau": _rk("A c b order"),
+    "RungeKuttaMethod": _rk("A b c"),
+    "ExplicitRungeKuttaMethod": _rk("A b c"),
+    "DiagonallyImplicitRKMethod": _rk("A b c"),
+    "AdditiveRungeKuttaMethod": Signature(["A", "b", "c"], "lists"),
+    "Tableau": _rk("title order A b c"),
+    "TableauRK": _rk("title order A b c"),
+    "TableauERK": _rk("title order A b c"),
+    "TableauIRK": _rk("title order A b c"),
+    "TableauDIRK": _rk("title order A b c"),
+    "_ButcherTableau": _rk("c A b error"),
+    "ExplicitRKSolver": _rk("stages A b c", 4),
+}
+"""What is known of the calls that make tables, by name."""
+OTHER_KINDS = (
+    (re.compile(r"RosW|Rodas|Rosenbrock|ROS\d|ROW(?![a-z])"), "Rosenbrock"),
+    (re.compile(r"MRIStep|MRI_|MIStoMRI|Multirate|MPRK|MRTableau"), "multirate"),
+    (re.compile(r"Nystr(?:o|ö|oe)m|RKN(?![a-z])|Nystrom"), "Nyström"),
+    (re.compile(r"GLEE|GLLE|GLM(?![a-z])|GeneralLinear"), "general linear"),
+    (re.compile(r"LowStorage|2[NR]S?\+?(?:$|_)|3S\*?|LSRK"), "low-storage"),
+    (re.compile(r"SplittingStep|SplittingCoefficients"), "splitting"),
+    (re.compile(r"ExpRK|ETDRK|Exponential(?!ly)"), "exponential"),
+    (re.compile(r"TSIRK|IMEXBDF|BDF(?![a-z])|Adams"), "multistep"),
+)
+"""Tables of other methods, by the names of the calls that make them."""
+MAKER = re.compile(r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI)\w*")
+"""Calls that make tables, by their names."""
+
+
+def other_kind(name: str) -> str:
+    """What kind of table another call makes; empty where it may be one of Runge–Kutta.
+
+    >>> other_kind("TSRosWRegister"), other_kind("TSRKRegister")
+    ('Rosenbrock', '')
+    """
+    if not MAKER.fullmatch(name):
+        return ""
+    return next((kind for pattern, kind in OTHER_KINDS if pattern.search(name)), "")

@@ -1,0 +1,413 @@
+"""What expressions of sources are: exact numbers with the digits they were printed with, arrays,
+records, and what is unknown with the reason.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+from flint import fmpq
+
+from garkcli.errors import ExpressionError
+from garkcli.exact.expression import read_decimal
+from garkcli.sources.found import MAX_LENGTH, Unreadable
+from garkcli.sources.scalars import Scalar, combined, negated, number, rooted
+
+if TYPE_CHECKING:
+    from garkcli.sources.evaluate import Space
+    from garkcli.sources.ir import Expr
+
+FEWEST_DIGITS = 6
+"""A decimal of so many digits may be rounded: its text is kept."""
+LONG_TEXT = 400
+"""A text that is longer is written as one decimal, where its numbers are rounded anyway."""
+MAX_BITS = 20_000
+"""Of the numerator and the denominator of a number."""
+MAX_POWER = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """What is not known, and why: whatever is computed from it is unknown for the same reason."""
+
+    reason: str
+    line: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Number:
+    """A number.
+
+    Attributes:
+        value: as it is printed; None for an irrational one.
+        near: the float next to it, for sizes alone.
+        unit: how far rounding of the printed digits may move it, for sizes alone.
+        written: its text where that says more than the value.
+        is_whole: whether dividing it by a whole number gives a whole number.
+        is_given: whether it was written; what C fills an array with was not.
+    """
+
+    value: fmpq | None
+    near: float
+    unit: float = 0.0
+    written: Scalar | None = None
+    is_whole: bool = False
+    is_given: bool = True
+
+    @cached_property
+    def scalar(self) -> Scalar:
+        """The text of a coefficient."""
+        return number(str(self.value)) if self.written is None else self.written
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it is exactly 0."""
+        return self.value is not None and not self.value
+
+
+@dataclass(eq=False)
+class Array:
+    """Values in order; those of a matrix are its rows.
+
+    Attributes:
+        items: the values.
+        base: the index of the first.
+        is_growing: whether what is assigned behind its end makes it longer.
+    """
+
+    items: list[Value]
+    base: int = 0
+    is_growing: bool = False
+
+    @property
+    def is_matrix(self) -> bool:
+        """Whether all of it are arrays."""
+        return bool(self.items) and all(isinstance(x, Array) for x in self.items)
+
+    def flat(self) -> Iterator[Value]:
+        """What is in it, row by row."""
+        for x in self.items:
+            if isinstance(x, Array):
+                yield from x.flat()
+            else:
+                yield x
+
+    def map(self, change: Callable[[Value], Value]) -> Array:
+        """The same with other entries."""
+        items = [x.map(change) if isinstance(x, Array) else change(x) for x in self.items]
+        return Array(items, self.base, self.is_growing)
+
+
+@dataclass(eq=False)
+class Record:
+    """Values by name: of a structure, of a dictionary; or a call with its arguments.
+
+    Attributes:
+        kind: what makes it; empty for a record without a name.
+        fields: the values by name.
+        args: those by place.
+        line: where it is made.
+        key: what it is called in the record that it is in; empty for others.
+    """
+
+    kind: str
+    fields: dict[str, Value] = field(default_factory=dict)
+    args: Sequence[Value] = ()
+    line: int = 0
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A text in quotes, or a symbol."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Null:
+    """Nothing: ``NULL``, ``None``, ``nothing``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Type:
+    """A type: to call it is to convert."""
+
+
+@dataclass(frozen=True, eq=False)
+class Function:
+    """A function of one expression, with the names that it sees."""
+
+    parameters: tuple[str, ...]
+    body: Expr
+    space: Space
+
+
+Value: TypeAlias = Number | Unknown | Array | Record | Word | Null | Type | Function
+Names: TypeAlias = Mapping[str, Value]
+NULL = Null()
+
+
+def exact(value: fmpq, is_whole: bool = False, is_given: bool = True) -> Number:
+    """A rational number that is known exactly."""
+    return Number(value, _near(value), is_whole=is_whole, is_given=is_given)
+
+
+def _near(value: fmpq) -> float:
+    try:
+        return int(value.p) / int(value.q)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+ZERO = exact(fmpq(0), is_whole=True)
+ONE = exact(fmpq(1), is_whole=True)
+FILL = exact(fmpq(0), is_whole=True, is_given=False)
+"""A zero that nobody wrote."""
+
+
+def integer(n: int) -> Number:
+    """A whole number."""
+    return exact(fmpq(n), is_whole=True)
+
+
+def literal(text: str, line: int, is_whole: bool = False) -> Value:
+    """The number that is printed, exactly as it is printed."""
+    plain = text.lower().replace("_", "")
+    try:
+        value = read_decimal(plain.lstrip("+-"))
+    except (ExpressionError, ValueError):
+        return Unknown(f"the number {text[:20]}", line)
+    digits, _, exponent = plain.partition("e")
+    if "." in digits and len(digits.replace(".", "").lstrip("0")) >= FEWEST_DIGITS:
+        places = len(digits.partition(".")[2]) - int(exponent or 0)
+        unit = 10.0**-places if abs(places) < 300 else 0.0
+        return Number(value, _near(value), unit, number(plain))
+    return exact(value, is_whole)
+
+
+def computed(sign: str, x: Value, y: Value, line: int) -> Value:
+    """The value of two numbers with a sign between them; unknown where one of them is."""
+    for operand in (x, y):
+        if isinstance(operand, Unknown):
+            return operand
+        if not isinstance(operand, Number):
+            return Unknown(f"an operation on {described(operand)}", line)
+    assert isinstance(x, Number)
+    assert isinstance(y, Number)
+    if sign in {"^", "**"}:
+        return _power(x, y, line)
+    if sign in {"/", "//", "÷", "\\"} and y.is_zero:
+        return Unknown("a division by zero", line)
+    if sign not in {"+", "-", "*", "/"}:
+        return Unknown(f"the operator {sign}", line)
+    near, unit = _sizes(sign, x, y)
+    is_whole = x.is_whole and y.is_whole and sign != "/"
+    value = None
+    if x.value is not None and y.value is not None:
+        value = _exactly(sign, x.value, y.value)
+        if max(int(value.p).bit_length(), int(value.q).bit_length()) > MAX_BITS:
+            return Unknown("a number that is too long", line)
+        if x.written is None and y.written is None:
+            return exact(value, is_whole)
+    elif (x.is_zero and sign in "*/") or (y.is_zero and sign == "*"):
+        return ZERO
+    elif x.is_zero and sign == "+":
+        return y
+    elif y.is_zero and sign in "+-":
+        return x
+    return _written(sign, x, y, Number(value, near, unit), line)
+
+
+def _written(sign: str, x: Number, y: Number, found: Number, line: int) -> Value:
+    """The number with its text: that of its parts, or one decimal where it is long and rounded."""
+    value = found.value
+    try:
+        text = combined(sign, x.scalar, y.scalar)
+    except Unreadable as error:
+        return Unknown(error.message, line)
+    assert isinstance(text, Scalar)
+    if value is not None and found.unit and len(text.text) > LONG_TEXT:
+        places = 1 - math.floor(math.log10(found.unit))
+        if 0 < places < MAX_LENGTH:
+            text = number(_decimal(value, places))
+    return Number(value, found.near, found.unit, text)
+
+
+def _decimal(value: fmpq, places: int) -> str:
+    scaled = value * 10**places
+    n = abs(int((scaled + fmpq(1, 2)).floor()))
+    digits = str(n).rjust(places + 1, "0")
+    return f"{'-' if value < 0 else ''}{digits[:-places]}.{digits[-places:]}"
+
+
+def _exactly(sign: str, x: fmpq, y: fmpq) -> fmpq:
+    match sign:
+        case "+":
+            return x + y
+        case "-":
+            return x - y
+        case "*":
+            return x * y
+    return x / y
+
+
+def _sizes(sign: str, x: Number, y: Number) -> tuple[float, float]:
+    """The float next to the result, and how far rounding may move it."""
+    if sign == "*":
+        return x.near * y.near, abs(x.near) * y.unit + abs(y.near) * x.unit
+    if sign == "/":
+        if not y.near:
+            return math.nan, math.inf
+        near = x.near / y.near
+        return near, (x.unit + abs(near) * y.unit) / abs(y.near)
+    return x.near + y.near if sign == "+" else x.near - y.near, x.unit + y.unit
+
+
+def truncated(x: Value, y: Value, line: int) -> Value:
+    """The quotient of whole numbers as C has it."""
+    if not isinstance(x, Number) or not isinstance(y, Number) or x.value is None or not y.value:
+        return Unknown("a quotient of whole numbers", line)
+    found = x.value / y.value
+    return exact(fmpq(int(found.floor() if found > 0 else found.ceil())), is_whole=True)
+
+
+def negative(x: Value, line: int) -> Value:
+    """The number with the other sign."""
+    if isinstance(x, Array):
+        return x.map(lambda y: negative(y, line))
+    if not isinstance(x, Number):
+        return x if isinstance(x, Unknown) else Unknown(f"a sign before {described(x)}", line)
+    text = None if x.written is None else _negated(x.written)
+    return Number(None if x.value is None else -x.value, -x.near, x.unit, text, x.is_whole)
+
+
+def _negated(text: Scalar) -> Scalar:
+    found = negated(text)
+    assert isinstance(found, Scalar)
+    return found
+
+
+def real(value: Value) -> Value:
+    """A number that divides as real ones do; an array of such."""
+    if isinstance(value, Array):
+        return value.map(real)
+    if isinstance(value, Number) and value.is_whole and value is not FILL:
+        return Number(value.value, value.near, value.unit, value.written)
+    return value
+
+
+def _power(x: Number, y: Number, line: int) -> Value:
+    if y.value is None or y.unit:
+        return Unknown("a power whose exponent is rounded", line)
+    p, q = int(y.value.p), int(y.value.q)
+    if abs(p) > MAX_POWER:
+        return Unknown("a power that is too high", line)
+    base: Value = x if q == 1 else root(x, q, line)
+    found: Value = ONE
+    for _ in range(abs(p)):
+        found = computed("*", found, base, line)
+    return found if p >= 0 else computed("/", ONE, found, line)
+
+
+def root(x: Value, index: int, line: int) -> Value:
+    """A root, exactly: a rational number where it is one."""
+    if not isinstance(x, Number):
+        return x if isinstance(x, Unknown) else Unknown(f"a root of {described(x)}", line)
+    if (x.near < 0 and index % 2 == 0) or not 1 < index <= 12:
+        return Unknown("a root that is no real number", line)
+    if x.value is not None and x.written is None:
+        p, q = (_whole_root(abs(int(n)), index) for n in (x.value.p, x.value.q))
+        if p is not None and q is not None:
+            return exact(fmpq(-p if x.near < 0 else p, q))
+    near = math.copysign(abs(x.near) ** (1 / index), x.near)
+    unit = x.unit / (index * abs(near) ** (index - 1)) if x.unit and near else 0.0
+    return Number(None, near, unit, rooted(x.scalar, index))
+
+
+def _whole_root(n: int, index: int) -> int | None:
+    if n.bit_length() > MAX_BITS:
+        return None
+    if index == 2:
+        found = math.isqrt(n)
+        return found if found**2 == n else None
+    near = round(n ** (1 / index)) if n.bit_length() < 1000 else 0
+    return near if near**index == n else None
+
+
+def described(value: Value) -> str:
+    """What a value is, in words."""
+    match value:
+        case Unknown(reason=reason):
+            return reason
+        case Record(kind=kind) if kind:
+            return f"the call {kind}"
+        case Array():
+            return "an array"
+        case Word(text=text):
+            return f"the text {text[:20]!r}"
+        case Null():
+            return "nothing"
+    return "what is no number"
+
+
+def whole(value: Value | None) -> int | None:
+    """A whole number of moderate size; None for anything else."""
+    if not isinstance(value, Number) or value.value is None or value.value.q != 1:
+        return None
+    return int(value.value.p) if abs(value.near) < 10**6 else None
+
+
+def transposed(value: Value, line: int) -> Value:
+    """A matrix with its rows as columns; a row as a column."""
+    if not isinstance(value, Array):
+        return value
+    rows = [x.items for x in value.items if isinstance(x, Array)]
+    if not rows:
+        return Array([Array([x], value.base) for x in value.items], value.base)
+    lengths = {len(x) for x in rows}
+    if len(rows) != len(value.items) or len(lengths) != 1:
+        return Unknown("a transpose of what is no matrix", line)
+    if lengths == {1}:
+        return Array([x[0] for x in rows], value.base)
+    return Array([Array(list(x), value.base) for x in zip(*rows, strict=True)], value.base)
+
+
+def first_unknown(value: Value) -> Unknown | None:
+    """What is not known in a value, the first of it."""
+    if isinstance(value, Unknown):
+        return value
+    if isinstance(value, Array):
+        return next(filter(None, map(first_unknown, value.items)), None)
+    if isinstance(value, (Number, Null)):
+        return None
+    return Unknown(described(value), getattr(value, "line", 0))
+
+
+def size(value: Value) -> int:
+    """About how many characters a value has when it is written out."""
+    if isinstance(value, Array):
+        return 1 + sum(map(size, value.items))
+    if isinstance(value, Record):
+        return 1 + sum(map(size, value.fields.values())) + sum(map(size, value.args))
+    if not isinstance(value, Number):
+        return 1
+    if value.written is not None:
+        return 1 + len(value.written.text)
+    assert value.value is not None
+    bits = int(value.value.p).bit_length() + int(value.value.q).bit_length()
+    return 2 + bits * 3 // 10
+
+
+def copied(value: Value) -> Value:
+    """The same with arrays and fields of its own."""
+    if isinstance(value, Array):
+        return value.map(copied)
+    if isinstance(value, Record):
+        fields = {name: copied(x) for name, x in value.fields.items()}
+        return Record(value.kind, fields, value.args, value.line, value.key)
+    return value
