@@ -17,9 +17,14 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.claims_writer import write_claims
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.stability.slow_interval import SlowInterval, slow_interval
 from garkcli.stability.summary import Stability, stability, stability_of_rounded
-from garkcli.stability.two_frequencies import TwoFrequencies, springs, two_frequencies
+from garkcli.stability.two_frequencies import (
+    SlowInterval,
+    TwoFrequencies,
+    slow_interval,
+    springs,
+    two_frequencies,
+)
 
 
 def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, str]:

@@ -150,8 +150,8 @@ def _springs_report(
     from garkcli.api.calls import two_springs
     from garkcli.cli.stepping import colour_named
     from garkcli.report.stability import StabilityReport
-    from garkcli.stability.slow_interval import SlowInterval
     from garkcli.stability.summary import Stability
+    from garkcli.stability.two_frequencies import SlowInterval
 
     tableau = method.tableau
     colour = 1 + colour_named(tableau, fast)

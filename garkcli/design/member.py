@@ -12,15 +12,14 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.solutions import Solution, value_at
-from garkcli.errors import UsageProblem, VanishingDenominator
+from garkcli.errors import VanishingDenominator
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, Parametric, fraction
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
-from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
-from garkcli.stability.oscillator import oscillator_stability
+from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.family import Family, Stability
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.stages import StageSpace
@@ -171,11 +170,8 @@ def method_at(
 def is_stable(wanted: Stability, tableau: Tableau) -> bool:
     """Whether a method has a kind of stability; not where it has no meaning for it."""
     if wanted.kind == "p-stable":
-        problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        try:
-            return oscillator_stability(tableau, problem).is_p_stable
-        except UsageProblem:
-            return False
+        oscillator = usual_oscillator(tableau)
+        return oscillator is not None and oscillator.is_p_stable
     R = stability_function(tableau, shares_of(tableau, wanted.colour))
     return is_l_stable(R) if wanted.kind == "l-stable" else is_a_stable(R)
 

@@ -35,6 +35,7 @@ from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.stability.two_frequencies import (
+    eigenvalue_conditions,
     line_of_determinants,
     springs,
     two_frequencies,
@@ -164,17 +165,6 @@ class PStability:
         return [at_y(p, x) for p in self.signs]
 
 
-def eigenvalue_conditions(plane: StepPlane) -> list[fmpq_mpoly]:
-    """1 − det M and 1 + det M ∓ tr M, times D²: none is negative where all powers are bounded."""
-    D = plane.denominator
-    (a, b), (c, d) = plane.numerators
-    whole = D * D
-    trace = (a + d) * D
-    area = a * d - b * c
-    both = whole + area
-    return [whole - area, both - trace, both + trace]
-
-
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
     """What decides on the oscillator, in x = z² and t.
 
@@ -187,7 +177,7 @@ def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpo
     # b and c are odd in z, all others even
     z, _ = PLANE.gens()
     others = [D, a + d, a * d - b * c, z * b, z * c]
-    conditions = eigenvalue_conditions(plane)
+    conditions = eigenvalue_conditions(D, a, b, c, d)
     return list(map(in_square, conditions)), list(map(in_square, others))
 
 
@@ -272,7 +262,7 @@ class SpringStability:
         self.plane = through_members(tableau, members.family.ring, unknowns, step)
         D = self.plane.denominator
         (a, b), (c, d) = self.plane.numerators
-        self.signs = eigenvalue_conditions(self.plane)
+        self.signs = eigenvalue_conditions(D, a, b, c, d)
         ends = [ZERO]
         if wanted.greatest is not None:
             ends.append(wanted.greatest)

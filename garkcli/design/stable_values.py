@@ -36,6 +36,7 @@ from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
+from garkcli.stability.two_frequencies import has
 from garkcli.tableau.family import Family
 from garkcli.upward import Shown
 
@@ -288,15 +289,4 @@ class _Decision:
 
 def _holds_at(intervals: Sequence[Interval], t: Point) -> bool:
     """Whether a number belongs to a set."""
-    root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
-    for interval in intervals:
-        start, end = interval.start, interval.end
-        behind = start is None or start < root
-        before = end is None or root < end
-        if interval.has_start and start == root:
-            behind = True
-        if interval.has_end and end == root:
-            before = True
-        if behind and before:
-            return True
-    return False
+    return has(intervals, t if isinstance(t, RealRoot) else RealRoot.rational(t))

@@ -11,8 +11,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.roots import sign
 from garkcli.properties.naming import number_text, weight_name
 from garkcli.properties.reduction import are_positive
-from garkcli.stability.algebraic import contractivity, negative_pivot
-from garkcli.stability.algebraic_within import form_within
+from garkcli.stability.algebraic import contractivity, form_within, negative_pivot
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 

@@ -23,12 +23,11 @@ from garkcli.exact.roots import RealRoot
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.report.stability_region import damped_lines, region_lines
-from garkcli.stability.bounds import Bounds
+from garkcli.stability.ball_polynomials import Bounds
 from garkcli.stability.fraction import MOST_LINES, Fraction
 from garkcli.stability.linear import poles_are_right
-from garkcli.stability.slow_interval import SlowInterval
 from garkcli.stability.summary import Stability
-from garkcli.stability.two_frequencies import TwoFrequencies
+from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell.facts import (
     NO_REASON,

@@ -10,8 +10,12 @@ basis: in the stage algebra of a family no node is needed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, combinations, product
+from typing import Any
 
+from flint import arb, ctx, fmpq
+
+from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, outer, subtract, transpose
 from garkcli.exact.matrix import add as add_matrices
@@ -51,22 +55,21 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
     """
     if len(list(tableau.edges())) < tableau.size**2:
         return None
-    grams = []
-    for l, colour in enumerate(tableau.colours):
-        gram = tableau.space(l).gram(colour.b)
-        grams.append(gram)
-    M = contractivity(tableau)
+    grams = (tableau.space(l).gram(colour.b) for l, colour in enumerate(tableau.colours))
     return AlgebraicStability(
         weights_are_positive=all(map(is_positive_semidefinite, grams)),
-        form_is_positive=is_positive_semidefinite(M),
+        form_is_positive=is_positive_semidefinite(contractivity(tableau)),
     )
 
 
 def contractivity(tableau: Tableau) -> Matrix:
     """The matrix M, in the bases of the stage spaces; all blocks exist."""
     colours = range(tableau.size)
-    blocks = [[_form(tableau, l, m) for m in colours] for l in colours]
-    return _assembled(blocks)
+    rows: list[Vector] = []
+    for l in colours:
+        blocks = [_form(tableau, l, m) for m in colours]
+        rows += (tuple(chain.from_iterable(parts)) for parts in zip(*blocks, strict=True))
+    return tuple(rows)
 
 
 def _form(tableau: Tableau, l: int, m: int) -> Matrix:
@@ -79,17 +82,7 @@ def _form(tableau: Tableau, l: int, m: int) -> Matrix:
     others = tableau.colours[m].b
     outgoing = tableau.space(l).form(weights, there)
     incoming = transpose(tableau.space(m).form(others, back))
-    both = add_matrices(outgoing, incoming)
-    return subtract(both, outer(weights, others))
-
-
-def _assembled(blocks: list[list[Matrix]]) -> Matrix:
-    """One matrix from rows of blocks."""
-    rows: list[Vector] = []
-    for row_of_blocks in blocks:
-        pieces = zip(*row_of_blocks, strict=True)
-        rows.extend(tuple(chain.from_iterable(parts)) for parts in pieces)
-    return tuple(rows)
+    return subtract(add_matrices(outgoing, incoming), outer(weights, others))
 
 
 def is_positive_semidefinite(form: Matrix) -> bool:
@@ -123,14 +116,13 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
         pivots = [i for i in remaining if signs[i] > 0]
         if not pivots:
             return ZERO if is_definite else None
-        pivot = pivots[0]
-        remaining.remove(pivot)
-        _eliminate(rows, pivot, remaining)
+        _eliminate(rows, pivots[0], remaining)
     return None
 
 
-def _eliminate(rows: list[list[Number]], pivot: int, remaining: list[int]) -> None:
+def _eliminate(rows: list[list[Any]], pivot: int, remaining: list[int]) -> None:
     """Take multiples of the row of the pivot from the others, among the remaining columns."""
+    remaining.remove(pivot)
     pivot_row = rows[pivot]
     for i in remaining:
         row = rows[i]
@@ -138,3 +130,91 @@ def _eliminate(rows: list[list[Number]], pivot: int, remaining: list[int]) -> No
         if factor:
             for j in remaining:
                 row[j] = row[j] - factor * pivot_row[j]
+
+
+BITS = 256
+"""Precision of the balls; far below any tolerance that files have."""
+DIGITS = BITS // 4
+"""Digits of exact numbers that become balls."""
+
+
+def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
+    """Whether all methods within the tolerance are algebraically stable; None if not decided.
+
+    Symmetric elimination in balls. A pivot that is positive for all numbers is eliminated; a
+    diagonal entry that is negative for all decides, and so does a minor of two rows that is. The
+    matrix of many methods is singular: then nothing is decided, for neighbours are on both sides.
+
+    Args:
+        tableau: the method, one coordinate a stage; all blocks are there.
+        tolerance: the rounding of coefficients that are not zero.
+    """
+    with ctx.workprec(BITS):
+        weights = [x for colour in tableau.colours for x in rounded_balls(colour.b, tolerance)]
+        if any(b < 0 for b in weights):
+            return False
+        holds = is_positive(form_within(tableau, tolerance))
+        if holds and not all(b > 0 or b.is_zero() for b in weights):
+            return None
+        return holds
+
+
+def rounded_balls(row: Vector, tolerance: fmpq) -> list[arb]:
+    """Coefficients with their rounding; zeros are structure."""
+    rounding = arb(0, arb(tolerance).upper())
+    return [to_ball(x, DIGITS) + rounding if x else arb(0) for x in row]
+
+
+def form_within(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
+    """M = B A + Aᵀ B − b bᵀ over all colours and stages, of all methods within a tolerance.
+
+    The precision is that of the caller.
+    """
+    blocks = {
+        (l, m): [rounded_balls(row, tolerance) for row in tableau.block(l, m) or ()]
+        for l, m in product(range(tableau.size), repeat=2)
+    }
+    weights = [rounded_balls(colour.b, tolerance) for colour in tableau.colours]
+    places = [(l, i) for l, row in enumerate(weights) for i in range(len(row))]
+    form = []
+    for l, i in places:
+        b_i = weights[l][i]
+        entries = []
+        for m, j in places:
+            b_j = weights[m][j]
+            outgoing = b_i * blocks[l, m][i][j]
+            incoming = b_j * blocks[m, l][j][i]
+            entries.append(outgoing + incoming - b_i * b_j)
+        form.append(entries)
+    return form
+
+
+def is_positive(form: list[list[arb]]) -> bool | None:
+    """Whether a symmetric matrix is positive semidefinite for all numbers in its balls.
+
+    >>> is_positive([[arb(2), arb(1)], [arb(1), arb(1)]]), is_positive([[arb(0, 1e-9)]])
+    (True, None)
+    """
+    rows = [list(row) for row in form]
+    remaining = list(range(len(rows)))
+    while remaining:
+        if any(rows[i][i] < 0 for i in remaining):
+            return False
+        pivots = [i for i in remaining if rows[i][i] > 0]
+        if not pivots:
+            return _without_pivot(rows, remaining)
+        _eliminate(rows, pivots[0], remaining)
+    return True
+
+
+def _without_pivot(rows: list[list[arb]], remaining: list[int]) -> bool | None:
+    """The same where no diagonal entry is known to be positive."""
+    for i, j in combinations(remaining, 2):
+        diagonal = rows[i][i] * rows[j][j]
+        others = rows[i][j] * rows[j][i]
+        if diagonal - others < 0:
+            return False
+    for i in remaining:
+        if not all(rows[i][j].is_zero() for j in remaining):
+            return None
+    return True

@@ -17,23 +17,61 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import comb
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball
-from garkcli.exact.enclosing import root_count
+from garkcli.exact.enclosing import cauchy_index, root_count
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.graph import components
-from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
 from garkcli.stability.fraction import Fraction
-from garkcli.stability.half_plane import ball_roots_are_right, exact_roots_are_right
-from garkcli.stability.linear import poles_are_right
+from garkcli.stability.linear import exact_cauchy_index, poles_are_right
+from garkcli.stability.sector import MOST_POINTS, critical_polynomials, roots_between
 from garkcli.tableau.tableau import Tableau
+
+
+def ball_roots_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
+    """Whether Q(iy) = u + iv has all its roots to the right, by Hermite and Biehler."""
+    degree = max(len(u), len(v)) - 1
+    real, imaginary = _turned(u, v, degree, arb(0))
+    index = cauchy_index(real, imaginary)
+    if index is None:
+        return None
+    return index == degree
+
+
+def exact_roots_are_right(u: Polynomial, v: Polynomial) -> bool:
+    """The same exactly."""
+    degree = max(u.degree, v.degree)
+    if degree < 1:
+        return True
+    real, imaginary = _turned(u.coefficients, v.coefficients, degree, ZERO)
+    f = Polynomial(real)
+    g = Polynomial(imaginary)
+    if gcd(f, g).degree > 0:
+        return False
+    return exact_cauchy_index(f, g) == degree
+
+
+def _turned(
+    u: Sequence[Any], v: Sequence[Any], degree: int, zero: Any
+) -> tuple[list[Any], list[Any]]:
+    """U + iv times the conjugate of its leading coefficient, so that u alone has the degree."""
+    count = degree + 1
+    u = [*u, *[zero] * (count - len(u))]
+    v = [*v, *[zero] * (count - len(v))]
+    c = u[degree]
+    s = v[degree]
+    pairs = list(zip(u, v, strict=True))
+    real = [c * x + s * y for x, y in pairs]
+    imaginary = [c * y - s * x for x, y in pairs]
+    return real, imaginary[:degree]
+
 
 BITS_A_DIGIT = 3.33
 BITS = 192

@@ -17,11 +17,12 @@ from itertools import chain
 
 from flint import fmpq
 
+from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.problems.oscillator import Oscillator, check_structure
+from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.step_function import StepFunction, step_function
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -133,6 +134,14 @@ def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorSta
     check_structure(tableau, unit)
     fields = [unit.matrix(colour) for colour in tableau.colours]
     return analysed(tableau, fields)
+
+
+def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
+    """The method on the oscillator in its usual split; None where it has none."""
+    try:
+        return oscillator_stability(tableau, Oscillator.default(terms_of(tableau), ONE))
+    except UsageProblem:
+        return None
 
 
 def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:

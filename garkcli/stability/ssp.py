@@ -160,19 +160,12 @@ def conditions_at(tableau: Tableau) -> list[Polynomial]:
     Args:
         tableau: all of its stage spaces have nodes, no block is missing.
     """
-    whole, parts = stacked(tableau, [ONE] * tableau.size)
-    n = len(whole)
-    minus_whole = scale(-ONE, whole)
-    denominator = reciprocal_characteristic(minus_whole)
-    found = [denominator]
-    for part in parts:
-        for column in transpose(part):
-            found += _entries(denominator, minus_whole, column, n)
-    found += _entries(denominator, minus_whole, (ONE,) * n, n)
-    return found
+    return list(_conditions(*stacked(tableau, [ONE] * tableau.size), with_zeros=True))
 
 
-def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
+def _conditions(
+    whole: Matrix, parts: Sequence[Matrix], with_zeros: bool = False
+) -> Iterator[Polynomial]:
     """Polynomials in r that must not be negative from 0 to the radius.
 
     (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a
@@ -184,7 +177,7 @@ def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
     yield denominator
     for part in parts:
         for column in transpose(part):
-            if any(column):
+            if with_zeros or any(column):
                 yield from _entries(denominator, minus_whole, column, n)
     yield from _entries(denominator, minus_whole, (ONE,) * n, n)
 
@@ -202,8 +195,7 @@ def _entries(
     numerators = []
     for terms in series:
         product = denominator * Polynomial(terms)
-        lowest = product.coefficients[: n + 1]
-        numerators.append(Polynomial(lowest))
+        numerators.append(Polynomial(product.coefficients[: n + 1]))
     return numerators
 
 

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product, starmap
 
 from flint import fmpq
 
 from garkcli.doing import doing
-from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.order.deciding import order_of
-from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability
-from garkcli.stability.algebraic_within import algebraic_within
-from garkcli.stability.colours import Colours, several_colours
+from garkcli.problems.oscillator import Oscillator
+from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
+from garkcli.stability.damping import ImexPair, Ray, imex_pair
+from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
 from garkcli.stability.linear import (
     StabilityFunction,
     e_polynomial,
@@ -27,13 +27,78 @@ from garkcli.stability.linear import (
     real_set,
     stability_function,
 )
-from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
+from garkcli.stability.oscillator import OscillatorStability, oscillator_stability, usual_oscillator
 from garkcli.stability.sector import Sector, largest_sector
-from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
+from garkcli.stability.ssp import AdditiveRadius, SspCoefficient, additive_radius, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
+
+
+@dataclass(frozen=True)
+class Colours:
+    """What several colours do together.
+
+    Attributes:
+        names: of the colours.
+        R: R(z_1, …, z_N); None where it is too large.
+        lines: the lines that determine it.
+        radii: points on the boundary of the region of absolute monotonicity.
+        pair: the method as an implicit-explicit pair; None where it is none.
+        explicit_alone: R of the explicit colour alone, of the first one where there is no pair.
+        real: the z_E ≤ 0 with every z_I damped; None where there is no pair, or not decided.
+        imaginary: the same for z_E on the imaginary axis.
+    """
+
+    names: tuple[str, ...]
+    R: Fraction | None
+    lines: int
+    radii: tuple[AdditiveRadius, ...]
+    pair: ImexPair | None
+    explicit_alone: StabilityFunction
+    real: Ray | None
+    imaginary: Ray | None
+
+    @property
+    def size(self) -> int:
+        """How many colours there are."""
+        return len(self.names)
+
+
+def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
+    """What is decided about a method whose colours all see one another.
+
+    Args:
+        tableau: the method, of two colours at least.
+        ratios: r_2/r_1 for which the additive radius is wanted beside the usual ones.
+    """
+    R = stability_fraction(tableau)
+    pair = imex_pair(tableau, R)
+    explicit = 0 if pair is None else pair.explicit
+    return Colours(
+        names=tuple(colour.name for colour in tableau.colours),
+        R=R,
+        lines=lines_needed(tableau),
+        radii=_radii(tableau, ratios),
+        pair=pair,
+        explicit_alone=stability_function(tableau, _unit(tableau.size, explicit)),
+        real=None if pair is None else pair.real_ray(),
+        imaginary=None if pair is None else pair.imaginary_ray(),
+    )
+
+
+def _radii(tableau: Tableau, ratios: Sequence[fmpq]) -> tuple[AdditiveRadius, ...]:
+    """On the axes, on the diagonal and on the lines that are asked for."""
+    size = tableau.size
+    directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
+    directions.append([ONE] * size)
+    directions += [[ONE, ratio] for ratio in ratios]
+    return tuple(additive_radius(tableau, direction) for direction in directions)
+
+
+def _unit(size: int, l: int) -> list[Number]:
+    return [ONE if m == l else ZERO for m in range(size)]
 
 
 def _word(word: str, is_so: bool | None) -> str:
@@ -134,7 +199,7 @@ def stability(
     >>> stability(gark([diagonal_method("radau-iia", 2)], {})).linear[0].l_stable
     True
     """
-    linear = _linear(tableau)
+    linear = tuple(starmap(partial(linear_stability, tableau), directions(tableau)))
     if problem is None:
         oscillator = usual_oscillator(tableau)
     else:
@@ -157,33 +222,26 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
         tolerance: the rounding of its coefficients.
     """
     order = order_of(meant(tableau, tolerance)).order
-    found = []
+    linear = []
     for name, shares in directions(tableau):
         decided = stability_within(tableau, shares, tolerance, order)
         R = stability_function(tableau, shares)
-        one = LinearStability(
-            name=name,
-            R=R,
-            e_polynomial=e_polynomial(R),
-            a_stable=decided.a_stable,
-            l_stable=decided.l_stable,
-            sector=None,
-            real=None,
-            imaginary=None,
-            ssp=None,
-            within=decided,
+        linear.append(
+            LinearStability(
+                name=name,
+                R=R,
+                e_polynomial=e_polynomial(R),
+                a_stable=decided.a_stable,
+                l_stable=decided.l_stable,
+                sector=None,
+                real=None,
+                imaginary=None,
+                ssp=None,
+                within=decided,
+            )
         )
-        found.append(one)
-    algebraic = algebraic_within(tableau, tolerance) if found else None
-    return Stability(tableau, tuple(found), None, None, tolerance, algebraic_within=algebraic)
-
-
-def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
-    found = []
-    for name, shares in directions(tableau):
-        one = linear_stability(tableau, name, shares)
-        found.append(one)
-    return tuple(found)
+    algebraic = algebraic_within(tableau, tolerance) if linear else None
+    return Stability(tableau, tuple(linear), None, None, tolerance, algebraic_within=algebraic)
 
 
 def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
@@ -193,13 +251,11 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     if tableau.is_partitioned or not is_complete:
         return []
     alike: list[Number] = [ONE] * tableau.size
-    found = [("all", alike)]
+    every = [("all", alike)]
     if tableau.size > 1:
         for l, colour in enumerate(tableau.colours):
-            alone: list[Number] = [ZERO] * tableau.size
-            alone[l] = ONE
-            found.append((colour.name, alone))
-    return found
+            every.append((colour.name, _unit(tableau.size, l)))
+    return every
 
 
 def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
@@ -216,13 +272,3 @@ def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> L
         imaginary=imaginary_set(R),
         ssp=ssp_coefficient(tableau, shares),
     )
-
-
-def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
-    """The method on the oscillator in its usual split; None where it has none."""
-    unit = fmpq(1)
-    try:
-        usual = Oscillator.default(terms_of(tableau), unit)
-        return oscillator_stability(tableau, usual)
-    except UsageProblem:
-        return None

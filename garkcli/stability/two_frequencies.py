@@ -11,15 +11,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, counted
-from garkcli.exact.cells import Interval
+from garkcli.exact.cells import Interval, Point, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, outer, reciprocal_characteristic, subtract
-from garkcli.exact.multivariate import Multivariate, lattice, through_points
+from garkcli.exact.multivariate import Exponents, Multivariate, lattice, through_points
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
+from garkcli.exact.projection import PLANE, curves, projected
+from garkcli.exact.roots import RealRoot, number_of
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.oscillator import Ratio, stable_set
 from garkcli.stepping.stage_system import StageSystem, stage_system
@@ -124,8 +126,7 @@ def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFre
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, _like_an_oscillator(split))
-    determinants = line_of_determinants(tableau, split, slow)
-    M = _reduced(determinants)
+    M = _reduced(line_of_determinants(tableau, split, slow))
     N, D = M.trace.numerator, M.trace.denominator
     return TwoFrequencies(
         slow=slow,
@@ -150,12 +151,8 @@ def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> l
     """det(I − W) and, times it, the entries of M, as polynomials in x for one slow frequency."""
     unknowns = len(_system(tableau, split, slow, ZERO).W)
     points = [fmpq(k) for k in range(unknowns + 1)]
-    rows = []
-    for x in points:
-        system = _system(tableau, split, slow, x)
-        rows.append(_determinants(system))
-    columns = zip(*rows, strict=True)
-    return [interpolated(points, column) for column in columns]
+    rows = [_determinants(_system(tableau, split, slow, x)) for x in points]
+    return [interpolated(points, column) for column in zip(*rows, strict=True)]
 
 
 def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
@@ -169,15 +166,11 @@ def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multiv
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)
     points = list(lattice(2, degree))
-    rows = []
-    for i, j in points:
-        system = _system(tableau, split, fmpq(i), fmpq(j))
-        rows.append(_determinants(system))
-    planes = []
-    for column in zip(*rows, strict=True):
-        values = dict(zip(points, column, strict=True))
-        planes.append(through_points(values, degree))
-    return tuple(planes)
+    rows = [_determinants(_system(tableau, split, fmpq(i), fmpq(j))) for i, j in points]
+    return tuple(
+        through_points(dict(zip(points, column, strict=True)), degree)
+        for column in zip(*rows, strict=True)
+    )
 
 
 def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
@@ -221,12 +214,8 @@ def _reduced(polynomials: Sequence[Polynomial]) -> _StepMatrix:
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:
     """A split with the same terms in play, for the check of the structure."""
-    shares = []
     terms = zip(split.kinetic, split.slow, split.fast, strict=True)
-    for kinetic, slow, fast in terms:
-        force = (slow + fast) / 2
-        shares.append((kinetic, force))
-    return Oscillator(ONE, tuple(shares))
+    return Oscillator(ONE, tuple((kinetic, (slow + fast) / 2) for kinetic, slow, fast in terms))
 
 
 def _system(tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq) -> StageSystem:
@@ -244,9 +233,7 @@ def _determinants(system: StageSystem) -> Sequence[Number]:
         for j in range(2):
             # det(I − W + e bᵀ) = D + D bᵀ (I − W)⁻¹ e
             column = tuple(row[j] for row in system.E)
-            rank_one = outer(column, weights)
-            changed = subtract(system.W, rank_one)
-            entry = _determinant(changed) - D
+            entry = _determinant(subtract(system.W, outer(column, weights))) - D
             if i == j:
                 entry += D
             entries.append(entry)
@@ -256,3 +243,150 @@ def _determinants(system: StageSystem) -> Sequence[Number]:
 def _determinant(W: Matrix) -> Number:
     """det(I − W)."""
     return reciprocal_characteristic(W)(ONE)
+
+
+MOST_DEGREE = 4
+"""Single algebraic x of a larger degree are left open."""
+WITNESSES = 8
+"""Parts of [A, B] whose ends are tried first: an unstable one decides."""
+
+
+@dataclass(frozen=True)
+class SlowInterval:
+    """A method on the two springs, for all slow frequencies of an interval.
+
+    Attributes:
+        low: the least a.
+        high: the greatest a.
+        stable: the x ≥ 0 with all powers of M bounded for every a of them. Where one of
+            ``open_points`` is an end, it is left out; where it is inside, it is taken in.
+        open_points: single x for which it is not decided whether for some a an eigenvalue ±1 is
+            double, or M has a pole.
+    """
+
+    low: fmpq
+    high: fmpq
+    stable: tuple[Interval, ...]
+    open_points: tuple[RealRoot, ...]
+
+    @property
+    def is_stable_for_all(self) -> bool | None:
+        """Whether no fast frequency is unstable; None where single points are open.
+
+        Without any frequency, at a = x = 0, a free particle moves away: that is left out.
+        """
+        if len(self.stable) != 1:
+            return False
+        [interval] = self.stable
+        if interval.start != RealRoot.rational(ZERO):
+            return False
+        if interval.end is not None:
+            return False
+        if not interval.has_start and self.low > 0:
+            return False
+        if self.open_points:
+            return None
+        return True
+
+    def __repr__(self) -> str:
+        parts = counted(len(self.stable), "interval")
+        return f"<SlowInterval {self.low} to {self.high}: stable in {parts}>"
+
+
+@doing("two springs")
+def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) -> SlowInterval:
+    """The fast frequencies that are stable for all slow ones of [low, high].
+
+    Raises:
+        UsageProblem: the coefficients are irrational, or the split is not one that the structure of
+            the tableau is for.
+    """
+    plane = plane_of_determinants(tableau, split)
+    if not all(isinstance(a, fmpq) for p in plane for _, a in p.terms):
+        raise UsageProblem(
+            "an interval of slow frequencies needs rational coefficients",
+            "give --slow A for single ones, which are decided in number fields too",
+            code="no-radicals",
+        )
+    D, a, b, c, d = (_in_plane(p) for p in plane)
+    # between the roots of these one x decides
+    critical = projected(curves([D, b, c, *eigenvalue_conditions(D, a, b, c, d)]), [low, high])
+    undecided: list[RealRoot] = []
+    ends = RealRoot.rational(low), RealRoot.rational(high)
+    stable_at = []
+    for k in range(WITNESSES + 1):
+        witness = low + (high - low) * fmpq(k, WITNESSES)
+        stable_at.append(stable_where([_with_slow(p, witness) for p in plane]))
+
+    def is_stable(x: Point) -> bool:
+        # one a that is unstable decides; that is cheap, as the polynomials in x are rational
+        root = x if isinstance(x, RealRoot) else RealRoot.rational(x)
+        if not all(has(intervals, root) for intervals in stable_at):
+            return False
+        number = number_of(root, MOST_DEGREE)
+        if number is None:
+            undecided.append(root)
+            return True
+        slow = stable_where([_with_fast(p, number) for p in plane])
+        return any(_contains(interval, *ends) for interval in slow)
+
+    intervals = where(is_stable, critical, start=ZERO)
+    stable = tuple(
+        _trimmed(x, undecided) for x in intervals if not (x.is_point and x.start in undecided)
+    )
+    return SlowInterval(low, high, stable, tuple(undecided))
+
+
+def eigenvalue_conditions(
+    D: fmpq_mpoly, a: fmpq_mpoly, b: fmpq_mpoly, c: fmpq_mpoly, d: fmpq_mpoly
+) -> list[fmpq_mpoly]:
+    """1 − det M and 1 + det M ∓ tr M, times D², of M = (a, b; c, d)/D: none is negative where all
+    powers of M are bounded.
+    """
+    whole = D * D
+    trace = (a + d) * D
+    area = a * d - b * c
+    both = whole + area
+    return [whole - area, both - trace, both + trace]
+
+
+def _in_plane(p: Multivariate) -> fmpq_mpoly:
+    """The same polynomial with a for y and x for t."""
+    terms = {exponents: c for exponents, c in p.terms if isinstance(c, fmpq)}
+    return PLANE.from_dict(terms)
+
+
+def _with_slow(p: Multivariate, a: Number) -> Polynomial:
+    """A polynomial in (a, x) as one in x."""
+    return Polynomial([coefficient((a,)) for coefficient in p.by_last()])
+
+
+def _with_fast(p: Multivariate, x: Number) -> Polynomial:
+    """A polynomial in (a, x) as one in a."""
+    exchanged: dict[Exponents, Number] = {(k, j): c for (j, k), c in p.terms}
+    return _with_slow(Multivariate.of(2, exchanged), x)
+
+
+def has(intervals: Sequence[Interval], x: RealRoot) -> bool:
+    """Whether a number belongs to one of several intervals."""
+    return any(_contains(interval, x, x) for interval in intervals)
+
+
+def _contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
+    """Whether [left, right] is a part of it."""
+    start, end = interval.start, interval.end
+    if start is not None and left < start:
+        return False
+    if end is not None and end < right:
+        return False
+    if start == left and not interval.has_start:
+        return False
+    return interval.has_end or end != right
+
+
+def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
+    """An interval without those of its ends that are not decided."""
+    start, end = interval.start, interval.end
+    has_start = interval.has_start and start not in undecided
+    has_end = interval.has_end and end not in undecided
+    return Interval(start, end, has_start, has_end)

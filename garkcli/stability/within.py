@@ -9,24 +9,160 @@ more is used: the order p that the method has within its tolerance is taken for 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from flint import arb, arb_poly, ctx, fmpq
+from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
-from garkcli.exact.field import Number
-from garkcli.stability.ball_signs import (
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.roots import sign
+from garkcli.graph import components
+from garkcli.stability.algebraic import rounded_balls
+from garkcli.stability.ball_polynomials import (
+    OPEN,
+    Bounds,
     are_coprime,
     both,
     difference,
+    first_failure,
     is_positive,
+    least,
     mirrored,
     poles_are_right,
     squared_on_axis,
 )
-from garkcli.stability.bounds import OPEN, Bounds, first_failure
-from garkcli.stability.fraction_within import BITS, BallFraction, fraction_within
-from garkcli.stability.ssp_within import ssp_within
+from garkcli.stability.ssp import driven_part, stacked
+from garkcli.stepping.stage_system import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
+
+BITS = 256
+"""Precision of the balls; far below any tolerance that files have."""
+DIGITS = BITS // 4
+"""Digits of exact numbers that become balls."""
+
+
+@dataclass(frozen=True)
+class BallFraction:
+    """R = P/Q for all methods within a tolerance, coefficients from the lowest.
+
+    Attributes:
+        P: the numerator, one coefficient more than there are unknown stage values.
+        Q: the denominator det(I − zW); no longer than P.
+    """
+
+    P: list[arb]
+    Q: list[arb]
+
+
+def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> BallFraction:
+    """P and Q of a method with rounded coefficients.
+
+    Args:
+        tableau: the method, one coordinate a stage.
+        shares: w_l with λ_l = w_l λ, one a colour.
+        tolerance: the largest error of a coefficient that is not zero.
+    """
+    fields = [((w,),) for w in shares]
+    system = stage_system(tableau, fields)
+    summands = _summands(tableau, shares)
+    rows = zip(system.W, summands.W, strict=True)
+    W = [_widened(row, counts, tolerance) for row, counts in rows]
+    Q = _reciprocal(summands.W, arb_mat(W) if W else arb_mat(0, 0))
+    b = _widened(system.B[0], summands.B[0], tolerance)
+    product = Q * arb_poly(_series(W, b, [to_ball(x) for (x,) in system.E]))
+    return BallFraction([product[k] for k in range(len(W) + 1)], [Q[k] for k in range(len(Q))])
+
+
+def _summands(tableau: Tableau, shares: Sequence[Number]) -> StageSystem:
+    """How many coefficients each entry of the system is the sum of, each counted |w_l| times.
+
+    Coefficients of colours with the same stages are added. Zeros are structure and do not count.
+    """
+    blocks = {edge: tuple(map(_ones, block)) for edge, block in tableau.blocks.items()}
+    colours = tuple(replace(colour, b=_ones(colour.b)) for colour in tableau.colours)
+    sizes = [((-w if sign(w) < 0 else w,),) for w in shares]
+    return stage_system(replace(tableau, blocks=blocks, colours=colours), sizes)
+
+
+def _ones(row: Vector) -> Vector:
+    return tuple(ONE if x else ZERO for x in row)
+
+
+def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
+    """Sums of ``counts`` coefficients with their rounding; what is a sum of none is zero."""
+    sums = []
+    for x, count in zip(row, counts, strict=True):
+        radius = to_ball(count, DIGITS) * arb(tolerance)
+        sums.append(to_ball(x, DIGITS) + arb(0, radius.upper()) if count else to_ball(x, DIGITS))
+    return sums
+
+
+def _reciprocal(pattern: Matrix, W: arb_mat) -> arb_poly:
+    """det(I − zW), component by component of the graph of the entries that are not zero."""
+    edges = {i: [j for j, x in enumerate(row) if x] for i, row in enumerate(pattern)}
+    product = arb_poly([1])
+    for component in components(edges):
+        block = arb_mat([[W[i, j] for j in component] for i in component])
+        reciprocal = [arb(1), -block[0, 0]]
+        if len(component) > 1:
+            reciprocal = list(block.charpoly().coeffs())[::-1]
+        product = product * arb_poly(reciprocal)
+    return product
+
+
+def _series(W: list[list[arb]], b: list[arb], initial: list[arb]) -> list[arb]:
+    """The first coefficients of R as a power series: 1, and b W^{k−1} E."""
+    series = [arb(1)]
+    if not W:
+        return series
+    state = arb_mat([[x] for x in initial])
+    matrix = arb_mat(W)
+    weights = arb_mat([b])
+    for _ in W:
+        increment = weights * state
+        series.append(increment[0, 0])
+        state = matrix * state
+    return series
+
+
+def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> Bounds:
+    """The first failure of any condition of ``garkcli.stability.ssp``, between bounds.
+
+    Args:
+        tableau: the method, one coordinate a stage.
+        shares: r_l / r for each colour; those with 0 have the vector field 0, as for
+            ``ssp_coefficient``.
+        tolerance: the rounding of coefficients that are not zero.
+    """
+    pattern, parts = stacked(*driven_part(tableau, shares))
+    n = len(pattern)
+    whole = arb_mat(n, n)
+    vectors = [[arb(1)] * n]
+    driven = [share for share in shares if share]
+    for share, part in zip(driven, parts, strict=True):
+        wide = arb_mat([rounded_balls(row, tolerance) for row in part])
+        whole += wide * to_ball(share, DIGITS)
+        columns = wide.transpose().tolist()
+        vectors += [column for column in columns if not all(x.is_zero() for x in column)]
+    denominator = _reciprocal(pattern, -whole)
+    conditions = [[denominator[k] for k in range(len(denominator))]]
+    for vector in vectors:
+        conditions += _numerators(denominator, whole, vector)
+    return least([first_failure(condition) for condition in conditions])
+
+
+def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> list[list[arb]]:
+    """The numerators of (I + rK)⁻¹ v, polynomials in r."""
+    n = len(vector)
+    state = arb_mat([[x] for x in vector])
+    series: list[list[arb]] = [[] for _ in range(n)]
+    for _ in range(n + 1):
+        for i in range(n):
+            series[i].append(state[i, 0])
+        state = -(matrix * state)
+    products = [denominator * arb_poly(terms) for terms in series]
+    return [[product[k] for k in range(n + 1)] for product in products]
 
 
 @dataclass(frozen=True)
@@ -64,12 +200,12 @@ def stability_within(
         E = _margin(R, order)
         is_stiff = is_stiffly_accurate(tableau, shares)
         a_stable = both(_is_bounded(E, is_stiff), _poles_are_right(R))
-        vanishes = _vanishes_at_infinity(R, is_stiff)
         return StabilityWithin(
             a_stable=a_stable,
-            l_stable=both(a_stable, vanishes),
+            l_stable=both(a_stable, _vanishes_at_infinity(R, is_stiff)),
             real=_real_end(R),
-            imaginary=_imaginary_end(E),
+            # rounding hides whether all coefficients are zero
+            imaginary=OPEN if all(a.is_zero() for a in E) else first_failure(E),
             ssp=ssp_within(tableau, shares, tolerance),
         )
 
@@ -143,16 +279,7 @@ def _real_end(R: BallFraction) -> Bounds:
     Q = arb_poly(mirrored(R.Q))
     margin = Q * Q - P * P
     # the constants of P and Q are 1: that of the margin is zero
-    others = [margin[k] for k in range(1, len(margin))]
-    return first_failure([arb(0), *others])
-
-
-def _imaginary_end(E: Sequence[arb]) -> Bounds:
-    """The end of the interval of y² on which |R(iy)| ≤ 1."""
-    # rounding hides whether all coefficients are zero
-    if all(a.is_zero() for a in E):
-        return OPEN
-    return first_failure(list(E))
+    return first_failure([arb(0), *(margin[k] for k in range(1, len(margin)))])
 
 
 def _vanishes_at_infinity(R: BallFraction, is_stiff: bool) -> bool | None:

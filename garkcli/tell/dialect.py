@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
     from garkcli.order.certificate import Witness
-    from garkcli.stability.bounds import Bounds
+    from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
     from garkcli.tell.facts import Reason, Status

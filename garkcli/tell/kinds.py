@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.order.certificate import Witness
     from garkcli.order.deciding import AnyOrder
-    from garkcli.stability.bounds import Bounds
+    from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tell.dialect import Plain
 
 

@@ -24,7 +24,8 @@ from garkcli.report.problem import name_of
 from garkcli.stability.damping import imex_pair
 from garkcli.stability.fraction import stability_fraction
 from garkcli.stability.linear import stability_function
-from garkcli.stability.summary import directions, usual_oscillator
+from garkcli.stability.oscillator import usual_oscillator
+from garkcli.stability.summary import directions
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.step import StepFailed
 from garkcli.tableau.garkmethod import GarkMethod, word_for

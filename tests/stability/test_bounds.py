@@ -16,9 +16,8 @@ from garkcli.cli.main import gark
 from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import loads
-from garkcli.stability.algebraic import algebraic_stability
-from garkcli.stability.algebraic_within import algebraic_within, is_positive
-from garkcli.stability.bounds import OPEN, UNLIMITED, Bounds, first_failure, least
+from garkcli.stability.algebraic import algebraic_stability, algebraic_within, is_positive
+from garkcli.stability.ball_polynomials import OPEN, UNLIMITED, Bounds, first_failure, least
 from garkcli.stability.linear import imaginary_set, real_set, stability_function
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.stability.within import stability_within

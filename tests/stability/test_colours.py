@@ -16,10 +16,10 @@ from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial, gcd, resultant, subresultant
 from garkcli.exact.roots import real_roots
 from garkcli.methodfile.load import load, loads
-from garkcli.stability.colours import several_colours
 from garkcli.stability.damping import ImexPair, imex_pair
 from garkcli.stability.fraction import Fraction, stability_fraction
 from garkcli.stability.ssp import additive_radius, ssp_coefficient
+from garkcli.stability.summary import several_colours
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions

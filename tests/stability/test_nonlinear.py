@@ -12,7 +12,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.stability.algebraic import algebraic_stability, is_positive_semidefinite
 from garkcli.stability.ssp import ssp_coefficient
-from garkcli.stability.ssp_within import ssp_within
+from garkcli.stability.within import ssp_within
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau

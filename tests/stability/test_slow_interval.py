@@ -17,8 +17,7 @@ from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import load
-from garkcli.stability.slow_interval import slow_interval
-from garkcli.stability.two_frequencies import SplitSprings, springs, two_frequencies
+from garkcli.stability.two_frequencies import SplitSprings, slow_interval, springs, two_frequencies
 
 NAMES = ["collocation", "interpolation", "three-colours", "four-term-combination"]
 

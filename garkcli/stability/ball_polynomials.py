@@ -1,0 +1,225 @@
+"""Polynomials whose coefficients are balls: signs, roots, common factors, and where they begin to
+be negative.
+
+Each question is answered for all polynomials in the balls at once, or with None: it is not
+decided. Coefficients come from the lowest.
+
+The place where one begins to be negative is known between bounds. Pieces of the line are taken from
+the left. A piece on which the enclosure of the polynomial is
+positive is passed; others are halved, until they are short. Behind the last one that was passed a
+point is looked for where the polynomial is negative for all numbers in the balls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise, zip_longest
+
+from flint import arb, arb_mat, arb_poly, fmpq
+
+from garkcli.exact.field import ZERO
+
+MOST_PIECES_OF_UNIT = 4000
+"""Pieces of an interval on which a sign is tried before it is left undecided."""
+
+
+def both(first: bool | None, second: bool | None) -> bool | None:
+    """Whether both hold, where one that fails decides."""
+    if first is False or second is False:
+        return False
+    if first and second:
+        return True
+    return None
+
+
+def mirrored(coefficients: Iterable[arb]) -> list[arb]:
+    """p(−z)."""
+    return [-a if k % 2 else a for k, a in enumerate(coefficients)]
+
+
+def squared_on_axis(p: Sequence[arb]) -> list[arb]:
+    """|p(iy)|² as a polynomial in x = y²: the squares of the real part and of the imaginary one."""
+    real = arb_poly(mirrored(p[0::2]))
+    imaginary = arb_poly(mirrored(p[1::2]))
+    total = real * real + arb_poly([0, 1]) * imaginary * imaginary
+    return [total[k] for k in range(len(total))]
+
+
+def difference(a: Sequence[arb], b: Sequence[arb]) -> list[arb]:
+    """The coefficients of a − b, as many as the longer one has."""
+    return [x - y for x, y in zip_longest(a, b, fillvalue=arb(0))]
+
+
+def _padded(p: Sequence[arb], size: int) -> list[arb]:
+    """So many coefficients, zeros at the end."""
+    return [*p, *[arb(0)] * (size - len(p))]
+
+
+def is_positive(coefficients: Sequence[arb]) -> bool | None:
+    """Whether a polynomial is positive for all x > 0: on (0, 1], and reversed on (0, 1]."""
+    near = _is_positive_on_unit_interval(coefficients)
+    far = _is_positive_on_unit_interval(coefficients[::-1])
+    return both(near, far)
+
+
+def _is_positive_on_unit_interval(coefficients: Sequence[arb]) -> bool | None:
+    """Whether it is positive on [0, 1]: True, False where a value is negative, None undecided.
+
+    Pieces are halved until the enclosure of the polynomial on each has a sign.
+    """
+    p = arb_poly(coefficients)
+    pieces = [(fmpq(0), fmpq(1))]
+    tried = 0
+    while pieces:
+        low, high = pieces.pop()
+        tried += 1
+        if tried > MOST_PIECES_OF_UNIT:
+            return None
+        middle = (low + high) / 2
+        if p(arb(middle, (high - low) / 2)) > 0:
+            continue
+        if p(arb(middle)) < 0:
+            return False
+        pieces += [(low, middle), (middle, high)]
+    return True
+
+
+def poles_are_right(Q: Sequence[arb]) -> bool | None:
+    """Whether all roots of Q have positive real parts, by Routh's scheme of Q(−z)."""
+    rest = mirrored(Q)[::-1]
+    while rest and rest[0].is_zero():
+        rest.pop(0)
+    upper, lower = rest[0::2], rest[1::2]
+    column = [upper[0]]
+    while lower:
+        if lower[0].contains(0):
+            return None
+        column.append(lower[0])
+        factor = upper[0] / lower[0]
+        below = _padded(lower[1:], len(upper) - 1)
+        pairs = zip(upper[1:], below, strict=True)
+        upper, lower = lower, [x - factor * y for x, y in pairs]
+    if all(x > 0 for x in column) or all(x < 0 for x in column):
+        return True
+    if any(x.contains(0) for x in column):
+        return None
+    return False
+
+
+def are_coprime(P: list[arb], Q: list[arb]) -> bool:
+    """Whether P and Q have no common root for any of the numbers in the balls.
+
+    That is what a resultant without zero says: the determinant of the Sylvester matrix.
+    """
+    degree_p = len(P) - 1
+    degree_q = len(Q) - 1
+    size = degree_p + degree_q
+    if size == 0:
+        return True
+    # rows with the coefficients, each a column further to the right
+    rows = [_padded([arb(0)] * k + P, size) for k in range(degree_q)]
+    rows += [_padded([arb(0)] * k + Q, size) for k in range(degree_p)]
+    return not arb_mat(rows).det().contains(0)
+
+
+FINEST = 80
+"""A piece is halved at most so often."""
+FARTHEST = 20
+"""Pieces reach to 2 to this power; beyond it nothing is decided."""
+MOST_PIECES = 6000
+"""Pieces that are tried at most."""
+MOST_TRIES = 60
+"""Points that are tried at most behind the last piece, each twice as far from it."""
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """A number known between bounds.
+
+    Attributes:
+        low: no more than it, for all methods within the tolerance; None for ∞.
+        high: no less; None for ∞, or where no such bound is known.
+    """
+
+    low: fmpq | None
+    high: fmpq | None
+
+
+UNLIMITED = Bounds(None, None)
+"""Never negative."""
+OPEN = Bounds(ZERO, None)
+"""Nothing is known."""
+
+
+def first_failure(coefficients: Sequence[arb]) -> Bounds:
+    """The x ≥ 0 from which on a polynomial is negative, between bounds.
+
+    Args:
+        coefficients: the lowest first; exact zeros are structure.
+
+    >>> found = first_failure([arb(4), arb(0), arb(-1)])
+    >>> bool(found.low <= 2 <= found.high and found.high - found.low < fmpq(1, 10**9))
+    True
+    """
+    kept = list(coefficients)
+    while kept and kept[-1].is_zero():
+        kept.pop()
+    first = next((k for k, a in enumerate(kept) if not a.is_zero()), None)
+    if first is None:
+        return UNLIMITED
+    kept = kept[first:]
+    if kept[0] < 0:
+        return Bounds(ZERO, ZERO)
+    if kept[0].contains(0):
+        return OPEN
+    if len(kept) == 1 or _is_positive_everywhere(kept):
+        return UNLIMITED
+    p = arb_poly(kept)
+    return _bounded_behind(p, _passed(p))
+
+
+def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
+    """Whether it is positive on [0, 1], and reversed on [0, 1]; False if that is not seen."""
+    both_ways = (arb_poly(list(coefficients)), arb_poly(list(coefficients[::-1])))
+    return all(_passed(p, up_to_one=True) == 1 for p in both_ways)
+
+
+def _passed(p: arb_poly, up_to_one: bool = False) -> fmpq:
+    """How far from 0 the polynomial is seen to be positive."""
+    ends = [fmpq(0), fmpq(1)]
+    if not up_to_one:
+        ends += [fmpq(2) ** k for k in range(1, FARTHEST)]
+    pieces = [(low, high, 0) for low, high in pairwise(ends)][::-1]
+    tried = 0
+    while pieces:
+        low, high, depth = pieces.pop()
+        tried += 1
+        middle = (low + high) / 2
+        if p(arb(middle, (high - low) / 2)) > 0:
+            continue
+        if depth == FINEST or tried > MOST_PIECES:
+            return low
+        pieces.append((middle, high, depth + 1))
+        pieces.append((low, middle, depth + 1))
+    return ends[-1]
+
+
+def _bounded_behind(p: arb_poly, low: fmpq) -> Bounds:
+    """The nearest point found behind ``low`` at which the polynomial is negative."""
+    distance = fmpq(1, 2**FINEST)
+    for _ in range(MOST_TRIES):
+        high = low + distance
+        if p(arb(high)) < 0:
+            return Bounds(low, high)
+        distance *= 2
+    return Bounds(low, None)
+
+
+def least(bounds: Sequence[Bounds]) -> Bounds:
+    """The least of several numbers, between bounds."""
+    lows = [one.low for one in bounds if one.low is not None]
+    highs = [one.high for one in bounds if one.high is not None]
+    if not lows:
+        return UNLIMITED
+    return Bounds(min(lows), min(highs, default=None))
