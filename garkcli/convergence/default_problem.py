@@ -7,10 +7,9 @@ from contextlib import suppress
 
 from garkcli.errors import UsageProblem
 from garkcli.problems.builtin import GENERIC, GENERIC_RHS, hamiltonian
-from garkcli.problems.comparison import merge_terms
 from garkcli.problems.generic import generic_rhs
 from garkcli.problems.oscillator import terms_of
-from garkcli.problems.problem import Problem
+from garkcli.problems.problem import Problem, merge_terms
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.tableau import Tableau

@@ -182,7 +182,7 @@ class Maker:
         self, lagrangians: Sequence[Term], hamiltonians: Sequence[Term], at: Place, moving: Term
     ) -> dict[str, fmpq]:
         """The momenta by name that belong to the velocities at the start."""
-        from garkcli.problems.start import initial_momenta
+        from garkcli.problems.lagrangian import initial_momenta
 
         L = [term.made for term in lagrangians]
         H = [term.made for term in hamiltonians]

@@ -6,13 +6,14 @@ A problem is added by an entry here, and its test.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.problems import stiff
-from garkcli.problems.entry import BuiltIn, mechanical, stiff_one
 from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import (
@@ -29,6 +30,60 @@ from garkcli.problems.mechanical import (
     two_springs,
 )
 from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import RightHandSide
+
+Maker: TypeAlias = Callable[[int, int], Problem]
+"""Makes a problem of a number of terms and a seed."""
+StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
+"""Makes a problem of a number of terms and a stiffness."""
+
+
+@dataclass(frozen=True)
+class BuiltIn:
+    """A built-in problem.
+
+    Attributes:
+        name: what ``--problem`` takes.
+        summary: one line for ``gark list``.
+        formula: H, or the sum of the right-hand sides, for people.
+        sees: which trees it sees, for people.
+        make: makes it.
+        takes_seed: whether its coefficients depend on the seed.
+        is_hamiltonian: whether it is; otherwise its terms are right-hand sides.
+        stiff: makes it with a stiffness, where it has one to be chosen.
+    """
+
+    name: str
+    summary: str
+    formula: str
+    sees: str
+    make: Maker
+    takes_seed: bool = False
+    is_hamiltonian: bool = True
+    stiff: StiffMaker | None = None
+
+    @property
+    def takes_stiffness(self) -> bool:
+        """Whether it has a stiffness to be chosen."""
+        return self.stiff is not None
+
+
+def mechanical(name: str, summary: str, formula: str, sees: str, made: Mechanical) -> BuiltIn:
+    """An entry for H = T + V, without a seed."""
+
+    def make(terms: int, _: int) -> Hamiltonian:
+        return made.problem(name, terms)
+
+    return BuiltIn(name, summary, formula, sees, make)
+
+
+def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker) -> BuiltIn:
+    """An entry for stiff right-hand sides; their stiffness is 1 where none is chosen."""
+
+    def make(terms: int, _: int) -> RightHandSide:
+        return made(terms, fmpq(1))
+
+    return replace(BuiltIn(name, summary, formula, sees, make, is_hamiltonian=False), stiff=made)
 
 
 def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
@@ -61,8 +116,7 @@ def check_stiffness(name: str) -> None:
         UsageProblem: it would change nothing.
     """
     if not built_in(name).takes_stiffness:
-        entries = PROBLEMS.values()
-        takers = ", ".join(x.name for x in entries if x.takes_stiffness)
+        takers = ", ".join(x.name for x in PROBLEMS.values() if x.takes_stiffness)
         raise UsageProblem(
             f"--stiffness is for the problems {takers}, not for {name}",
             "leave it out, or choose one of these",

@@ -37,8 +37,7 @@ class Draw:
 
     def between(self, low: int, high: int) -> int:
         """A whole number from ``low`` to ``high``, both included."""
-        count = high - low + 1
-        return low + self.word() * count // _WORD
+        return low + self.word() * (high - low + 1) // _WORD
 
     def sign(self) -> int:
         """−1 or 1."""

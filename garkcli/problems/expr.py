@@ -40,5 +40,4 @@ def number(x: Expr) -> fmpq:
 
 def dot(left: Vector, right: Vector) -> Expr:
     """Σ a_i x_i."""
-    pairs = zip(left, right, strict=True)
-    return sum(a * x for a, x in pairs)
+    return sum(a * x for a, x in zip(left, right, strict=True))

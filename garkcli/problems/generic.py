@@ -31,8 +31,7 @@ def generic(terms: int, seed: int) -> Hamiltonian:
     """
     draw = Draw(seed)
     y = (*_positions(), *_momenta())
-    split = [polynomial(draw, y, terms) for _ in range(terms)]
-    return _problem("generic", split, draw)
+    return _problem("generic", [polynomial(draw, y, terms) for _ in range(terms)], draw)
 
 
 def semi_separable(terms: int, seed: int) -> Hamiltonian:
@@ -48,15 +47,12 @@ def semi_separable(terms: int, seed: int) -> Hamiltonian:
 def separable(terms: int, seed: int) -> Hamiltonian:
     """T(p) + Σ_l U^{l}(q): velocities and forces alternate, and nothing else is missing."""
     draw = Draw(seed)
-    kinetic = polynomial(draw, _momenta(), terms)
-    return _separated("generic-separable", kinetic, terms, draw)
+    return _separated("generic-separable", polynomial(draw, _momenta(), terms), terms, draw)
 
 
 def nystrom(terms: int, seed: int) -> Hamiltonian:
     """½|p|² + Σ_l U^{l}(q): velocities are linear, so that they do not branch."""
-    squares = [p**2 for p in _momenta()]
-    kinetic = sum(squares) / 2
-    return _separated("generic-nystrom", kinetic, terms, Draw(seed))
+    return _separated("generic-nystrom", sum(p**2 for p in _momenta()) / 2, terms, Draw(seed))
 
 
 def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
@@ -92,12 +88,9 @@ def _right_hand_side(draw: Draw, y: Vector, terms: int, degree: int) -> Exprs:
 
     total = [sympy.Integer(0) for _ in y]
     for _ in range(_FORMS):
-        form = _form(draw, y)
-        power = form**degree
+        power = _form(draw, y) ** degree
         for i in range(len(y)):
-            numerator = draw.sign() * draw.between(5, 20)
-            factor = sympy.Rational(numerator, 100 * terms)
-            total[i] += factor * power
+            total[i] += sympy.Rational(draw.sign() * draw.between(5, 20), 100 * terms) * power
     return tuple(total)
 
 
@@ -105,10 +98,7 @@ def _form(draw: Draw, variables: Vector) -> Expr:
     """1 + a·y with random a."""
     import sympy
 
-    slopes = []
-    for _variable in variables:
-        numerator = draw.sign() * draw.between(3, 12)
-        slopes.append(sympy.Rational(numerator, 20))
+    slopes = [sympy.Rational(draw.sign() * draw.between(3, 12), 20) for _ in variables]
     return 1 + dot(slopes, variables)
 
 
@@ -116,8 +106,7 @@ def _separated(name: str, kinetic: Expr, terms: int, draw: Draw) -> Hamiltonian:
     """T + Σ U, in one term where there is no other."""
     q = _positions()
     if terms == 1:
-        total = kinetic + polynomial(draw, q, terms)
-        return _problem(name, [total], draw)
+        return _problem(name, [kinetic + polynomial(draw, q, terms)], draw)
     potentials = [polynomial(draw, q, terms) for _ in range(terms - 1)]
     return _problem(name, [kinetic, *potentials], draw)
 
@@ -147,9 +136,7 @@ def polynomial(draw: Draw, variables: Vector, terms: int) -> Expr:
     total = sympy.Integer(0)
     for _ in range(_FORMS):
         form = _form(draw, variables)
-        numerator = draw.sign() * draw.between(5, 20)
-        factor = sympy.Rational(numerator, 1600 * terms)
-        total += factor * form**DEGREE
+        total += sympy.Rational(draw.sign() * draw.between(5, 20), 1600 * terms) * form**DEGREE
     return total
 
 

@@ -9,12 +9,320 @@ semi-separable and separable cases).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+from flint import arb, arb_mat, ctx, fmpq
+
 from garkcli.doing import doing
 from garkcli.errors import NoLegendreTransform
-from garkcli.problems.expr import Expr, Place
-from garkcli.problems.inversion import by_solving
-from garkcli.problems.mass import Lagrangian, coupled, differentiated, inverse_of, velocities
+from garkcli.problems.draw import Draw
+from garkcli.problems.expr import Expr, ExprMatrix, Place, Substitution, Vector, dot
+from garkcli.problems.mass import (
+    BITS,
+    WRITE_HAMILTONIAN,
+    Lagrangian,
+    coupled,
+    differentiated,
+    enclosed,
+    inverse_of,
+    is_smooth,
+    velocities,
+)
+from garkcli.problems.solving import solutions
 from garkcli.problems.vectorfield import symbols
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Velocities as functions of positions and momenta, and what they make of forms of the
+    Lagrangian.
+    """
+
+    velocities: Substitution
+    forms: Substitution
+
+
+@dataclass(frozen=True)
+class Equations:
+    """p = ∂L/∂v for velocities that depend on each other alone.
+
+    Attributes:
+        v: the velocities.
+        p: their momenta.
+        gradient: ∂L/∂v.
+        M: ∂²L/∂v².
+        start: what is known at the start.
+    """
+
+    v: Vector
+    p: Vector
+    gradient: Vector
+    M: ExprMatrix
+    start: Place
+
+    @property
+    def are_linear(self) -> bool:
+        """Whether they are linear in the velocities."""
+        moving = set(self.v)
+        entries = [x for row in self.M for x in row]
+        return not any(x.free_symbols & moving for x in entries)
+
+    def momenta(self, at: Place) -> dict[Expr, arb]:
+        """∂L/∂v where the velocities are known and the momenta are not."""
+        needed: set[Expr] = set()
+        for slope in self.gradient:
+            needed |= slope.free_symbols
+        are_known = all(x in at for x in self.p)
+        if are_known or not needed <= set(at):
+            return {}
+        return dict(zip(self.p, enclosed(self.gradient, at), strict=True))
+
+
+def candidates(L: Expr, equations: Equations) -> list[Solved]:
+    """What may solve the equations; some do not."""
+    if equations.are_linear:
+        return [_by_elimination(equations)]
+    found = _by_form(L, equations)
+    if len(equations.v) == 1:
+        (v,), (p,) = equations.v, equations.p
+        (slope,) = equations.gradient
+        for velocity in solutions(slope, v, p):
+            found.append(Solved({v: velocity}, {}))
+    return found
+
+
+def _by_elimination(equations: Equations) -> Solved:
+    """Where they are linear: v = M⁻¹(p − ∂L/∂v at v = 0)."""
+    at_rest = dict.fromkeys(equations.v, 0)
+    inverse, divisor = inverse_of(equations.M, equations.v, equations.start)
+    pairs = zip(equations.p, equations.gradient, strict=True)
+    products = _times(inverse, [p - slope.xreplace(at_rest) for p, slope in pairs])
+    return Solved({v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {})
+
+
+def _times(matrix: ExprMatrix, vector: Vector) -> list[Expr]:
+    return [dot(row, vector) for row in matrix]
+
+
+@dataclass(frozen=True)
+class _Form:
+    """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
+
+    Attributes:
+        a: the form, as it stands in L.
+        symbol: what stands for it in φ.
+        G: the matrix.
+        slope: φ'(a).
+        b: of the linear part.
+        at_rest: a_0.
+    """
+
+    a: Expr
+    symbol: Expr
+    G: ExprMatrix
+    slope: Expr
+    b: Vector
+    at_rest: Expr
+
+
+def _by_form(L: Expr, equations: Equations) -> list[Solved]:
+    """The velocities where L depends on them by one quadratic form, and linearly besides.
+
+    Then p − b = φ'(a) G v, so that (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a
+    alone.
+    """
+    import sympy
+
+    for part in sorted(L.atoms(sympy.Add), key=sympy.default_sort_key):
+        form = _form(L, part, equations.v)
+        if form is None:
+            continue
+        try:
+            inverse, divisor = inverse_of(form.G, equations.v, equations.start)
+        except NoLegendreTransform:
+            continue
+        shifted = [p - b for p, b in zip(equations.p, form.b, strict=True)]
+        return _of_form(form, equations.v, shifted, [x / divisor for x in _times(inverse, shifted)])
+    return []
+
+
+def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[Solved]:
+    """The velocities G⁻¹(p − b)/φ'(a) for the values of a, from p − b and G⁻¹(p − b)."""
+    import sympy
+
+    # a symbol for the square of the momenta keeps sympy from mixing it up with the rest
+    square = sympy.Dummy("n", positive=True)
+    norm = {square: dot(shifted, raised)}
+    equation = 2 * form.slope**2 * (form.symbol - form.at_rest)
+    found = []
+    for value in solutions(equation, form.symbol, square):
+        slope = form.slope.xreplace({form.symbol: value})
+        slope = slope.xreplace(norm)
+        made = {velocity: x / slope for velocity, x in zip(v, raised, strict=True)}
+        forms = {form.a: value.xreplace(norm)}
+        found.append(Solved(made, forms))
+    return found
+
+
+def _form(L: Expr, a: Expr, v: Vector) -> _Form | None:
+    """L by its part ``a``; None where that is no quadratic form that has all velocities, or where
+    they occur besides it other than linearly.
+    """
+    import sympy
+
+    moving = set(v)
+    at_rest = dict.fromkeys(v, 0)
+    if not moving <= a.free_symbols:
+        return None
+    slopes = [a.diff(x) for x in v]
+    G = [[slope.diff(y) for y in v] for slope in slopes]
+    entries = [x for row in G for x in row]
+    is_quadratic = not any(x.free_symbols & moving for x in entries)
+    is_even = all(slope.xreplace(at_rest) == 0 for slope in slopes)
+    symbol = sympy.Dummy("a", real=True)
+    phi = L.xreplace({a: symbol})
+    b = [phi.diff(x) for x in v]
+    mixed = {symbol, *v}
+    is_apart = not any(x.free_symbols & mixed for x in b)
+    if not (is_quadratic and is_even and is_apart):
+        return None
+    slope = phi.xreplace(at_rest).diff(symbol)
+    return _Form(a, symbol, G, slope, b, a.xreplace(at_rest))
+
+
+_TRIES = 8  # random places where a solution is tested
+_NEAR = 50  # thousandths: how far from the start they are
+_GOOD = 1e-40  # what enclosures have to be good to, to tell that two numbers are one
+
+
+def by_solving(lagrangian: Lagrangian) -> Expr:
+    """The transform of a Lagrangian that is not quadratic; see ``legendre_transform``."""
+    L, gradient, M = lagrangian.L, lagrangian.gradient, lagrangian.M
+    variables = lagrangian.variables
+    v, p = velocities(variables), symbols(variables, "p")
+    replaced: dict[Expr, Expr] = {}
+    for block in coupled(M):
+        equations = Equations(
+            [v[i] for i in block],
+            [p[i] for i in block],
+            [gradient[i] for i in block],
+            [[M[i][j] for j in block] for i in block],
+            lagrangian.start,
+        )
+        solved = _solution(L, equations, p)
+        replaced |= {**solved.velocities, **solved.forms}
+    H = dot(p, [replaced[x] for x in v]) - L.xreplace(replaced)
+    derivatives = (H.diff(x) for x in (*symbols(variables, "q"), *p))
+    if not is_smooth(H) or not all(map(is_smooth, derivatives)):
+        raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
+    return H
+
+
+def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
+    """The one solution that is right.
+
+    Raises:
+        NoLegendreTransform: none was found, or the start does not tell which it is.
+    """
+    right: list[Solved] = []
+    for candidate in candidates(L, equations):
+        right += [x for x in _smooth(candidate, p) if _is_right(x.velocities, equations)]
+    if not right:
+        whose = ", ".join(map(str, equations.v))
+        raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
+    known = {**equations.start, **equations.momenta(equations.start)}
+    found = []
+    for solved in right:
+        expressions = list(solved.velocities.values())
+        found.append(enclosed(expressions, known))
+    first, *others = found
+    for other in others:
+        if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):
+            raise NoLegendreTransform(
+                "several velocities have these momenta at the start",
+                "give the initial velocities instead of momenta",
+            )
+    return right[0]
+
+
+def _smooth(solved: Solved, p: Vector) -> list[Solved]:
+    """A candidate; in place of one with |y| those with y and with −y, where y is made of momenta
+    alone.
+
+    An analytic velocity that is right near the start is right as far as it is analytic. None is
+    returned for what is not real or has kinks at some positions.
+    """
+    import sympy
+
+    made = (*solved.velocities.values(), *solved.forms.values())
+    not_real = sympy.I, sympy.zoo, sympy.nan
+    if any(x.has(*not_real) for x in made):
+        return []
+    kinks: set[Expr] = set()
+    for x in made:
+        kinks |= x.atoms(sympy.Abs)
+    if not kinks:
+        return [solved]
+    momenta = set(p)
+    if any(x.free_symbols - momenta for x in kinks):
+        return []
+    return [_with_sign(solved, sign) for sign in (1, -1)]
+
+
+def _with_sign(solved: Solved, sign: int) -> Solved:
+    """The same with ``sign`` · y for |y|."""
+    import sympy
+
+    def without_kinks(y: Expr) -> Expr:
+        return y.replace(sympy.Abs, lambda u: sign * u)
+
+    def signed(of: Substitution) -> dict[Expr, Expr]:
+        return {x: without_kinks(y) for x, y in of.items()}
+
+    return Solved(signed(solved.velocities), signed(solved.forms))
+
+
+def _is_right(solved: Substitution, equations: Equations) -> bool:
+    """Whether ∂L/∂v(q, v(q, p)) is p, and v(q, p) the velocity at the start, wherever it is
+    tested: at the start, and at most of some places near it.
+    """
+    draw = Draw(1)
+    if _agrees(solved, equations, equations.start) is not True:
+        return False
+    tested = 1
+    for _ in range(_TRIES - 1):
+        near = {}
+        with ctx.workprec(BITS):
+            for x, y in equations.start.items():
+                near[x] = y + arb(fmpq(draw.between(-_NEAR, _NEAR), 1000))
+        found = _agrees(solved, equations, near)
+        if found is False:
+            return False
+        tested += found is True
+    return tested > _TRIES // 2
+
+
+def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | None:
+    """Whether the equations hold at one place; None where something has no value there."""
+    at = {**place, **equations.momenta(place)}
+    if not all(x in at for x in equations.p):
+        return False
+    values = enclosed(list(solved.values()), at)
+    found = dict(zip(solved, values, strict=True))
+    back = enclosed(equations.gradient, {**at, **found})
+    pairs = [(value, at[p]) for p, value in zip(equations.p, back, strict=True)]
+    known = [v for v in solved if v in at]
+    pairs += [(found[v], at[v]) for v in known]
+    for x, y in pairs:
+        if not (x.is_finite() and y.is_finite()):
+            return None
+    return all(_are_one(x, y) for x, y in pairs)
+
+
+def _are_one(x: arb, y: arb) -> bool:
+    """Whether two enclosures, both good, may be those of one number."""
+    is_good = x.rad() + y.rad() < _GOOD
+    return bool(is_good and x.overlaps(y))
 
 
 @doing("Legendre transform")
@@ -73,11 +381,84 @@ def _of_quadratic(lagrangian: Lagrangian) -> Expr:
     H = [-lagrangian.L.xreplace(at_rest)]
     for block in coupled(M):
         own = [[M[i][j] for j in block] for i in block]
-        names = [v[i] for i in block]
-        inverse, divisor = inverse_of(own, names, lagrangian.start)
+        inverse, divisor = inverse_of(own, [v[i] for i in block], lagrangian.start)
         products = []
         for row, i in zip(inverse, block, strict=True):
             for entry, j in zip(row, block, strict=True):
                 products.append(entry * shifted[i] * shifted[j])
         H.append(sympy.Add(*products) / (2 * divisor))
     return sympy.Add(*H)
+
+
+def initial_momenta(
+    lagrangians: Vector, hamiltonians: Vector, variables: tuple[str, ...], start: Place
+) -> list[arb]:
+    """p(0) with which q̇(0) is the given velocity, shape (d,).
+
+    With one term that has velocities, p = ∂L/∂q̇. With several, each has a velocity of its own and
+    q̇ = Σ_l ∂H^{l}/∂p is solved for p.
+
+    Args:
+        lagrangians: L^{l}.
+        hamiltonians: H^{l}, their transforms.
+        variables: d names.
+        start: q(0) and q̇(0).
+
+    Raises:
+        NoLegendreTransform: several terms have velocities, and not all are quadratic in them.
+    """
+    v, p = velocities(variables), symbols(variables, "p")
+    moving = [L for L in lagrangians if L.free_symbols & set(v)]
+    if len(moving) == 1:
+        (L,) = moving
+        return enclosed([L.diff(x) for x in v], start)
+    H: Expr = sum(hamiltonians)
+    gradient = [H.diff(x) for x in p]
+    hessian = [g.diff(y) for g in gradient for y in p]
+    if any(x.free_symbols & set(p) for x in hessian):
+        raise NoLegendreTransform(
+            "several terms have velocities, and the momenta that belong to their sum were not "
+            "found",
+            "give the initial momenta instead of velocities",
+        )
+    # q̇(0) = ∂²H/∂p² p(0) + ∂H/∂p at p = 0
+    d = len(p)
+    places = {x: y for x, y in start.items() if x not in v}
+    at_rest = dict.fromkeys(p, 0)
+    offsets = [g.xreplace(at_rest) for g in gradient]
+    with ctx.workprec(BITS):
+        matrix = arb_mat(d, d, enclosed(hessian, places))
+        rest = [start[x] - y for x, y in zip(v, enclosed(offsets, places), strict=True)]
+        right = arb_mat(d, 1, rest)
+        try:
+            return [arb(x) for x in matrix.solve(right).entries()]
+        except ZeroDivisionError:
+            raise NoLegendreTransform(
+                "the velocities do not determine the momenta at the start",
+                "give the initial momenta instead of velocities",
+            ) from None
+
+
+def missing_derivative(made: Expr, by: Vector, start: Place) -> tuple[str, str] | None:
+    """What is wrong with a derivative of an expression at the start, and the cure; None where all
+    derivatives exist.
+
+    A derivative with |x| counts as none: it has no derivatives of its own.
+    """
+    gradient = [made.diff(x) for x in by]
+    for x, g in zip(by, gradient, strict=True):
+        if not is_smooth(g):
+            return (
+                f"the derivative by {x} has kinks, such as those of |x|",
+                "write it without inverse functions",
+            )
+    if all(x.is_finite() for x in enclosed(gradient, start)):
+        return None
+    # one operation that fails spoils them all: the guilty one is undefined on its own
+    guilty = by[0]
+    for x, g in zip(by, gradient, strict=True):
+        (alone,) = enclosed([g], start)
+        if not alone.is_finite():
+            guilty = x
+            break
+    return f"no derivative by {guilty}", "start elsewhere"

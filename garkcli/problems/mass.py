@@ -112,8 +112,7 @@ def _inverse_of_numbers(M: ExprMatrix) -> list[list[Expr]] | None:
     matrix = fmpq_mat([[number(x) for x in row] for row in M])
     if not matrix.det():
         return None
-    rows = matrix.inv().tolist()
-    return [[rational(x) for x in row] for row in rows]
+    return [[rational(x) for x in row] for row in matrix.inv().tolist()]
 
 
 _Places: TypeAlias = tuple[int, ...]
@@ -139,9 +138,7 @@ class _Minors:
             row = []
             for j in self._every:
                 low, high = min(i, j), max(i, j)
-                minor = self._of(self._without(low), self._without(high))
-                sign = (-1) ** (i + j)
-                row.append(sign * minor)
+                row.append((-1) ** (i + j) * self._of(self._without(low), self._without(high)))
             rows.append(row)
         return rows
 
@@ -155,10 +152,8 @@ class _Minors:
             first, *others = rows
             total = 0
             for k, j in enumerate(columns):
-                remaining = columns[:k] + columns[k + 1 :]
-                minor = self._of(tuple(others), remaining)
-                entry = self._M[first][j]
-                total += (-1) ** k * entry * minor
+                minor = self._of(tuple(others), columns[:k] + columns[k + 1 :])
+                total += (-1) ** k * self._M[first][j] * minor
             self._known[rows, columns] = total
         return self._known[rows, columns]
 
@@ -175,8 +170,7 @@ def enclosed(expressions: Vector, at: Place) -> list[arb]:
         return [arb("nan")] * len(made)
     with ctx.workprec(BITS):
         try:
-            evaluate = function(made, tuple(at), True)
-            return [arb(x) for x in evaluate(*at.values())]
+            return [arb(x) for x in function(made, tuple(at), True)(*at.values())]
         except (ArithmeticError, ValueError):
             return [arb("nan")] * len(made)
 

@@ -22,8 +22,7 @@ Energy: TypeAlias = Callable[[Exprs, Exprs], Any]
 
 def half_square(_: Exprs, p: Exprs) -> Expr:
     """The kinetic energy ½|p|² of unit masses."""
-    squares = [x**2 for x in p]
-    return sum(squares) / 2
+    return sum(x**2 for x in p) / 2
 
 
 def no_invariants(*_: Expr) -> Invariants:
@@ -79,8 +78,7 @@ class Mechanical:
         if terms - 1 == len(parts):
             return (T, *parts)
         shares = terms - 1
-        share = sympy.expand(V / shares)
-        return (T, *[share] * shares)
+        return (T, *[sympy.expand(V / shares)] * shares)
 
 
 def numbers(text: str) -> tuple[fmpq, ...]:
@@ -99,8 +97,7 @@ def spring(q: Expr) -> Exprs:
 
 def two_springs(x: Expr, y: Expr) -> Exprs:
     """½x² and ½(5/2)²(y − x)²."""
-    length = y - x
-    return x**2 / 2, 25 * length**2 / 8
+    return x**2 / 2, 25 * (y - x) ** 2 / 8
 
 
 def pendulum_potential(x: Expr) -> Exprs:
@@ -117,17 +114,14 @@ def _height(angle: Expr) -> Expr:
 
 def henon_heiles_potential(x: Expr, y: Expr) -> Exprs:
     """½|q|² + x²y − y³/3."""
-    springs = (x**2 + y**2) / 2
-    cubic = x**2 * y - y**3 / 3
-    return (springs + cubic,)
+    return ((x**2 + y**2) / 2 + x**2 * y - y**3 / 3,)
 
 
 def kepler_potential(x: Expr, y: Expr) -> Exprs:
     """−1/|q|."""
     import sympy
 
-    distance = sympy.sqrt(x**2 + y**2)
-    return (-1 / distance,)
+    return (-1 / sympy.sqrt(x**2 + y**2),)
 
 
 def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Invariants:
@@ -167,7 +161,5 @@ def rods(q: Exprs, _: Exprs) -> Expr:
     names = ("a", "b")
     a, b = q
     u, w = velocities(names)
-    coupling = u * w * sympy.cos(a - b)
-    kinetic = u**2 + w**2 / 2 + coupling
-    origin = dict.fromkeys(q, arb(0))
-    return legendre_transform(kinetic, names, origin)
+    kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
+    return legendre_transform(kinetic, names, dict.fromkeys(q, arb(0)))

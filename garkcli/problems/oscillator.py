@@ -112,8 +112,7 @@ class Oscillator:
     def matrix(self, colour: Colour) -> Matrix:
         """L with (q, p)˙ = L (q, p) for the vector field of ``colour``, shape (2, 2)."""
         k, v = self.drives(colour)
-        stiffness = self.omega * self.omega * v
-        return ((ZERO, k), (-stiffness, ZERO))
+        return ((ZERO, k), (-(self.omega * self.omega * v), ZERO))
 
 
 def terms_of(tableau: Tableau) -> int:
@@ -152,8 +151,7 @@ def example_shares(terms: int) -> str:
     >>> example_shares(2)
     '1:0,0:1'
     """
-    shares = Oscillator.default(terms, ONE).shares
-    return ",".join(f"{k}:{v}" for k, v in shares)
+    return ",".join(f"{k}:{v}" for k, v in Oscillator.default(terms, ONE).shares)
 
 
 def _share(text: str) -> fmpq:
@@ -220,8 +218,7 @@ def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
 
 def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
     """Refuse a share of a term that no colour drives."""
-    parts = {x.part for x in tableau.colours if x.term == term}
-    if parts.isdisjoint({"y", part}):
+    if {x.part for x in tableau.colours if x.term == term}.isdisjoint({"y", part}):
         raise UsageProblem(
             f"term {term + 1} has {energy} energy, but the method has no colour for it",
             f"move the {energy} share to another term with --split",

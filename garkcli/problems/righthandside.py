@@ -59,8 +59,7 @@ class RightHandSide:
     @property
     def has_time(self) -> bool:
         """Whether a right-hand side depends on t."""
-        components = [x for term in self.terms for x in term]
-        return bool(occurring(components, self.variables, (TIME,)))
+        return bool(occurring([x for term in self.terms for x in term], self.variables, (TIME,)))
 
     @property
     def layout(self) -> Layout:
@@ -78,8 +77,7 @@ class RightHandSide:
     @property
     def total(self) -> Exprs:
         """Σ_l f^{l}, d expressions."""
-        by_component = zip(*self.terms, strict=True)
-        return tuple(map(sum, by_component))
+        return tuple(map(sum, zip(*self.terms, strict=True)))
 
     def unsplit(self) -> RightHandSide:
         """The same problem in one term."""
@@ -108,8 +106,7 @@ def clock(problem: RightHandSide) -> VectorField:
 def solution(problem: RightHandSide, time: arb) -> list[arb]:
     """The exact solution at one time, enclosed at the precision in force."""
     assert problem.exact is not None
-    by = symbols(problem.variables, TIME)
-    evaluate = function(problem.exact, by, True)
+    evaluate = function(problem.exact, symbols(problem.variables, TIME), True)
     return [arb(x) for x in evaluate(arb(time))]
 
 
@@ -119,9 +116,7 @@ def starts_exactly(problem: RightHandSide) -> bool:
     """
     assert problem.exact is not None
     (t,) = symbols(problem.variables, TIME)
-    at_start = [x.subs(t, 0) for x in problem.exact]
-    initial = [rational(x) for x in problem.initial]
-    return at_start == initial
+    return [x.subs(t, 0) for x in problem.exact] == [rational(x) for x in problem.initial]
 
 
 def steepness(problem: RightHandSide) -> arb:
@@ -131,13 +126,11 @@ def steepness(problem: RightHandSide) -> arb:
     from garkcli.problems.mass import enclosed
 
     by = symbols(problem.variables, "y")
-    start = map(arb, problem.initial)
-    at = dict(zip(by, start, strict=True))
+    at = dict(zip(by, map(arb, problem.initial), strict=True))
     (time,) = symbols(problem.variables, TIME)
     at[time] = arb(0)
     norm = arb(0)
     for component in problem.total:
         row = enclosed([component.diff(x) for x in by], at)
-        total = sum(map(abs, row), arb(0))
-        norm = norm.max(total)
+        norm = norm.max(sum(map(abs, row), arb(0)))
     return norm.mid() if norm.is_finite() else arb(1)

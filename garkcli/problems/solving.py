@@ -59,8 +59,7 @@ def _undone(f: Expr, inner: Expr, c: Expr) -> list[Expr]:
         return [sympy.log(c) / sympy.log(f.base)]
     name = type(f).__name__
     if name in _INVERSES:
-        inverse = getattr(sympy, _INVERSES[name])
-        return [inverse(c)]
+        return [getattr(sympy, _INVERSES[name])(c)]
     if name == "cos":
         angle = sympy.acos(c)
         return [angle, -angle]
@@ -71,8 +70,7 @@ def _undone(f: Expr, inner: Expr, c: Expr) -> list[Expr]:
         root = sympy.sqrt(c**2 - 1)
         return [sympy.log(c + root), sympy.log(c - root)]
     if name == "tanh":
-        ratio = (1 + c) / (1 - c)
-        return [sympy.log(ratio) / 2]
+        return [sympy.log((1 + c) / (1 - c)) / 2]
     return []
 
 
@@ -94,8 +92,7 @@ def _root(exponent: Expr, c: Expr) -> list[Expr]:
     if exponent.p % 2 == 0:
         return [root, -root]
     if exponent.q % 2:  # an odd root: of a negative number too
-        of_positive = (-c) ** inverse
-        return [root, -of_positive]
+        return [root, -((-c) ** inverse)]
     return [root]
 
 
@@ -113,8 +110,7 @@ def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
         polynomial = sympy.Poly(sympy.expand(numerator), u)
     except sympy.PolynomialError:
         return []
-    zero = sympy.Integer(0)
-    coefficients = dict.fromkeys(range(5), zero)
+    coefficients = dict.fromkeys(range(5), sympy.Integer(0))
     degrees = set()
     for (n,), x in polynomial.terms():
         if u in x.free_symbols:
@@ -149,16 +145,14 @@ def _without_root(f: Expr, u: Expr) -> Expr:
     if any(x.base != square for x in roots):
         return None
     r = sympy.Dummy("r")
-    replaced = f.xreplace({x: r**x.exp.p for x in roots})
-    numerator, _ = sympy.together(replaced).as_numer_denom()
+    numerator, _ = sympy.together(f.xreplace({x: r**x.exp.p for x in roots})).as_numer_denom()
     try:
         terms = sympy.Poly(sympy.expand(numerator), r).terms()
     except sympy.PolynomialError:
         return None
     parts: tuple[list[Expr], list[Expr]] = ([], [])  # of P and of Q
     for (n,), coefficient in terms:
-        term = coefficient * square ** (n // 2)
-        parts[n % 2].append(term)
+        parts[n % 2].append(coefficient * square ** (n // 2))
     P, Q = (sympy.Add(*x) for x in parts)
     return P**2 - square * Q**2
 
@@ -169,8 +163,5 @@ def _quadratic(a: Expr, b: Expr, c: Expr) -> list[Expr]:
 
     if a == 0:
         return [-c / b] if b != 0 else []
-    discriminant = b**2 - 4 * a * c
-    root = sympy.sqrt(discriminant)
-    first = (-b + root) / (2 * a)
-    second = (-b - root) / (2 * a)
-    return [first, second]
+    root = sympy.sqrt(b**2 - 4 * a * c)
+    return [(-b + root) / (2 * a), (-b - root) / (2 * a)]

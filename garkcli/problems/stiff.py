@@ -30,9 +30,7 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
     (y,) = symbols(variables, "y")
     (t,) = symbols(variables, TIME)
     solution = sympy.cos(t)
-    slope = solution.diff(t)
-    pull = -rational(stiffness) * (y - solution)
-    parts = [(slope,), (pull,)]
+    parts = [(solution.diff(t),), (-rational(stiffness) * (y - solution),)]
     return RightHandSide(
         "prothero-robinson",
         variables,
@@ -56,8 +54,7 @@ def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
     start = fmpq(-2, 3)
     for power, coefficient in enumerate(_SMOOTH_START, start=1):
         start += coefficient * small**power
-    damping = (1 - y**2) * z
-    force = rational(stiffness) * (damping - y)
+    force = rational(stiffness) * ((1 - y**2) * z - y)
     zero = 0 * z
     parts = [(z, zero), (zero, force)]
     return RightHandSide(
@@ -89,17 +86,13 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     variables = tuple(f"u{i + 1}" for i in cells)
     u = symbols(variables, "y")
     rates = [fmpq(CELLS + i, 2 * CELLS) for i in cells]
-    reaction = []
-    for r, x in zip(rates, u, strict=True):
-        growth = rational(r) * x
-        reaction.append(growth * (1 - x))
+    reaction = [rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True)]
     k = rational(stiffness)
     diffusion = []
     for i, x in enumerate(u):
         # the first and the last cell have one neighbour
         neighbours = [u[j] for j in (i - 1, i + 1) if j in cells]
-        flows = sympy.Add(*neighbours) - len(neighbours) * x
-        diffusion.append(k * flows)
+        diffusion.append(k * (sympy.Add(*neighbours) - len(neighbours) * x))
     parts = [tuple(reaction), tuple(diffusion)]
     return RightHandSide(
         "reaction-diffusion",
@@ -128,8 +121,7 @@ def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
 
 
 def _mean(numbers: Sequence[fmpq]) -> fmpq:
-    total = sum(numbers, fmpq(0))
-    return total / len(numbers)
+    return sum(numbers, fmpq(0)) / len(numbers)
 
 
 def shared(parts: Sequence[Exprs], terms: int) -> tuple[Exprs, ...]:
@@ -143,5 +135,4 @@ def shared(parts: Sequence[Exprs], terms: int) -> tuple[Exprs, ...]:
         return (*parts[:last], rest)
     *kept, rest = parts
     left = terms - len(kept)
-    share = tuple(component / left for component in rest)
-    return (*kept, *[share] * left)
+    return (*kept, *[tuple(component / left for component in rest)] * left)

@@ -66,9 +66,7 @@ class Code:
         """Assignments to names that start with ``prefix``, and the names or short texts of the
         results.
         """
-        names: dict[str, str] = {}
-        for i, name in enumerate(arguments):
-            names[f"a{i}"] = name
+        names: dict[str, str] = {f"a{i}": name for i, name in enumerate(arguments)}
         for i in range(len(self.temporaries)):
             names[f"t{i}"] = f"{prefix}t{i}"
         for i, x in enumerate(self.constants):
@@ -128,10 +126,8 @@ def code_of(expressions: Exprs, arguments: Exprs, is_for_balls: bool) -> Code:
     """
     import sympy
 
-    temporaries = (sympy.Dummy(f"t{i}") for i in count())
-    found, reduced = sympy.cse(list(expressions), symbols=temporaries)
-    names = {x: f"{{a{i}}}" for i, x in enumerate(arguments)}
-    writer = _Writer(names, is_for_balls)
+    found, reduced = sympy.cse(list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in count()))
+    writer = _Writer({x: f"{{a{i}}}" for i, x in enumerate(arguments)}, is_for_balls)
     for symbol, expression in found:
         writer.symbols[symbol] = writer.named(writer.text(expression))
     results = ["0" if x == 0 else writer.text(x) for x in reduced]
@@ -286,8 +282,7 @@ def function(expressions: Exprs, arguments: Exprs, is_for_balls: bool) -> Callab
     zero = "ball_zero" if is_for_balls else "0.0"
     returned = ", ".join(zero if x == "0" else x for x in results)
     taken = ", ".join(names)
-    body = [f"def evaluate({taken}):", *lines, f"return [{returned}]"]
-    source = "\n ".join(body) + "\n"
+    source = "\n ".join([f"def evaluate({taken}):", *lines, f"return [{returned}]"]) + "\n"
     constants = enclosed([code]) if is_for_balls else {}
     program: Callable[..., list[Any]] = define(source, "evaluate", constants)
     return program

@@ -73,12 +73,10 @@ class Translator:
         self.check_constants(expression)
         made = self._node(expression)
         start, end = expression.start, expression.end
-        infinities = sympy.oo, -sympy.oo
-        if made.has(sympy.I, sympy.zoo, sympy.nan, *infinities):
+        if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
             message = "this is no real number"
             raise UndefinedValue(message, "", start, end, code="not-real")
-        numbers = made.atoms(sympy.Rational)
-        if any(abs(x) > 1 << FLOAT_BITS for x in numbers):
+        if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
             number = f"a number above 2^{FLOAT_BITS}"
             message = f"the constants together make {number}"
             raise LimitExceeded(message, "choose other units", start, end)
@@ -98,13 +96,10 @@ class Translator:
                 made = [self._node(x) for x in operands]
                 if signs[0] not in "+-":
                     return self._product(signs, made, expression)
-                terms = []
-                for sign, x in zip(signs, made, strict=True):
-                    terms.append(-x if sign == "-" else x)
+                terms = [-x if sign == "-" else x for sign, x in zip(signs, made, strict=True)]
                 return sympy.Add(*terms)
             case Power(base=base, exponent=exponent):
-                whole = sympy.Integer(exponent)
-                return self._power(self._node(base), whole, expression)
+                return self._power(self._node(base), sympy.Integer(exponent), expression)
             case RealPower(base=base, exponent=exponent):
                 fraction = rational(exponent_of(exponent, self.values))
                 return self._power(self._node(base), fraction, expression)
@@ -160,8 +155,7 @@ def _without_kinks(made: Expr, at: Expression) -> Expr:
     import sympy
 
     if made.has(sympy.Abs):
-        kinks = made.atoms(sympy.Abs)
-        kink = min(kinks, key=sympy.default_sort_key)
+        kink = min(made.atoms(sympy.Abs), key=sympy.default_sort_key)
         inner = _shortened(str(kink.args[0]))
         message = f"this has |{inner}|, which has no derivative at 0"
         cure = "write it without the root where the sign is known, "
@@ -180,8 +174,7 @@ def _bits(x: Expr) -> int:
     factor, _ = x.as_coeff_Mul()
     if not factor.is_Rational:
         return 1
-    numerator = int(factor.p).bit_length()
-    return numerator + int(factor.q).bit_length()
+    return int(factor.p).bit_length() + int(factor.q).bit_length()
 
 
 def size_of_derivatives(expression: Expr) -> int:

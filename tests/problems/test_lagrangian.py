@@ -14,10 +14,9 @@ from hypothesis import strategies as st
 from sympy import Rational, cos, cosh, exp, log, sin, sqrt
 
 from garkcli.errors import NoLegendreTransform
-from garkcli.problems.lagrangian import legendre_transform
+from garkcli.problems.lagrangian import initial_momenta, legendre_transform, missing_derivative
 from garkcli.problems.mass import enclosed, velocities
 from garkcli.problems.solving import solutions
-from garkcli.problems.start import initial_momenta, missing_derivative
 from garkcli.problems.vectorfield import symbols
 
 LETTERS = ("x", "y", "z")
