@@ -33,6 +33,7 @@ most.
 """
 _ENOUGH = 30  # digits whose round-off alone proves enough where every condition holds
 _MANY = 120  # digits that do not agree by chance
+_OF_AN_ORDER = 8  # digits an order, below which a long step of such a method has its error
 _SPARE = 6  # correct digits of an error
 _AHEAD = 2  # halvings of the step for which a reference solution will do
 _GUARD = 32  # bits
@@ -159,7 +160,8 @@ class SteppedSolver:
     def _shows_no_error(self, error: arb, digits: int) -> bool:
         """Whether an error within round-off is taken for none.
 
-        All of many digits are the same only where nothing moves. Where no tree that the problem
+        All of many digits are the same only where nothing moves, or where the method is exact: the
+        error of a long step of order p is far above 10^(−8 p). Where no tree that the problem
         sees fails up to the highest order that is looked for, as those of a constant force, the
         error is round-off whatever the digits.
         """
@@ -167,7 +169,7 @@ class SteppedSolver:
             return True
         if self.visible.order >= MAX_ORDER and digits >= _ENOUGH:
             return True
-        return digits >= _MANY and error.is_zero()
+        return digits >= _MANY and (error.is_zero() or digits >= _OF_AN_ORDER * self.visible.order)
 
     def _distance(self, y: Sequence[Any], digits: int) -> arb:
         """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the middle of its ball."""
