@@ -9,9 +9,9 @@ from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.simplifying import simplifying
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
-from garkcli.properties.smallest import smallest
+from garkcli.properties.reduction import smallest
+from garkcli.properties.registry import KEYS
 from garkcli.properties.subject import Subject
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import tolerance_of

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.methodfile.naming import every_shelf, visible
 from garkcli.methodfile.shelves import Package, Shelf, Shelved
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 
 if TYPE_CHECKING:
     from garkcli.catalogue.facts import Entry

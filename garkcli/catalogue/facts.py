@@ -11,9 +11,8 @@ from garkcli.exact.display import decimal, to_text
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.words import one_line
 from garkcli.order.constants import error_constants
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
-from garkcli.properties.registry import find
+from garkcli.properties.registry import KEYS, find
 from garkcli.tableau.pointwise import in_points
 from garkcli.trees.count import count_trees
 

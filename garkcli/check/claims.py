@@ -11,7 +11,7 @@ from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.deciding import AnyOrder
 from garkcli.order.simplifying import Simplifying
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 
 if TYPE_CHECKING:
     from garkcli.order.dense import DenseOrder

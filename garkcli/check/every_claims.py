@@ -14,7 +14,7 @@ from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import OF_ORDERS, AtLeast
 from garkcli.order.simplifying import Simplifying
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 
 _OF_TABLES: dict[str, Callable[[Simplifying], Any]] = {
     "B": lambda x: list(x.B),

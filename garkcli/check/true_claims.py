@@ -10,9 +10,8 @@ from garkcli.check.analysis import Analysis
 from garkcli.check.claims import found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.methodfile.expectations import CLAIMS, AtLeast
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size, Verdict
-from garkcli.properties.registry import find
+from garkcli.properties.registry import KEYS, find
 
 ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
 """What is always worth claiming."""

@@ -48,7 +48,7 @@ def smallest_of(file: str, method: MethodFile) -> tuple[Tableau, Further]:
     """The smallest method with its further weights; the same tableau where there is nothing to
     leave out.
     """
-    from garkcli.properties.smallest import smallest
+    from garkcli.properties.reduction import smallest
 
     found = smallest(method.tableau, method.further)
     if found is None:

@@ -16,8 +16,8 @@ from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
+from garkcli.properties.registry import KEYS
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau

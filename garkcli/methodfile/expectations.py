@@ -14,7 +14,7 @@ from garkcli.methodfile.grammar import FLAG, Key, Kind, mapping
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.words import shortened
 from garkcli.properties.definitions import ORDERS, definition, every_definition
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 
 if TYPE_CHECKING:
     from garkcli.methodfile.measures import Measure

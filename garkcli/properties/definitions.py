@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import KINDS, Kind, Property
-from garkcli.properties.registry import find
+from garkcli.properties.registry import KEYS, find
 
 
 @dataclass(frozen=True)

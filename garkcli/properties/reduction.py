@@ -13,11 +13,13 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_poly
 
+from garkcli.doing import doing
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
 from garkcli.exact.roots import roots_below
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.stability.algebraic import negative_pivot
+from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
@@ -242,7 +244,7 @@ def merged(tableau: Tableau) -> Tableau:
         tableau: over point spaces.
     """
     classes = _equal_stages(tableau)
-    firsts = [_firsts(found) for found in classes]
+    firsts = [[members[0] for members in of_space] for of_space in classes]
     spaces = []
     for space, stages in zip(tableau.spaces, firsts, strict=True):
         nodes = _chosen(space.nodes, stages)
@@ -258,11 +260,6 @@ def merged(tableau: Tableau) -> Tableau:
         rows = [_summed(block[i], columns) for i in firsts[k]]
         blocks[k, m] = tuple(rows)
     return Tableau(tuple(spaces), tuple(colours), blocks)
-
-
-def _firsts(classes: Sequence[Sequence[int]]) -> list[int]:
-    """A stage of each class."""
-    return [members[0] for members in classes]
 
 
 def _summed(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
@@ -317,3 +314,31 @@ def _sight(tableau: Tableau, k: int, i: int, classes: list[list[list[int]]]) -> 
             sums = _summed(block[i], classes[colour.space])
             sight.append(sums)
     return sight
+
+
+@doing("smallest method")
+def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
+    """The smallest method with further weights: a stage that any row of weights needs stays.
+
+    Returns:
+        The same tableau object where there is nothing to leave out; None where stages are at
+        irrational nodes and more than row sums would have to be compared.
+
+    >>> from garkcli.methodfile.load import loads
+    >>> method = loads("{A: [[0, 0], [1, 0]], b: [1, 0], embedded: [1/2, 1/2]}")
+    >>> smallest(method.tableau, method.further)[0] is method.tableau
+    True
+    >>> smallest(method.tableau)[0].spaces[0].stages
+    1
+    """
+    if is_plainly_irreducible(tableau):
+        return tableau, further
+    whole = as_colours(tableau, further) if further else tableau
+    smaller = reduced(whole)
+    if smaller is None:
+        return None
+    if smaller is whole:
+        return tableau, further
+    if not further:
+        return smaller, further
+    return from_colours(smaller, further)

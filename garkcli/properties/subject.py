@@ -12,9 +12,8 @@ from flint import fmpq
 from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO
 from garkcli.order.simplifying import Simplifying
-from garkcli.properties.pattern import StageGraph, stage_graph
+from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.registry import find
-from garkcli.properties.shape import Shape, shape_of
 from garkcli.properties.symmetry import Symmetry, symmetry
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -78,7 +77,7 @@ class Subject:
         spaces = self.tableau.spaces
         if self.tolerance or any(isinstance(x, PointSpace) for x in spaces):
             return None
-        from garkcli.properties.algebra_shape import shape_of_families
+        from garkcli.properties.family_entries import shape_of_families
 
         return shape_of_families(self.tableau, colours)
 

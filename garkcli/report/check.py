@@ -11,8 +11,7 @@ from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import counted, folded
-from garkcli.properties.keys import KEYS
-from garkcli.properties.registry import find
+from garkcli.properties.registry import KEYS, find
 from garkcli.report.failure import FAULT
 from garkcli.tell.facts import (
     NO_REASON,

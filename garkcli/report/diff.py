@@ -13,8 +13,8 @@ from garkcli.comparison.differences import BlockGap, EntryGap
 from garkcli.exact.display import decimal, to_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import counted
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
+from garkcli.properties.registry import KEYS
 from garkcli.report.check import verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell.facts import (

@@ -18,7 +18,7 @@ from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.polynomial_text import power_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 from garkcli.report import check as c
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, rows_of
 from garkcli.tell.kinds import (

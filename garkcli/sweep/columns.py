@@ -17,9 +17,8 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial_text import ball_decimal, root_decimal
 from garkcli.order.constants import ErrorConstants
 from garkcli.order.simplifying import Simplifying
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
-from garkcli.properties.registry import find
+from garkcli.properties.registry import KEYS, find
 from garkcli.sweep.judged import Judged
 from garkcli.tableau.conjugate import is_symplectic
 

@@ -97,7 +97,7 @@ def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
         "    return Verdict(len(subject.tableau.colours[0].b) <= 4)\n",
         encoding="utf-8",
     )
-    copy.insert("garkcli/properties/keys.py", "explicit diagonally-implicit", "few-stages ")
+    copy.insert("garkcli/properties/registry.py", "explicit diagonally-implicit", "few-stages ")
     copy.write("claim.yaml", RK4 + "expect: {few-stages: true}\n")
     assert "claim holds" in copy.gark("check", "claim.yaml")
     assert "few-stages" in copy.gark("check", "m.yaml", "-v").replace(" ", "-")

@@ -19,9 +19,8 @@ from garkcli.methodfile.load import load, loads
 from garkcli.order.simplifying import simplifying
 from garkcli.properties import claimed
 from garkcli.properties.definitions import definition, every_definition
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
-from garkcli.properties.registry import every_property
+from garkcli.properties.registry import KEYS, every_property
 from garkcli.properties.subject import Subject
 from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import Entry, entries

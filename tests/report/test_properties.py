@@ -13,7 +13,7 @@ from jsonschema import Draft7Validator
 import garkcli
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.expectations import CLAIMS
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 from garkcli.report.checked import REPORT
 from garkcli.report.meaning import REPORT as MEANINGS
 from tests.cli.harness import ROOT, gark

@@ -24,7 +24,7 @@ from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError, printable
 from garkcli.order.conditions import count_conditions
 from garkcli.page.safety import written_out
-from garkcli.properties.keys import KEYS
+from garkcli.properties.registry import KEYS
 from garkcli.report.checked import REPORT
 from garkcli.webpage import page as page_module
 from garkcli.webpage import reported as reported_module

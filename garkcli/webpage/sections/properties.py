@@ -9,9 +9,8 @@ from garkcli.check.every_facts import told
 from garkcli.check.every_value import EveryValue
 from garkcli.check.every_words import fact_text
 from garkcli.check.outcome import Outcome
-from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
-from garkcli.properties.registry import every_property
+from garkcli.properties.registry import KEYS, every_property
 from garkcli.report.check import CHECKED, verdict_words
 from garkcli.report.checked import REPORT
 from garkcli.tell.outputs import label, words
