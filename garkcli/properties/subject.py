@@ -77,7 +77,7 @@ class Subject:
         spaces = self.tableau.spaces
         if self.tolerance or any(isinstance(x, PointSpace) for x in spaces):
             return None
-        from garkcli.properties.family_entries import shape_of_families
+        from garkcli.properties.algebra_shape import shape_of_families
 
         return shape_of_families(self.tableau, colours)
 

@@ -18,7 +18,7 @@ from garkcli.exact.roots import roots_below
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
-from garkcli.properties.family_entries import shape_of_families
+from garkcli.properties.algebra_shape import shape_of_families
 from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
 from garkcli.properties.pattern import shape
 from garkcli.properties.reduction import are_positive, is_plainly_irreducible, is_reducible, reduced
