@@ -61,7 +61,7 @@ NAMES = {
         "api.calls": "with_claims",
         "methodfile.file_keys": "method_file_schema",
         "methodfile.problem_keys": "problem_file_schema",
-        "sweep.load": "sweep_schema",
+        "sweep.plan": "sweep_schema",
         "report.schemas": "report_schema",
         "check.meanings": "explain",
     },
@@ -90,7 +90,7 @@ ANSWERS = {
     "exact.polynomial_text": "RealRoot.text=root_in_short",
     "methodfile.file_keys": "Files.method=told",
     "methodfile.problem_keys": "Files.problem=told",
-    "sweep.load": "Files.sweep=told",
+    "sweep.plan": "Files.sweep=told",
     "trees.notation": "Tree.text=format_tree",
     "trees.svg": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "

@@ -14,8 +14,7 @@ from garkcli.problems import builtin
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.problems.problem import Problem
-from garkcli.stepping.fields import with_joined_terms
-from garkcli.stepping.matching import split_into
+from garkcli.stepping.fields import split_into, with_joined_terms
 from garkcli.tableau.tableau import Tableau
 
 AnyProblem: TypeAlias = "Problem | Oscillator | str | os.PathLike[str]"

@@ -20,7 +20,6 @@ from garkcli.longtime.history import SERIES, LongRun, State, whole_run
 from garkcli.longtime.symplecticity import Defect
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.stepping import integrator as stepping
-from garkcli.stepping import step as steps_of
 from garkcli.stepping.integrator import Binding, Integrator, Real
 
 
@@ -202,7 +201,7 @@ def integrate(
     made = _made(integrator)
     start = _start(made, initial)
     many = whole(count, "count")
-    return steps_of.integrate(made, rational(h, "h"), many, start)
+    return stepping.integrate(made, rational(h, "h"), many, start)
 
 
 def trajectory(
@@ -234,7 +233,7 @@ def trajectory(
     [[1.0, 0.5], [1.056, -0.392], [0.292, -1.041]]
     """
     made = _made(integrator)
-    return steps_of.trajectory(
+    return stepping.trajectory(
         made,
         rational(h, "h"),
         whole(count, "count"),

@@ -26,9 +26,8 @@ from math import lcm
 
 from flint import fmpq, fmpq_mat, fmpz_mat
 
-from garkcli.backward.forest import Forest
 from garkcli.backward.modified import ModifiedEquation
-from garkcli.backward.series import transported
+from garkcli.backward.series import Forest, transported
 from garkcli.exact.field import ZERO, Number, NumberField, coordinates
 from garkcli.exact.span import leading_columns
 

@@ -2,28 +2,180 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import comb, prod
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from garkcli.backward.differentials import Differentials, Formula, FormulaVector
-from garkcli.backward.hamiltonian import modified_hamiltonian
+from garkcli.backward.hamiltonian import hamiltonian_structure, modified_hamiltonian
 from garkcli.backward.modified import ModifiedEquation, modified_equation
-from garkcli.backward.visible import visible
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
+from garkcli.order.conditions import elementary_weight
 from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.vectorfield import symbols
+from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
+from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.exact.nodes import Expression
+    from garkcli.stepping.integrator import Binding
     from garkcli.trees.free import Structure
+
+
+Formula: TypeAlias = Any
+"""A sympy expression in the positions and momenta."""
+FormulaVector: TypeAlias = tuple[Formula, ...]
+"""2d formulas, one for each unknown, positions first."""
+
+
+class Differentials:
+    """F(u) and H(u) of a problem that is split as the colours of a tableau say.
+
+    Args:
+        tableau: the colours; their terms are numbers of ``energies``.
+        problem: whose unknowns they are.
+        energies: H^{l}, sympy expressions.
+    """
+
+    def __init__(self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]) -> None:
+        self.tableau = tableau
+        self.problem = problem
+        self.energies = energies
+        q = symbols(problem.variables, "q")
+        p = symbols(problem.variables, "p")
+        self.unknowns = (*q, *p)
+        self._derivatives: dict[tuple[int, tuple[int, ...]], Formula] = {}
+        self._fields: dict[Tree, FormulaVector] = {}
+
+    def field(self, tree: Tree) -> FormulaVector:
+        """F(u), with f^{l} = J⁻¹∇H^{l} or the half of it that the colour drives."""
+        if tree not in self._fields:
+            self._fields[tree] = self._field(tree)
+        return self._fields[tree]
+
+    def _field(self, tree: Tree) -> FormulaVector:
+        colour = self.tableau.colours[tree.root]
+        d = self.problem.dimension
+        along = [self.field(u) for u in tree.branches]
+        components: list[Formula] = [0] * (2 * d)
+        for i in range(d):
+            if colour.part != "p":
+                components[i] = self._along(colour.term, (d + i,), along)
+            if colour.part != "q":
+                components[d + i] = -self._along(colour.term, (i,), along)
+        return tuple(components)
+
+    def hamiltonian(self, tree: Tree) -> Formula:
+        """H(u) = H^{l (k)}(F(u_1), …, F(u_k))."""
+        term = self.tableau.colours[tree.root].term
+        along = [self.field(u) for u in tree.branches]
+        return self._along(term, (), along)
+
+    def _along(self, term: int, taken: tuple[int, ...], along: Sequence[FormulaVector]) -> Formula:
+        """A derivative of H^{l} that was taken by some unknowns, further along vectors which are
+        not differentiated.
+        """
+        value = self._derivative(term, tuple(sorted(taken)))
+        if value == 0 or not along:
+            return value
+        first, *rest = along
+        total: Formula = 0
+        for i, component in enumerate(first):
+            if component != 0:
+                total += component * self._along(term, (*taken, i), rest)
+        return total
+
+    def _derivative(self, term: int, by: tuple[int, ...]) -> Formula:
+        """∂^k H^{l} by the unknowns of these numbers, ascending."""
+        key = term, by
+        if key not in self._derivatives:
+            if by:
+                *before, last = by
+                lower = self._derivative(term, tuple(before))
+                value = lower.diff(self.unknowns[last])
+            else:
+                import sympy
+
+                value = sympy.Integer(0) + self.energies[term]
+            self._derivatives[key] = value
+        return self._derivatives[key]
+
+
+@dataclass(frozen=True)
+class VisibleTrees:
+    """A tableau whose trees are those that a problem sees, at least.
+
+    Attributes:
+        tableau: the tableau. Colours of one term have become those of two where H^{l} = T(p) +
+            U(q): derivatives of H^{l} by momenta alone are those of T.
+        energies: H^{l} of its terms, sympy expressions; where one has become two, each of them has
+            the whole.
+        structure: of the Hamiltonians of its colours; None where roots cannot move.
+    """
+
+    tableau: Tableau
+    energies: tuple[Any, ...]
+    structure: Structure | None
+
+
+def visible(bound: Binding) -> VisibleTrees:
+    """What a problem sees of a method: the fewest trees for which roots can move still."""
+    energies = bound.problem.terms
+    if bound.fields and _is_consistent(bound.tableau):
+        few = visible_tableau(bound.tableau, bound.fields)
+        origins = _terms_apart(few)
+        distinct = list(dict.fromkeys(origins))
+        colours = []
+        for colour, origin in zip(few.colours, origins, strict=True):
+            colours.append(replace(colour, term=distinct.index(origin)))
+        few = replace(few, colours=tuple(colours))
+        structure = hamiltonian_structure(few)
+        if structure is not None:
+            apart = tuple(energies[term] for term, _ in distinct)
+            return VisibleTrees(few, apart, structure)
+    more = _with_linear_fields(bound)
+    return VisibleTrees(more, energies, hamiltonian_structure(more))
+
+
+def _is_consistent(tableau: Tableau) -> bool:
+    """Whether all weights sum to 1."""
+    roots = range(tableau.size)
+    return all(elementary_weight(tableau, Tree(l)) == 1 for l in roots)
+
+
+def _terms_apart(tableau: Tableau) -> list[tuple[int, str]]:
+    """For each colour its term, with its part where V^l and F^l do not see what they drive: then
+    ∂²H^{l}/∂q∂p = 0.
+    """
+    terms: list[tuple[int, str]] = []
+    for l, colour in enumerate(tableau.colours):
+        same_part = [m for m, x in enumerate(tableau.colours) if x.part == colour.part]
+        sees_own = any(tableau.block(l, m) is not None for m in same_part)
+        terms.append((colour.term, "" if sees_own else colour.part))
+    return terms
+
+
+def _with_linear_fields(bound: Binding) -> Tableau:
+    """The tableau without the trees that vanish because some H^{l} is quadratic."""
+    tableau = bound.tableau
+    quadratic = {x.term for x in tableau.colours}
+    for (l, _), field in bound.fields.items():
+        if not field.is_linear:
+            quadratic.discard(tableau.colours[l].term)
+    colours = []
+    for colour in tableau.colours:
+        is_linear = colour.is_linear or colour.term in quadratic
+        colours.append(replace(colour, is_linear=is_linear))
+    return replace(tableau, colours=tuple(colours))
+
 
 MAX_OPERATIONS = 20_000
 """The longest formula that is multiplied out, in operations as it is put together."""

@@ -14,8 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from garkcli.backward.forest import Forest
-from garkcli.backward.series import elementary_weights, logarithm
+from garkcli.backward.series import Forest, elementary_weights, logarithm
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from garkcli.backward.effective import effective_order
-from garkcli.backward.free_trees import hamiltonian_structure
 from garkcli.backward.hamiltonian import (
     HamiltonianTerm,
     energy_order,
+    hamiltonian_structure,
     modified_hamiltonian,
     symplectic_order,
 )

@@ -106,7 +106,7 @@ class Problems:
         """
         self._tableaux = tableaux
         if self._name is None and tableaux:
-            from garkcli.convergence.default_problem import seeing_problem
+            from garkcli.convergence.convergence import seeing_problem
 
             self._name = seeing_problem(tableaux, self._seed)
 
@@ -120,11 +120,10 @@ class Problems:
         Raises:
             UsageProblem: it cannot be split for it.
         """
-        from garkcli.convergence.default_problem import in_common
+        from garkcli.convergence.convergence import in_common
         from garkcli.problems.builtin import built_in
         from garkcli.problems.oscillator import terms_of
-        from garkcli.stepping.fields import with_joined_terms
-        from garkcli.stepping.matching import split_into
+        from garkcli.stepping.fields import split_into, with_joined_terms
 
         if self._name == "oscillator":
             return oscillator(tableau, self._wanted.omega, self._wanted.split)

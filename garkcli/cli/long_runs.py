@@ -75,8 +75,7 @@ def check_wanted(wanted: Wanted) -> None:
 def problem_of(tableau: Tableau, wanted: Wanted, output: Output) -> Oscillator | Problem:
     """The problem in as many terms as the tableau is for."""
     from garkcli.problems.oscillator import terms_of
-    from garkcli.stepping.fields import with_joined_terms
-    from garkcli.stepping.matching import split_into
+    from garkcli.stepping.fields import split_into, with_joined_terms
 
     if wanted.problem == "oscillator":
         return oscillator(tableau, wanted.omega, wanted.split)

@@ -39,7 +39,7 @@ def command(
     With --problem the modified Hamiltonian itself, of a method that is not symplectic the modified
     equation.
     """
-    from garkcli.backward.forest import possible_order
+    from garkcli.backward.series import possible_order
     from garkcli.backward.summary import backward_analysis
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called

@@ -106,7 +106,7 @@ def find_problem(
     terms = terms_of(with_joined_terms(tableau))
     if is_path(name_or_path):
         from garkcli.methodfile.problem import load_problem
-        from garkcli.stepping.matching import split_into
+        from garkcli.stepping.fields import split_into
 
         return split_into(load_problem(name_or_path, stiffness), terms)
     return problem(name_or_path, terms, 1 if seed is None else seed, stiffness)
@@ -130,7 +130,7 @@ def find_hamiltonian(name_or_path: str, tableau: Tableau, seed: int | None = Non
 
 def note_changing(problem: Problem, output: Output) -> None:
     """Say which invariants of a problem file are none: their errors are not the method's."""
-    from garkcli.convergence.conserved import changing
+    from garkcli.convergence.reference import changing
 
     for name, change, time in changing(problem):
         output.note(

@@ -44,6 +44,6 @@ def _schema(of_problems: bool, report: str | None) -> dict[str, Any]:
 
 
 def _sweep_schema() -> dict[str, Any]:
-    from garkcli.sweep.load import sweep_schema
+    from garkcli.sweep.plan import sweep_schema
 
     return sweep_schema()

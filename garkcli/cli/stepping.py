@@ -49,7 +49,7 @@ def faults_of(error: GarkError) -> tuple[Fault, ...]:
 
 def failure_code(error: GarkError) -> int:
     """The exit code of a run that has failed."""
-    from garkcli.stepping.step import StepFailed
+    from garkcli.stepping.integrator import StepFailed
 
     return 1 if isinstance(error, StepFailed) else 2
 

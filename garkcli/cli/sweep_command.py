@@ -33,7 +33,7 @@ def command(
     rows are written one by one: a sweep that is ended at any moment goes on with --resume.
     """
     from garkcli.report.sweep import REPORT, SweepReport, json_lines, refuse_parquet, write_parquet
-    from garkcli.sweep.load import load_plan
+    from garkcli.sweep.plan import load_plan
     from garkcli.sweep.run import sweep
     from garkcli.sweep.store import RowStore
 

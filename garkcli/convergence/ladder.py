@@ -17,8 +17,8 @@ from flint import arb, fmpq
 
 from garkcli.convergence.result import CLOSE, Row, observed_order
 from garkcli.convergence.solver import NoUniqueStep, Solver
+from garkcli.stepping.integrator import StepFailed
 from garkcli.stepping.linear import whole_steps
-from garkcli.stepping.step import StepFailed
 
 ROWS = 5
 """Step sizes of the default ladder; more only while the slopes still move."""

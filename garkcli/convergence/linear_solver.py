@@ -13,15 +13,14 @@ from math import ceil, factorial
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.convergence.result import Cost, Row, Visible, absolute, slope_between
-from garkcli.convergence.solver import NoUniqueStep
-from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
+from garkcli.convergence.solver import MAX_DIGITS, REACHED, NoUniqueStep, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
 from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.vectorfield import symbols
-from garkcli.stepping.integrator import Integrator, bind
+from garkcli.stepping.integrator import Integrator, Stepper, bind
 from garkcli.stepping.linear import (
     MAX_STEPS,
     LinearStep,
@@ -32,7 +31,6 @@ from garkcli.stepping.linear import (
     visible_order,
     whole_steps,
 )
-from garkcli.stepping.step import Stepper
 from garkcli.tableau.tableau import Tableau
 
 ERROR_BITS = 40

@@ -17,7 +17,7 @@ from flint import arb, ctx, fmpq
 from garkcli.convergence.ladder import ROWS
 from garkcli.convergence.reference import Reference, magnitude, reference, run
 from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
-from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
+from garkcli.convergence.solver import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.problem import Problem, quantities_function

@@ -34,8 +34,7 @@ from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
-from garkcli.stepping.integrator import Binding, bind
-from garkcli.stepping.step import trajectory
+from garkcli.stepping.integrator import Binding, bind, trajectory
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

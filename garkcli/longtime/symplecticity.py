@@ -3,7 +3,7 @@
 M is found by central differences of steps with so many digits that neither truncation nor rounding
 comes near the round-off of floats; how good it is shows in the change when the perturbation is
 doubled. The step of the oscillator is linear, and there RᵀJR − J = (det R − 1) J exactly, see
-``garkcli.longtime.stability``.
+``garkcli.longtime.history``.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from garkcli.longtime.history import State
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.stepping.fields import visible_tableau
-from garkcli.stepping.integrator import Integrator, bind
-from garkcli.stepping.step import integrate
+from garkcli.stepping.integrator import Integrator, bind, integrate
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 

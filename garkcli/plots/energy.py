@@ -7,8 +7,18 @@ from math import isfinite
 
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured
-from garkcli.plots.scales import common_exponent, in_words, power_of_ten
-from garkcli.plots.scene import Axis, Curve, Panel, Point, Rule, Scene, capitalized
+from garkcli.plots.scene import (
+    Axis,
+    Curve,
+    Panel,
+    Point,
+    Rule,
+    Scene,
+    capitalized,
+    common_exponent,
+    in_words,
+    power_of_ten,
+)
 from garkcli.report.problem import name_of
 
 _TITLE = "Energy error over a long time"

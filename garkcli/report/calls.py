@@ -17,7 +17,7 @@ from garkcli.problems.builtin import PROBLEMS
 from garkcli.report import citation
 from garkcli.report.certificate import REPORT
 from garkcli.report.sweep import SweepReport
-from garkcli.sweep.load import load_plan
+from garkcli.sweep.plan import load_plan
 from garkcli.sweep.run import sweep
 from garkcli.sweep.store import RowStore
 from garkcli.tableau.garkmethod import GarkMethod

@@ -8,9 +8,8 @@ from math import isfinite, isnan
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from garkcli.exact.display import to_decimal, to_float
-from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Verdict
+from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Stability, Verdict
 from garkcli.longtime.rounding import power_of_ten
-from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too

@@ -5,22 +5,22 @@ program.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
-from math import ceil
+from math import ceil, isfinite
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
+from garkcli.errors import GarkError
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.problem import Problem
 from garkcli.problems.straightline import define, enclosed
 from garkcli.stepping.dependency import DependencyGraph, dependency_graph, entry
-from garkcli.stepping.fields import Fields, fields_of, stepped_terms, with_clock
-from garkcli.stepping.matching import split_into
+from garkcli.stepping.fields import Fields, fields_of, split_into, stepped_terms, with_clock
 from garkcli.stepping.newton import MAX_ITERATIONS
 from garkcli.stepping.program import Program, write
 from garkcli.tableau.pointwise import numeric_entries
@@ -204,3 +204,152 @@ def _corrections_of_balls(inverse: Floats, residuals: list[arb]) -> list[arb]:
     scaled = [float(r / scale) for r in middles]
     corrections = (inverse @ scaled).tolist()
     return [(c * scale).mid() for c in corrections]
+
+
+_AHEAD = 64  # most steps in floats by which a trajectory is ahead of who looks at it
+
+
+class StepFailed(GarkError):
+    """The stage equations of a step were not solved."""
+
+    code = "step-fails"
+
+    def __init__(self, number: int, h: fmpq, residual: float) -> None:
+        what = "the stage equations were not solved"
+        if not isfinite(residual):
+            what = "the numbers leave the vector fields"
+        super().__init__(
+            f"step {number} of size {h}: {what} (residual {residual:.1e})",
+            "choose a smaller step size, or an earlier final time: the solution may end there",
+        )
+        self.number = number
+        self.h = h
+        self.residual = residual
+
+
+@dataclass(frozen=True)
+class Work:
+    """What a run of steps has cost.
+
+    Attributes:
+        evaluations: of vector fields, each one V^{l} or F^{l} at one stage, those of Newton's
+            method included.
+        iterations: of Newton's method, over all implicit blocks.
+        jacobians: of an implicit block, each with its factorisation.
+    """
+
+    evaluations: int
+    iterations: int
+    jacobians: int
+
+
+def trajectory(
+    integrator: Integrator,
+    h: fmpq,
+    count: int,
+    initial: Sequence[Any] | None = None,
+    every: int = 1,
+) -> Iterator[list[Real]]:
+    """(q, p) at the start and after each ``every`` of ``count`` steps of size ``h``, shape (2d,).
+
+    The last one is after ``count`` steps, whatever remains. The start is ``initial``, or that of
+    the problem.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
+    """
+    stepper = Stepper(integrator, h, initial)
+    yield stepper.y
+    if every > 1 or integrator.is_for_balls:
+        while stepper.done < count:
+            stepper.advance(min(every, count - stepper.done))
+            yield stepper.y
+        return
+    while stepper.done < count:
+        states: list[list[Real]] = []
+        try:
+            stepper.advance(min(_AHEAD, count - stepper.done), states.append)
+        except StepFailed:
+            yield from states
+            raise
+        yield from states
+
+
+def integrate(
+    integrator: Integrator, h: fmpq, count: int, initial: Sequence[Any] | None = None
+) -> list[Real]:
+    """(q, p) after ``count`` steps; see ``trajectory``."""
+    stepper = Stepper(integrator, h, initial)
+    stepper.advance(count)
+    return stepper.y
+
+
+@dataclass
+class Stepper:
+    """A trajectory at one time, to be advanced.
+
+    Attributes:
+        integrator: what steps.
+        h: the step size.
+        initial: (q, p) at the start, shape (2d,), or None for the problem's.
+        done: how many steps have been done.
+    """
+
+    integrator: Integrator
+    h: fmpq
+    initial: Sequence[Any] | None = None
+    done: int = 0
+    _numbers: list[Real] = field(init=False)  # as ``Program`` describes them
+    _weights: list[Real] = field(init=False)
+    _iterations: list[int] = field(init=False)
+    _jacobians: int = 0
+
+    def __post_init__(self) -> None:
+        integrator = self.integrator
+        start = integrator.problem.initial if self.initial is None else self.initial
+        with ctx.workprec(integrator.bits):
+            numbers = [integrator.number(x) for x in start]
+            # time begins at 0; nothing has been lost or missed before the first step
+            others = integrator.program.size - len(numbers)
+            self._numbers = numbers + [integrator.number(0)] * others
+        self._weights = integrator.weights(self.h)
+        self._iterations = [0] * len(integrator.program.repeated)
+
+    @property
+    def y(self) -> list[Real]:
+        """The unknowns: (q, p), shape (2d,), or y, shape (d,)."""
+        return self._numbers[: self.integrator.problem.layout.unknowns]
+
+    @property
+    def work(self) -> Work:
+        """What all steps so far have cost."""
+        program = self.integrator.program
+        repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
+        return Work(
+            self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians
+        )
+
+    def advance(self, count: int, record: Recorder | None = None) -> None:
+        """``count`` steps; ``record`` is told of each.
+
+        Raises:
+            StepFailed: the stage equations of a step were not solved.
+        """
+        try:
+            made = self._run(count, record)
+        except NotSolved as failure:
+            raise StepFailed(failure.number, self.h, failure.residual) from None
+        self._numbers, iterations, jacobians = made
+        pairs = zip(self._iterations, iterations, strict=True)
+        self._iterations = [before + more for before, more in pairs]
+        self._jacobians += jacobians
+        self.done += count
+
+    def _run(self, count: int, record: Recorder | None) -> tuple[list[Real], list[int], int]:
+        """What the program of the steps gives, with balls at their precision."""
+        integrator = self.integrator
+        first = self.done + 1
+        if not integrator.is_for_balls:
+            return integrator.run(self._numbers, self._weights, first, count, record)
+        with ctx.workprec(integrator.bits):
+            return integrator.run(self._numbers, self._weights, first, count, record)

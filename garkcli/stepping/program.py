@@ -16,10 +16,9 @@ from itertools import product
 
 from garkcli.problems.straightline import Code
 from garkcli.problems.vectorfield import Layout
-from garkcli.stepping.chainrule import ChainRule
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.fields import Fields
-from garkcli.stepping.jacobian import JacobianWriter
+from garkcli.stepping.jacobian import ChainRule, JacobianWriter
 from garkcli.stepping.newton import NewtonWriter
 from garkcli.stepping.stagewriter import Lines, StageWriter, names
 

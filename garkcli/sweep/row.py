@@ -9,15 +9,41 @@ from typing import Any, TypeAlias, TypeGuard
 from flint import fmpq
 
 from garkcli.design.member import member
+from garkcli.design.search.run import Method, results
 from garkcli.errors import GarkError, MethodError, MethodFileError, counted
 from garkcli.exact.field import Number
-from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.methodfile.family import FamilyFile, loads_family, with_values
 from garkcli.methodfile.load import loads
-from garkcli.sweep.columns import Value, columns, is_value
-from garkcli.sweep.judged import Judged
+from garkcli.methodfile.search_file import FileSearch
+from garkcli.sweep.columns import Judged, Value, columns, is_value
 from garkcli.sweep.plan import Criteria, Point
-from garkcli.sweep.searched import first_find, method_found
 from garkcli.tableau.tableau import Tableau
+
+
+def first_find(point: Point) -> Method | None:
+    """What ``gark design --search`` finds first from the seed of a point; None where it finds
+    nothing.
+    """
+    template = point.template
+    assert point.seed is not None
+    for result in results(_asked(point).search, template.starts, point.seed, most=1):
+        if result.methods:
+            return result.methods[0]
+    return None
+
+
+def method_found(point: Point, found: Method) -> Tableau:
+    """The method of an exact find, read again from the text of its file."""
+    claim = f"order: {found.order}"
+    text = with_values(_asked(point).family, found.values, "", claim)
+    return loads(text, point.key).tableau
+
+
+def _asked(point: Point) -> FileSearch:
+    template = point.template
+    settings = tuple(point.settings.items())
+    return FileSearch(template.text, template.name, settings, template.order)
+
 
 Row: TypeAlias = "dict[str, Value | dict[str, str]]"
 """``key``, ``spec``, ``kept``, ``method``, ``parameters``, then columns; ``failure`` where there is

@@ -6,13 +6,30 @@ import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from time import process_time
+from typing import TypeAlias
 
 from garkcli.crew.hiring import hired
 from garkcli.errors import UsageProblem
 from garkcli.sweep.plan import Criteria, Plan, Point
-from garkcli.sweep.row import crashed_row
+from garkcli.sweep.row import Row, crashed_row, row_of
 from garkcli.sweep.store import RowStore
-from garkcli.sweep.task import Result, lines, rows_of
+
+Result: TypeAlias = tuple[str, float]
+"""Rows as lines of JSON, and the processor time that they took."""
+
+
+def rows_of(criteria: Criteria, points: Sequence[Point]) -> Result:
+    """The rows of some methods."""
+    begin = process_time()
+    text = lines([row_of(criteria, point) for point in points])
+    return text, process_time() - begin
+
+
+def lines(rows: Sequence[Row]) -> str:
+    """Rows as lines of JSON."""
+    return "".join(f"{json.dumps(row)}\n" for row in rows)
+
 
 CHUNK = 25
 """Methods of a task: the machinery of a task costs about as much as one of them."""

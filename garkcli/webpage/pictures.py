@@ -6,15 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from garkcli.api.runs import converge, long_run
-from garkcli.convergence.default_problem import in_common, seeing_problem
+from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.convergence.result import Convergence
 from garkcli.errors import GarkError
 from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import usual
 from garkcli.plots.convergence import comparison_panel, errors_panel
 from garkcli.plots.energy import became_of, history_panel
-from garkcli.plots.oscillator import trace_panel
-from garkcli.plots.regions import of_directions, pair_panel, region_panel
+from garkcli.plots.regions import of_directions, pair_panel, region_panel, trace_panel
 from garkcli.plots.scene import Panel
 from garkcli.plots.svg import ON_ANY, svg
 from garkcli.problems.builtin import hamiltonian
@@ -27,7 +26,7 @@ from garkcli.stability.linear import stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.stability.summary import directions
 from garkcli.stepping.fields import with_joined_terms
-from garkcli.stepping.step import StepFailed
+from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.garkmethod import GarkMethod, word_for
 
 MOST = len(ON_ANY)

@@ -11,9 +11,8 @@ from flint import fmpq
 from garkcli import load, loads
 from garkcli.backward import effective
 from garkcli.backward.effective import EffectiveOrder, effective_order
-from garkcli.backward.forest import Forest
 from garkcli.backward.modified import modified_equation
-from garkcli.backward.series import logarithm, transported
+from garkcli.backward.series import Forest, logarithm, transported
 from garkcli.trees.count import Admissible
 
 BUTCHER = """

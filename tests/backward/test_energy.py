@@ -19,7 +19,7 @@ from garkcli.backward.energy import ModifiedRun, modified_run
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm, modified_formula
 from garkcli.errors import UsageProblem
 from garkcli.report.modified_energy import REPORT
-from garkcli.stepping.step import StepFailed
+from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark

@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import find_order, load, loads
-from garkcli.backward.forest import Forest
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.backward.series import (
+    Forest,
     bracket,
     elementary_weights,
     exact_weights,

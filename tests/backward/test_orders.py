@@ -10,8 +10,13 @@ import pytest
 from flint import fmpq, fmpq_poly
 
 from garkcli import load, loads
-from garkcli.backward.free_trees import free_trees, hamiltonian_structure
-from garkcli.backward.hamiltonian import energy_order, modified_hamiltonian, symplectic_order
+from garkcli.backward.hamiltonian import (
+    energy_order,
+    free_trees,
+    hamiltonian_structure,
+    modified_hamiltonian,
+    symplectic_order,
+)
 from garkcli.backward.modified import modified_equation
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau

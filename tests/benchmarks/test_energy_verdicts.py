@@ -14,7 +14,7 @@ from garkcli.longtime.longtime import long_run
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
 from garkcli.stepping.fields import with_joined_terms
-from garkcli.stepping.step import StepFailed
+from garkcli.stepping.integrator import StepFailed
 from tests.benchmarks.measuring import ROOT
 from tests.longtime.planets import GAUSS_2, RALSTON, RK4, STOERMER_VERLET, YOSHIDA_4, two_planets
 

@@ -13,8 +13,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli import load, loads
 from garkcli.problems.builtin import hamiltonian
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import Stepper, trajectory
+from garkcli.stepping.integrator import Stepper, bind, trajectory
 from tests.benchmarks.measuring import ROOT, assert_ratio, interleaved
 from tests.catalogue.method_files import method_file
 

@@ -8,7 +8,7 @@ import pytest
 import sympy
 from flint import fmpq
 
-from garkcli.convergence.conserved import changing
+from garkcli.convergence.reference import changing
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols

@@ -19,8 +19,7 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.problems.vectorfield import symbols
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import integrate
+from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import gark as gark_tableau
 from garkcli.tableau.forms import pair, spelled_out
 from garkcli.tableau.tableau import Tableau

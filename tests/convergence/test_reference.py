@@ -11,7 +11,7 @@ from garkcli.doing import telling
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
-from garkcli.stepping.step import StepFailed
+from garkcli.stepping.integrator import StepFailed
 from tests.listener import Listener
 
 

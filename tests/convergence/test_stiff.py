@@ -14,7 +14,7 @@ from garkcli.convergence.result import Convergence
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.simplifying import simplifying
 from garkcli.problems.builtin import problem
-from garkcli.stepping.step import StepFailed
+from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file

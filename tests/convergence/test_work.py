@@ -7,14 +7,13 @@ from itertools import count
 import pytest
 from flint import fmpq
 
-from garkcli.convergence import work
+from garkcli.convergence import solver
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.work import cost_of, work_of
+from garkcli.convergence.solver import cost_of, work_of
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import Stepper, integrate
+from garkcli.stepping.integrator import Stepper, bind, integrate
 from garkcli.tableau.forms import gark, pair
 from tests.stepping.test_step import RECTANGULAR, RK4, coupled
 
@@ -33,7 +32,7 @@ def test_clocks_that_tick_seldom_have_the_mean(monkeypatch: pytest.MonkeyPatch) 
     tick.
     """
     looks = count()
-    monkeypatch.setattr(work, "process_time", lambda: next(looks) // 200)
+    monkeypatch.setattr(solver, "process_time", lambda: next(looks) // 200)
     made = bind(RK4, hamiltonian("pendulum", 1)).at()
     _, cost = work_of(made, fmpq(1, 10), 1)
     assert cost.seconds == pytest.approx(1 / 100)

@@ -27,8 +27,7 @@ from garkcli.problems.problem import quantities_function
 from garkcli.problems.vectorfield import symbols
 from garkcli.report.energy import REPORT, EnergyReport
 from garkcli.stepping.fields import with_joined_terms
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import StepFailed, trajectory
+from garkcli.stepping.integrator import StepFailed, bind, trajectory
 from garkcli.tableau.tableau import Tableau
 from tests.listener import Listener
 from tests.longtime.planets import (

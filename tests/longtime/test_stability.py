@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
+from garkcli.longtime.history import stability
 from garkcli.longtime.longtime import long_run
-from garkcli.longtime.stability import stability
 from garkcli.methodfile.load import loads
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stepping.linear import linear_step

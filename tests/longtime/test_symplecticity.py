@@ -12,8 +12,7 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import terms_of
 from garkcli.stepping.fields import with_joined_terms
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import integrate
+from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 

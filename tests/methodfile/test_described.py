@@ -14,7 +14,7 @@ from garkcli.cli.project import KEYS
 from garkcli.glossary.key import KINDS, keys_of
 from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.problem_keys import problem_file_schema
-from garkcli.sweep.load import sweep_schema
+from garkcli.sweep.plan import sweep_schema
 
 SCHEMAS = {"method": method_file_schema, "problem": problem_file_schema, "sweep": sweep_schema}
 

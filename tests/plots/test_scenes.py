@@ -16,8 +16,7 @@ from garkcli.plots.convergence import comparison_scene, convergence_scene
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure
 from garkcli.plots.regions import stability_scene
-from garkcli.plots.scales import common_exponent
-from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene
+from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent
 from garkcli.plots.svg import svg
 from garkcli.report.stability import StabilityReport
 

@@ -17,10 +17,8 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.vectorfield import symbols
-from garkcli.stepping.fields import fields_of
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.matching import split_into
-from garkcli.stepping.step import integrate
+from garkcli.stepping.fields import fields_of, split_into
+from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import gark, pair
 from tests.cli.harness import ROOT
 from tests.stepping.test_step import RECTANGULAR, coupled

@@ -14,8 +14,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import vector_field
 from garkcli.problems.vectorfield import GROUPS, symbols
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import integrate
+from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import gark
 from garkcli.trees.tree import Tree
 

@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpq
 
-from garkcli.convergence.convergence import converge
-from garkcli.convergence.default_problem import in_common, seeing_problem
+from garkcli.convergence.convergence import converge, in_common, seeing_problem
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load

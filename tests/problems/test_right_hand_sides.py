@@ -9,7 +9,7 @@ import sympy
 from flint import arb, fmpq, fmpq_mat
 
 from garkcli import converge, find_order, loads
-from garkcli.convergence.default_problem import in_common, seeing_problem
+from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.problem import load_problem
 from garkcli.problems.builtin import PROBLEMS, problem

@@ -27,8 +27,7 @@ from garkcli.plots import saving
 from garkcli.plots.convergence import comparison_scene, convergence_scene
 from garkcli.plots.figure import figure as draw
 from garkcli.plots.saving import check_suffix, save
-from garkcli.plots.scales import logarithmic_marks
-from garkcli.plots.scene import Curve, Rule
+from garkcli.plots.scene import Curve, Rule, logarithmic_marks
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
 

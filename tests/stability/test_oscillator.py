@@ -14,7 +14,7 @@ from garkcli.exact.field import ONE
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.families.registry import diagonal_method
-from garkcli.longtime.stability import stability as fate_of
+from garkcli.longtime.history import stability as fate_of
 from garkcli.methodfile.load import load, loads
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.oscillator import (

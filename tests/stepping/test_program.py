@@ -16,8 +16,7 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.vectorfield import GROUPS, symbols
 from garkcli.stepping.fields import with_joined_terms
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import Stepper, integrate, trajectory
+from garkcli.stepping.integrator import Stepper, bind, integrate, trajectory
 from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation

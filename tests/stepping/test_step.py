@@ -23,8 +23,7 @@ from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import GROUPS, symbols
 from garkcli.stepping.dependency import Stage
 from garkcli.stepping.fields import fields_of, visible_trees, with_joined_terms
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import StepFailed, integrate, trajectory
+from garkcli.stepping.integrator import StepFailed, bind, integrate, trajectory
 from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair, with_linear
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau

@@ -28,8 +28,7 @@ from mpmath import mpf
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.vectorfield import symbols
-from garkcli.stepping.integrator import bind
-from garkcli.stepping.step import trajectory
+from garkcli.stepping.integrator import bind, trajectory
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Method, Tableau

@@ -13,7 +13,7 @@ import yaml
 from garkcli import analyse, loads
 from garkcli.errors import MethodFileError
 from garkcli.report.schemas import report_schema
-from garkcli.sweep.load import load_plan
+from garkcli.sweep.plan import load_plan
 from garkcli.sweep.row import row_of
 from tests.cli.harness import gark
 

@@ -27,10 +27,8 @@ from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
 from garkcli.report.sweep import SweepReport
 from garkcli.sweep import run as running
-from garkcli.sweep import task
 from garkcli.sweep.columns import columns, property_kind
-from garkcli.sweep.load import load_plan
-from garkcli.sweep.plan import Plan, Point
+from garkcli.sweep.plan import Plan, Point, load_plan
 from garkcli.sweep.ranking import best_first, kept, pareto_front
 from garkcli.sweep.row import Row, row_of
 from garkcli.sweep.store import RowStore
@@ -230,7 +228,7 @@ def test_side_by_side(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             os.kill(os.getpid(), signal.SIGKILL)
         return row_of(criteria, point)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(task, "row_of", ends)
+    monkeypatch.setattr(running, "row_of", ends)
     assert gark("sweep", str(spec), "--jobs", "2").code == 0
     found = {str(row["key"]): row for row in rows_in(rows)}
     assert "SIGKILL" in str(found.pop(fatal)["failure"])

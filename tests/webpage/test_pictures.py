@@ -16,9 +16,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from garkcli import convert, from_arrays, load, loads
-from garkcli.plots.contours import Point, outlines
-from garkcli.plots.scales import linear_marks
-from garkcli.plots.scene import shortened
+from garkcli.plots.plane import Point, outlines
+from garkcli.plots.scene import linear_marks, shortened
 from garkcli.plots.svg import STYLE, colour
 from garkcli.webpage.pictures import Picture, compared_pictures, pictures
 
