@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from garkcli.catalogue.making import made, update_copies
+from garkcli.catalogue.facts import made, update_copies
 from garkcli.errors import GarkError
 
 HERE = Path(__file__).resolve().parent

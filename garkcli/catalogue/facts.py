@@ -1,14 +1,24 @@
-"""What the index says of a method: found as ``gark check`` finds it, as plain data."""
+"""What the index says of methods, found as ``gark check`` finds it, as plain data; and the index of
+the package, made of its method files: the same bytes on every machine.
+"""
 
 from __future__ import annotations
 
 import hashlib
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from garkcli.check.check_file import check_file
+from garkcli.comparison.comparison import form_of
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal, to_text
+from garkcli.methodfile.file_kind import METHOD_FILE
+from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.reading import read_text
+from garkcli.methodfile.shelves import key_of
 from garkcli.methodfile.words import one_line
 from garkcli.order.constants import error_constants
 from garkcli.properties.property import Size
@@ -23,6 +33,7 @@ if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder
     from garkcli.properties.property import Verdict
     from garkcli.tableau.tableau import Tableau
+
 
 Entry = dict[str, Any]
 """A method of the index: what people look for, and what was found."""
@@ -68,8 +79,7 @@ _UNKNOWN: Entry = {
 
 def blank() -> Entry:
     """An entry with all its keys and nothing in it."""
-    properties = {find(key).field: None for key in KEYS}
-    return {**_UNKNOWN, **properties, "undecided": []}
+    return {**_UNKNOWN, **{find(key).field: None for key in KEYS}, "undecided": []}
 
 
 class NoMethod(GarkError):
@@ -78,8 +88,7 @@ class NoMethod(GarkError):
 
 def digest(text: str) -> str:
     """Which text an entry was made from, however its lines end."""
-    lines = text.replace("\r\n", "\n").encode("utf-8")
-    return hashlib.sha256(lines).hexdigest()[:16]
+    return hashlib.sha256(text.replace("\r\n", "\n").encode("utf-8")).hexdigest()[:16]
 
 
 def entry_of(path: str, name: str, file: str, text: str) -> Entry:
@@ -97,8 +106,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
     outcome = check_file(path)
     if outcome.analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
-    method = loads(text, path)
-    return {**found_of(method, outcome.analysis, name, file), "digest": digest(text)}
+    return {**found_of(loads(text, path), outcome.analysis, name, file), "digest": digest(text)}
 
 
 def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> Entry:
@@ -119,8 +127,7 @@ def _what_fails(outcome: Outcome) -> str:
     if outcome.analysis is None:
         return "it has free parameters"
     failing = [claim for claim in outcome.claims if not claim.holds]
-    told = [f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing]
-    return "; ".join(told)
+    return "; ".join([f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing])
 
 
 def head(method: MethodFile, name: str, file: str) -> Entry:
@@ -147,22 +154,13 @@ def shape(method: MethodFile) -> Entry:
         "stages": max(stages),
         "stages_by_colour": stages,
         "colours": tableau.size,
-        "kind": _kind(tableau),
+        "kind": "prk" if tableau.is_partitioned else form_of(tableau),
         "structure": method.structure,
         "exact": rounding is None,
         "tolerance": None if rounding is None else decimal(rounding),
         "embedded": method.embedded is not None,
         "dense": method.dense is not None,
     }
-
-
-def _kind(tableau: Tableau) -> str:
-    """``rk``, ``ark``, ``prk`` or ``gark``."""
-    if tableau.size == 1:
-        return "rk"
-    if tableau.is_partitioned:
-        return "prk"
-    return "ark" if len(tableau.spaces) == 1 else "gark"
 
 
 def _orders(analysis: Analysis) -> Entry:
@@ -188,8 +186,7 @@ def _order(found: AnyOrder | None) -> int | None:
 def _error_constant(analysis: Analysis) -> str | None:
     """The norm of the principal error, rounded; None where it has too many trees."""
     order = analysis.order
-    trees = count_trees(analysis.tableau.size, order.order + 1)
-    if order.is_lower_bound or trees > MOST_TREES:
+    if order.is_lower_bound or count_trees(analysis.tableau.size, order.order + 1) > MOST_TREES:
         return None
     constants = error_constants(analysis.tableau, order.order + 1)
     if constants is None:
@@ -228,3 +225,92 @@ def _is_small(tableau: Tableau) -> bool:
 def _value(verdict: Verdict) -> bool | int | str | None:
     value = verdict.value
     return str(value) if isinstance(value, Size) else value
+
+
+Tell = Callable[[str], None]
+"""What is told of each file that is judged."""
+
+
+def method_files(data: Path) -> list[tuple[str, Path]]:
+    """The method files below a folder, by their names.
+
+    Raises:
+        NoMethod: two have one name, or a name is not as names are.
+    """
+    found: dict[str, Path] = {}
+    for path in data.rglob(f"*{SUFFIX}"):
+        name = path.name.removesuffix(SUFFIX)
+        if name != key_of(name):
+            cure = f"{key_of(name)}{SUFFIX} would be its name"
+            raise NoMethod(f"{path} is not named as methods are", cure, code="name-taken")
+        if name in found:
+            message = f"{found[name]} and {path} have one name"
+            raise NoMethod(message, "keep one of them, or rename it", code="name-in-doubt")
+        found[name] = path
+    return sorted(found.items())
+
+
+def made(data: Path, before: str, tell: Tell) -> str:
+    """The text of the index.
+
+    Args:
+        data: the folder of the method files.
+        before: the text of an index of theirs, perhaps older, out of which entries are kept whose
+            files are as they were; empty for none.
+        tell: is called with the name of each method that is judged.
+
+    Raises:
+        NoMethod: a file is no method, or a claim of it fails.
+    """
+    known = _known(before)
+    entries = []
+    for name, path in method_files(data):
+        text, _ = read_text(str(path), METHOD_FILE)
+        file = path.relative_to(data).as_posix()
+        entry = known.get((file, digest(text)))
+        if entry is None:
+            tell(name)
+            entry = entry_of(str(path), name, file, text)
+        entries.append(entry)
+    return "".join(_text(entries))
+
+
+def _known(before: str) -> dict[tuple[str, str], Entry]:
+    """The entries of an index by their files and the texts that they were made from; those without
+    a property that there is now are left out.
+    """
+    index: dict[str, Any] = json.loads(before) if before else {}
+    if index.get("facts") != VERSION:
+        return {}
+    fields = blank().keys()
+    return {(x["file"], x["digest"]): x for x in index["methods"] if x.keys() >= fields}
+
+
+def _text(entries: list[Entry]) -> Iterator[str]:
+    """JSON with an entry a line, so that a change of one method is a change of one line."""
+    yield f'{{"facts": {VERSION}, "methods": ['
+    for number, entry in enumerate(entries):
+        yield ",\n" if number else "\n"
+        yield json.dumps(entry, ensure_ascii=True)
+    yield "\n]}\n"
+
+
+def update_copies(data: Path, copies: Path) -> Iterator[Path]:
+    """Make the copies that a folder has of methods of the catalogue what these are.
+
+    Args:
+        data: the folder of the catalogue.
+        copies: a folder with copies of some of its files.
+
+    Yields:
+        each copy that was changed.
+    """
+    originals = dict(method_files(data))
+    for copy in sorted(copies.rglob(f"*{SUFFIX}")):
+        original = originals.get(copy.name.removesuffix(SUFFIX))
+        if original is None:
+            continue
+        content = original.read_bytes()
+        if copy.read_bytes() != content:
+            copy.write_bytes(content)
+            yield copy

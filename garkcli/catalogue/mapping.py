@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, cast
 from garkcli.errors import GarkError, MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
+    from garkcli.catalogue.entries import Wanted
     from garkcli.catalogue.facts import Entry
-    from garkcli.catalogue.filters import Wanted
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.shelves import Shelved
 
@@ -96,8 +96,7 @@ class Catalogue(ModuleType):
         Raises:
             UsageProblem: nothing is known by a name, or a text is no range.
         """
-        from garkcli.catalogue.entries import all_entries
-        from garkcli.catalogue.filters import sorted_by
+        from garkcli.catalogue.entries import all_entries, sorted_by
 
         entries = list(all_entries())
         chosen = _wanted(wanted, words, folder, entries[0])
@@ -128,7 +127,7 @@ def _wanted(
     Raises:
         UsageProblem: nothing is known by a name, or a text is no range.
     """
-    from garkcli.catalogue.filters import Range, Wanted, read_range
+    from garkcli.catalogue.entries import Range, Wanted, read_range
 
     ranges: dict[str, Range] = {}
     truths: dict[str, bool] = {}

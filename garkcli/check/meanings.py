@@ -18,7 +18,7 @@ from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.glossary.faults import UNKNOWN, code_of
 from garkcli.glossary.fields import field_entries
 from garkcli.glossary.labels import key_of
-from garkcli.glossary.registry import plain
+from garkcli.glossary.term import plain
 
 __all__ = ["Meaning", "claim_meaning", "explain", "known_words", "term_meaning"]
 _FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")

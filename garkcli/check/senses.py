@@ -6,12 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from garkcli.glossary.faults import by_code
+from garkcli.glossary.faults import COMMANDS, by_code, findings_of
 from garkcli.glossary.fields import field_entries
-from garkcli.glossary.findings import COMMANDS, findings_of
 from garkcli.glossary.key import KINDS, Key, keys_of
-from garkcli.glossary.registry import by_word, plain
-from garkcli.glossary.term import Term
+from garkcli.glossary.term import Term, by_word, plain
 
 
 @dataclass(frozen=True)

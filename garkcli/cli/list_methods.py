@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from garkcli.catalogue.filters import ORDERS, Range, Wanted, read_range, sorted_by
+from garkcli.catalogue.entries import ORDERS, Range, Wanted, read_range, sorted_by
 from garkcli.cli.options import Output
 from garkcli.errors import UsageProblem
 from garkcli.properties.property import Property

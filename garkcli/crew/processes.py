@@ -123,8 +123,7 @@ class Crew(Generic[Item, Outcome]):
 
     def _leave_the_dead(self) -> None:
         """Workers that died when they had nothing to do: no item is to blame for it."""
-        dead = [x for x in self.workers if not x.process.is_alive()]
-        for worker in dead:
+        for worker in [x for x in self.workers if not x.process.is_alive()]:
             worker.end()
             self.workers.remove(worker)
 

@@ -1,5 +1,5 @@
-"""What errors mean: each kind of fault has a code, which an error says where it is raised, and the
-messages that it has, so that ``gark explain`` knows a message that is pasted.
+"""What errors mean, and what findings do: each kind of fault has a code, which an error says where
+it is raised, and the messages that it has, so that ``gark explain`` knows a message that is pasted.
 
 The words of a message that stay the same are in ``data/faults-*.toml``; so one cause has one code
 wherever it shows, in whatever sentence.
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from garkcli.errors import UNKNOWN as UNKNOWN
-from garkcli.glossary.data import read
+from garkcli.glossary import read
 
 TOPICS = {
     "files": "Files",
@@ -122,8 +122,7 @@ class _Message:
         if not all(word in message for word in self.words):
             return False
         filled = ".*".join(map(re.escape, self.words))
-        pattern = f"(?:.*: )?{filled}{_REST}"
-        return re.fullmatch(pattern, message, re.DOTALL) is not None
+        return re.fullmatch(f"(?:.*: )?{filled}{_REST}", message, re.DOTALL) is not None
 
 
 @lru_cache(maxsize=1)
@@ -134,8 +133,32 @@ def _messages() -> tuple[_Message, ...]:
         for said in kind.says:
             words = tuple(said.split(HOLE))
             found.append(_Message(sum(map(len, words)), kind.code, words))
-    return tuple(sorted(found, key=_letters, reverse=True))
+    return tuple(sorted(found, key=lambda said: said.letters, reverse=True))
 
 
-def _letters(said: _Message) -> int:
-    return said.letters
+COMMANDS = {"check": "docs/ci.md", "audit": "docs/audit.md"}
+"""The commands that have findings, with the page about each."""
+
+
+@dataclass(frozen=True)
+class FindingKind:
+    """A kind of finding: what it means, in whole sentences, and what to do."""
+
+    code: str
+    text: str
+    cure: str
+
+
+@lru_cache(maxsize=len(COMMANDS))
+def findings_of(command: str) -> Mapping[str, FindingKind]:
+    """The kinds of findings of a command by their codes.
+
+    >>> list(findings_of("check"))
+    ['unreadable', 'claim', 'no-claim']
+    """
+    found = {}
+    for code, entry in read("findings")[command].items():
+        text = " ".join(entry["text"].split())
+        cure = " ".join(entry["cure"].split())
+        found[code] = FindingKind(code, text, cure)
+    return found

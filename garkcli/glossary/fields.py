@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
-from garkcli.glossary.data import read
+from garkcli.glossary import read
 
 ORDERS = (
     *("order", "conjugate_order", "pair_order", "nonautonomous_order"),
@@ -39,5 +39,4 @@ def field_text(path: Sequence[str]) -> str:
     'What the first of both methods has.'
     """
     entries = field_entries()
-    within = ".".join(path[-2:])
-    return entries.get(within) or entries.get(path[-1], "")
+    return entries.get(".".join(path[-2:])) or entries.get(path[-1], "")

@@ -7,8 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
-from garkcli.glossary.registry import TOPICS, terms_of
-from garkcli.glossary.term import Term
+from garkcli.glossary.term import TOPICS, Term, terms_of
 from garkcli.page.paint import folded, indented
 from garkcli.properties.definitions import Definition
 from garkcli.tell.facts import Level, Row, Section

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from garkcli.glossary.faults import TOPICS, FaultKind, faults_of
-from garkcli.glossary.findings import findings_of
+from garkcli.glossary.faults import TOPICS, FaultKind, faults_of, findings_of
 from garkcli.glossary.key import Key, keys_of
 from garkcli.report.field_texts import fields_of, text_of
 from garkcli.report.schemas import REPORTS, report_schema

@@ -11,8 +11,7 @@ import pytest
 
 from garkcli import catalogue
 from garkcli.catalogue import facts
-from garkcli.catalogue.facts import NoMethod, digest, entry_of
-from garkcli.catalogue.making import made, method_files, update_copies
+from garkcli.catalogue.facts import NoMethod, digest, entry_of, made, method_files, update_copies
 from garkcli.methodfile.load import described
 from garkcli.methodfile.naming import every_shelf
 from garkcli.methodfile.shelves import Package
@@ -115,7 +114,7 @@ def test_another_version_of_the_facts_makes_all_anew(
     """Where the program finds more than it did."""
     put(tmp_path, "one", GAUSS)
     before = made(tmp_path, "", lambda _: None)
-    monkeypatch.setattr("garkcli.catalogue.making.VERSION", 0)
+    monkeypatch.setattr("garkcli.catalogue.facts.VERSION", 0)
     judged: list[str] = []
     made(tmp_path, before, judged.append)
     assert judged == ["one"]

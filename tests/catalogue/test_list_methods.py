@@ -11,8 +11,7 @@ from typing import Any
 
 import pytest
 
-from garkcli.catalogue.entries import all_entries
-from garkcli.catalogue.filters import ORDERS, Range, read_range, sorted_by
+from garkcli.catalogue.entries import ORDERS, Range, all_entries, read_range, sorted_by
 from garkcli.cli.list_command import command
 from garkcli.errors import UsageProblem
 from garkcli.properties.registry import every_property

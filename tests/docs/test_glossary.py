@@ -14,8 +14,7 @@ from garkcli.check.findings import KINDS
 from garkcli.check.meanings import explain, known_words
 from garkcli.errors import UsageProblem
 from garkcli.glossary.labels import label_of
-from garkcli.glossary.registry import TOPICS, by_word, plain, terms_of
-from garkcli.glossary.term import Term
+from garkcli.glossary.term import TOPICS, Term, by_word, plain, terms_of
 from garkcli.report.meaning import glossary
 from garkcli.report.schemas import REPORTS as SCHEMAS
 from garkcli.tell.facts import Level, Row, Section, part

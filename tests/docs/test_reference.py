@@ -8,7 +8,7 @@ import pytest
 
 from garkcli.bridges.audit import CODES
 from garkcli.check.findings import KINDS
-from garkcli.glossary.findings import findings_of
+from garkcli.glossary.faults import findings_of
 from garkcli.glossary.key import KINDS as FILES
 from garkcli.report.reference import fields_table, keys_table
 from tests.cli.harness import ROOT

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from garkcli.check.meanings import explain
-from garkcli.glossary.data import read
+from garkcli.glossary import read
 from garkcli.glossary.fields import ORDERS, field_entries
 from garkcli.report.field_texts import fields_of, text_of
 from garkcli.report.schemas import REPORTS, report_schema
