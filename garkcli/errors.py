@@ -119,9 +119,17 @@ class TooManyTerms(MethodError):
 
 
 class ZeroWeight(MethodError):
-    """A symplectic conjugate was asked for where a weight is zero."""
+    """A symplectic conjugate was asked for where a weight is zero.
+
+    Attributes:
+        reason: the message as a value, which outputs word.
+    """
 
     code = "zero-weight"
+
+    def __init__(self, reason: Any, help: str = "") -> None:
+        super().__init__(str(reason), help)
+        self.reason = reason
 
 
 class VanishingDenominator(MethodError, ZeroDivisionError):

@@ -213,7 +213,7 @@ def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Ite
     if part.of is _embedded:
         # the entries of A are those of the method too
         repairs.sort(key=lambda repair: repair.m is not None)
-    shown = repair_text(repairs[0], names)
+    shown = str(repair_text(repairs[0], names))
     if part.of is _embedded and repairs[0].m is None:
         shown = f"embedded {shown}"
     yield f"order {claimed} would hold with {shown}"

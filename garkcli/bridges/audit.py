@@ -227,7 +227,7 @@ def _repair(subject: Subject, tableau: Tableau, found: Judged, declared: int) ->
     if blame is None or len(blame.repairs) != 1:
         return ""
     names = [colour.name for colour in tableau.colours]
-    return repair_text(blame.repairs[0], names)
+    return str(repair_text(blame.repairs[0], names))
 
 
 def _embedded(subject: Subject) -> Iterator[AuditFinding]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
+from garkcli.reason import NO_REASON, Reason
 
 
-def claim_of(claim: ClaimText, found: str, holds: bool, why: str = "") -> Claim:
+def claim_of(claim: ClaimText, found: str, holds: bool, reason: Reason = NO_REASON) -> Claim:
     """A claim with what was found."""
     mark = claim.node.start_mark
     return Claim(
@@ -17,7 +18,7 @@ def claim_of(claim: ClaimText, found: str, holds: bool, why: str = "") -> Claim:
         holds=holds,
         line=mark.line + 1,
         column=mark.column + 1,
-        why="" if holds else why,
+        reason=NO_REASON if holds else reason,
     )
 
 

@@ -13,6 +13,7 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
+from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.meant import derived, printed
 from garkcli.tableau.tableau import Tableau
@@ -81,7 +82,7 @@ class Analysis(Shown):
     pair_bound: int | None
     sharp_bound: int
     pair_sharp_bound: int | None
-    obstacle: str
+    obstacle: Reason
     limit: int
     tolerance: fmpq | None = None
     nonautonomous_order: AnyOrder | None = None
@@ -108,17 +109,17 @@ class Analysis(Shown):
 
 
 @doing("conjugate and pair")
-def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, str]:
+def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, Reason]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
-    conjugated, both, obstacle = None, None, ""
+    conjugated, both, obstacle = None, None, NO_REASON
     try:
         conjugated = derived(method, "conjugate")
     except ZeroWeight as error:
-        obstacle = error.message
+        obstacle = error.reason
     try:
         both = derived(method, "pair")
     except ZeroWeight as error:
-        obstacle = error.message
+        obstacle = error.reason
     return conjugated, both, obstacle
 
 

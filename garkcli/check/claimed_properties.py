@@ -14,7 +14,7 @@ from garkcli.properties.subject import Subject
 def verify_property(claim: ClaimText, subject: Subject) -> Claim:
     """Hold a claim on a property against the truth."""
     verdict = subject.verdict(claim.key)
-    return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.why)
+    return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.reason)
 
 
 def _found(verdict: Verdict) -> str:

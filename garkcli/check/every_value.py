@@ -18,6 +18,7 @@ from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.order.simplifying import simplifying
+from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.conjugate import is_symplectic, symplectic_defects
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import pair, with_time
@@ -51,7 +52,7 @@ class EveryValue:
     order: EveryOrder
     conjugate: EveryOrder | None
     pair: EveryOrder | None
-    obstacle: str
+    obstacle: Reason
     simplifying: Fact
     inconsistent: Fact
     symplectic: Fact
@@ -129,13 +130,13 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
             depends on them.
     """
     family = every_family(file)
-    conjugate, both, obstacle = None, None, ""
+    conjugate, both, obstacle = None, None, NO_REASON
     order = every_order(family, "method", limit)
     try:
         conjugate = every_order(family, "conjugate", limit)
         both = every_order(family, "pair", limit)
     except ZeroWeight as error:
-        obstacle = error.message
+        obstacle = error.reason
     return EveryValue(
         file=file,
         family=family,

@@ -12,6 +12,7 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
+from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
 from garkcli.tableau.forms import with_time
 from garkcli.trees.notation import format_tree
 
@@ -33,25 +34,28 @@ _LONG = 60
 """Characters of value and residual beyond which a witness is shown in decimals."""
 
 
-def witness_text(witness: Witness, colours: bool) -> str:
+def witness_text(witness: Witness, colours: bool) -> Reason:
     """Which condition fails, and by how much; ``colours`` where there are several."""
-    return _told(witness, format_tree(witness.tree, colours))
+    return _told(witness, Code(format_tree(witness.tree, colours)))
 
 
-def dense_witness_text(found: DenseWitness, colours: bool) -> str:
+def dense_witness_text(found: DenseWitness, colours: bool) -> Reason:
     """Which power of θ in the condition of which tree is not what it should be."""
-    tree = format_tree(found.witness.tree, colours)
-    return _told(found.witness, f"{tree}, at θ^{found.power}")
+    tree = Code(format_tree(found.witness.tree, colours))
+    power = Formula(f"θ^{found.power}", rf"\theta^{{{found.power}}}")
+    return _told(found.witness, Reason("{}, at {}", tree, power))
 
 
-def _told(witness: Witness, condition: str) -> str:
-    value = to_text(witness.value)
-    residual = to_text(witness.residual)
-    if len(value) + len(residual) > _LONG:
-        value = f"about {to_decimal(witness.value, 8)}"
-        residual = to_decimal(witness.residual, 4)
-    where = f"fails at order {witness.tree.order}: {condition}"
-    return f"{where}: {value} instead of {witness.required}, off by {residual}"
+def _told(witness: Witness, condition: Code | Reason) -> Reason:
+    value, residual = to_text(witness.value), to_text(witness.residual)
+    is_long = len(value) + len(residual) > _LONG
+    return Reason(
+        f"fails at order {witness.tree.order}: {{}}: {{}} instead of {{}}, off by {{}}",
+        condition,
+        f"about {to_decimal(witness.value, 8)}" if is_long else Formula(value),
+        Formula(str(witness.required)),
+        to_decimal(witness.residual, 4) if is_long else Formula(residual),
+    )
 
 
 def bound_numbers(found: Simplifying) -> str:
@@ -63,27 +67,27 @@ def bound_numbers(found: Simplifying) -> str:
     )
 
 
-def claim_witness(outcome: Outcome, claim: str) -> str:
+def claim_witness(outcome: Outcome, claim: str) -> Reason:
     """The witness against a failed claim on an order, what a bound is made of, or what speaks
     against a property; empty where there is none of these.
     """
     for failed in outcome.failed_claims:
-        if failed.claim == claim and failed.why:
-            return failed.why
+        if failed.claim == claim and failed.reason:
+            return failed.reason
     analysis = outcome.analysis
     if analysis is None:
-        return ""
+        return NO_REASON
     if claim.endswith("bound"):
         return _bound_witness(analysis, claim)
     if claim == "dense-order":
         dense = analysis.dense
         if dense is None or dense.order.witness is None:
-            return ""
+            return NO_REASON
         has_colours = analysis.tableau.size > 1
         return dense_witness_text(dense.order.witness, has_colours)
     order, tableau = _order_of(analysis, claim)
     if order is None or tableau is None or order.witness is None:
-        return ""
+        return NO_REASON
     return witness_text(order.witness, tableau.size > 1)
 
 
@@ -104,74 +108,71 @@ def _order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau 
     return found.get(claim, (None, None))
 
 
-def _bound_witness(analysis: Analysis, claim: str) -> str:
+def _bound_witness(analysis: Analysis, claim: str) -> Reason:
     """How a bound comes about; empty where there is no pair."""
     found = analysis.simplifying
     if claim.startswith("pair-"):
         if analysis.pair_simplifying is None:
-            return ""
+            return NO_REASON
         found = analysis.pair_simplifying
     equation = f"{found.bound} = {BOUND}"
     if claim.endswith("sharp-bound"):
         equation = f"{found.sharp_bound} = {SHARP_BOUND}"
-    return f"{equation} with {bound_numbers(found)}"
+    return Reason("{} with {}", equation, bound_numbers(found))
 
 
-def claim_hint(outcome: Outcome, claim: str) -> str:
+def claim_hint(outcome: Outcome, claim: str) -> Reason:
     """What would mend a failed claim on an order, or one that fails with it; empty where nothing is
     known.
     """
     analysis, blame = outcome.analysis, outcome.blame
     if analysis is None:
-        return ""
+        return NO_REASON
     names = [colour.name for colour in analysis.tableau.colours]
     if blame is not None and claim in blame.restores:
         first = repair_text(blame.repairs[0], names)
-        return f"it fails with {blame.of}, and would hold with {first}"
+        return Reason(f"it fails with {blame.of}, and would hold with {{}}", first)
     orders = {"order", "conjugate-order", "pair-order", "embedded-order"}
     if claim not in orders:
-        return ""
+        return NO_REASON
     found = analysis.suggestion
     if found is not None and claim != "embedded-order":
-        return f"with the line {found.line} the order is {found.order}"
+        return Reason(f"with the line {{}} the order is {found.order}", found.line)
     if analysis.misprint is not None and analysis.misprint.repairs:
         first = repair_text(analysis.misprint.repairs[0], names)
-        return f"an entry looks misprinted: {first}"
+        return Reason("an entry looks misprinted: {}", first)
     if blame is not None and blame.of == claim and blame.repairs:
         first = repair_text(blame.repairs[0], names)
-        return f"the claimed order would hold with {first}"
-    return ""
+        return Reason("the claimed order would hold with {}", first)
+    return NO_REASON
 
 
-def repair_text(repair: Repair, names: Sequence[str]) -> str:
-    """An entry, as it should be and as it is."""
-    place = place_text(repair, names)
-    new = value_text(repair.new)
-    old = value_text(repair.old)
-    return f"{place} = {new} instead of {old}"
+def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
+    """An entry, as it should be and as it is.
+
+    Args:
+        repair: an entry with another value.
+        names: of the colours.
+    """
+    colours = [repair.l] if repair.i is None or repair.m is None else [repair.l, repair.m]
+    letter = "b" if len(colours) == 1 else "a"
+    indices = (repair.j,) if repair.i is None or repair.m is None else (repair.i, repair.j)
+    place = Place(letter, names_of(colours, names), indices)
+    kind = "embedded " if repair.is_embedded and letter == "b" else ""
+    new, old = value_text(repair.new), value_text(repair.old)
+    return Reason(f"{kind}{{}} = {{}} instead of {{}}", place, new, old)
 
 
-def place_text(repair: Repair, names: Sequence[str]) -> str:
-    """Where an entry is, counted from 1; ``names`` of the colours: ``a[2,1]``, ``a{q,p}[2,1]``."""
-    if repair.m is None or repair.i is None:
-        letter, whose, indices = "b", names[repair.l], f"{repair.j + 1}"
-        letter = "embedded b" if repair.is_embedded else letter
-    else:
-        letter, whose = "a", f"{names[repair.l]},{names[repair.m]}"
-        indices = f"{repair.i + 1},{repair.j + 1}"
-    return f"{letter}{f'{{{whose}}}' if len(names) > 1 else ''}[{indices}]"
+def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
+    """The names of some colours, where there are several."""
+    return tuple(names[l] for l in colours) if len(names) > 1 else ()
 
 
-def block_text(letter: str, block: Sequence[int], names: Sequence[str]) -> str:
-    """A block of A, ``A{q,p}``; of one colour ``A``."""
-    return f"{letter}{{{','.join(names[l] for l in block)}}}" if len(names) > 1 else letter
-
-
-def value_text(number: Number, digits: int = 17) -> str:
+def value_text(number: Number, digits: int = 17) -> Formula | str:
     """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
     text = to_text(number)
     if len(text) <= _SHORT:
-        return text
+        return Formula(text)
     shown = to_decimal(number, 60)
     magnitude = shown.lstrip("-")
     if isinstance(number, fmpq) and read_decimal(magnitude) == abs(number):

@@ -81,7 +81,7 @@ def _failed_claims(outcome: Outcome) -> Iterator[Part]:
         if witness:
             message = f"{message}; {witness}"
         hint = claim_hint(outcome, claim.claim)
-        yield Part(message, hint, claim.claim, claim.line, claim.column)
+        yield Part(message, str(hint), claim.claim, claim.line, claim.column)
 
 
 def _missing_claims(outcome: Outcome) -> Iterator[Part]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.check.analysis import Analysis
 from garkcli.errors import Fault, counted, printable
+from garkcli.reason import NO_REASON, Reason
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ class Claim:
         holds: whether they agree.
         line: the line of the claim in the file, from 1.
         column: its column, from 1.
-        why: of a property that is claimed in vain, what speaks against it.
+        reason: of a property that is claimed in vain, what speaks against it.
     """
 
     claim: str
@@ -35,7 +36,12 @@ class Claim:
     holds: bool
     line: int
     column: int
-    why: str = ""
+    reason: Reason = NO_REASON
+
+    @property
+    def why(self) -> str:
+        """The reason as text."""
+        return str(self.reason)
 
 
 @dataclass(frozen=True, repr=False)

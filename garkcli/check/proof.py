@@ -8,6 +8,7 @@ from garkcli.check.analysis import conjugate_and_pair
 from garkcli.doing import doing
 from garkcli.errors import MethodError
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
+from garkcli.reason import Reason
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import printed
 from garkcli.upward import Shown
@@ -30,7 +31,7 @@ class MethodProof(Shown):
     method: Proof
     conjugate: Proof | None
     pair: Proof | None
-    obstacle: str
+    obstacle: Reason
 
     def __repr__(self) -> str:
         proofs = {"conjugate": self.conjugate, "pair": self.pair}

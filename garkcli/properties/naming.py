@@ -8,41 +8,47 @@ from itertools import pairwise
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.properties.pattern import Vertex
+from garkcli.reason import Formula, Place, Reason
 from garkcli.tableau.tableau import Tableau
 
 _SHORT = 24
 """Longer numbers are shown in decimals."""
 
 
-def number_text(number: Number) -> str:
+def number_words(number: Number) -> Formula | str:
     """A number as it is, or its first digits."""
     text = to_text(number)
-    if len(text) <= _SHORT:
-        return text
-    return f"about {to_decimal(number, 6)}"
+    return Formula(text) if len(text) <= _SHORT else f"about {to_decimal(number, 6)}"
 
 
-def entry_name(tableau: Tableau, space: int, m: int, i: int, j: int) -> str:
+def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
     """An entry of a block, ``a[2,1]``; of several colours ``a{q,p}[2,1]``.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
-    >>> entry_name(gark([diagonal_method("heun", None)], {}), 0, 0, 1, 0)
-    'a[2,1]'
+    >>> print(entry(gark([diagonal_method("heun", None)], {}), 0, 0, 1, 0))
+    a[2,1]
     """
-    seer, *_ = _names_of(tableau, space)
-    return place_name("a", tableau, [seer, tableau.colours[m].name], i, j)
+    seer = next(l for l, x in enumerate(tableau.colours) if x.space == space)
+    return place("a", tableau, [seer, m], i, j)
 
 
-def weight_name(tableau: Tableau, m: int, j: int) -> str:
-    """A weight of a colour, ``b[1]``."""
-    return place_name("b", tableau, [tableau.colours[m].name], j)
+def place(letter: str, tableau: Tableau, colours: Sequence[int], *indices: int) -> Place:
+    """An entry of a block or a row; its colours are named where there are several.
+
+    Args:
+        letter: a, b, c or A.
+        tableau: the method.
+        colours: of the block or row, counted from 0.
+        indices: of the entry, counted from 0; none for the whole.
+    """
+    names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
+    return Place(letter, tuple(names), indices)
 
 
-def place_name(letter: str, tableau: Tableau, colours: Sequence[str], *indices: int) -> str:
-    """An entry of a block or a row, counted from 0; its colours where there are several."""
-    whose = f"{{{','.join(colours)}}}" if tableau.size > 1 else ""
-    return f"{letter}{whose}[{','.join(str(i + 1) for i in indices)}]"
+def entry_is(place: Place, number: Number) -> Reason:
+    """What an entry is, ``b[1] is -1/4``."""
+    return Reason("{} is {}", place, number_words(number))
 
 
 def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
@@ -59,30 +65,21 @@ def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
     parts = []
     for space, stages in by_space.items():
         noun = "stage" if len(stages) == 1 else "stages"
-        numbers = ranges(stages)
-        whose = _of_colours(tableau, space)
-        parts.append(f"{noun} {numbers}{whose}")
+        parts.append(f"{noun} {_ranges(stages)}{_of_colours(tableau, space)}")
     return " and ".join(parts)
-
-
-def _names_of(tableau: Tableau, space: int) -> list[str]:
-    """The colours that share a stage space."""
-    return [x.name for x in tableau.colours if x.space == space]
 
 
 def _of_colours(tableau: Tableau, space: int) -> str:
     if len(tableau.spaces) == 1:
         return ""
-    names = _names_of(tableau, space)
-    word = "colour" if len(names) == 1 else "colours"
-    listed = ", ".join(names)
-    return f" of {word} {listed}"
+    names = [x.name for x in tableau.colours if x.space == space]
+    return f" of {'colour' if len(names) == 1 else 'colours'} {', '.join(names)}"
 
 
-def ranges(numbers: Sequence[int]) -> str:
+def _ranges(numbers: Sequence[int]) -> str:
     """Ascending numbers with runs drawn together.
 
-    >>> ranges([1, 2, 3, 5, 7, 8])
+    >>> _ranges([1, 2, 3, 5, 7, 8])
     '1-3, 5, 7-8'
     """
     runs = [[numbers[0]]]
@@ -91,10 +88,4 @@ def ranges(numbers: Sequence[int]) -> str:
             runs[-1].append(number)
         else:
             runs.append([number])
-    texts = []
-    for first, *others in runs:
-        text = str(first)
-        if others:
-            text += f"-{others[-1]}"
-        texts.append(text)
-    return ", ".join(texts)
+    return ", ".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else str(run[0]) for run in runs)

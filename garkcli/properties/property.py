@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from garkcli.reason import NO_REASON, Reason
+
 if TYPE_CHECKING:
     from garkcli.exact.roots import RealRoot
     from garkcli.properties.subject import Subject
@@ -67,30 +69,35 @@ class Verdict:
 
     Attributes:
         value: of the kind of the property; None where it has no meaning or is not decided.
-        why: the entry, the pole or the polynomial that decides; why there is no value.
+        reason: the entry, the pole or the polynomial that decides; why there is no value.
         is_undecided: whether it has a meaning, but is not decided.
         is_at_least: whether a whole number may be larger.
     """
 
     value: Value | None
-    why: str = ""
+    reason: Reason = NO_REASON
     is_undecided: bool = False
     is_at_least: bool = False
 
     @classmethod
-    def meaningless(cls, why: str) -> Verdict:
+    def meaningless(cls, why: Reason) -> Verdict:
         """The property has no meaning for the method."""
         return cls(None, why)
 
     @classmethod
     def undecided(cls, why: str) -> Verdict:
         """It has a meaning, and is left open."""
-        return cls(None, why, is_undecided=True)
+        return cls(None, Reason(why), is_undecided=True)
 
     @classmethod
-    def unless(cls, obstacle: str) -> Verdict:
+    def unless(cls, obstacle: Reason) -> Verdict:
         """True, or false with what is in its way."""
         return cls(not obstacle, obstacle)
+
+    @property
+    def why(self) -> str:
+        """The reason as text."""
+        return str(self.reason)
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.registry import find
 from garkcli.properties.symmetry import Symmetry, symmetry
+from garkcli.reason import Reason
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.within import StabilityWithin
 
-MISSING_BLOCKS = "some stages do not see every vector field"
+MISSING_BLOCKS = Reason("some stages do not see every vector field")
 """Why what is about all vector fields together has no meaning where blocks are missing."""
 
 

@@ -205,7 +205,7 @@ REPORT: Report[MethodProof] = Report.only(
         Row("method", part(PROOF), level=DETAIL),
         Row("conjugate", part(PROOF), level=DETAIL, is_optional=True),
         Row("pair", part(TRUTH_OF), _pair, DETAIL, is_optional=True),
-        Row("no_conjugate", TEXT, lambda x: x.obstacle or None, is_optional=True),
+        Row("no_conjugate", TEXT, lambda x: str(x.obstacle) or None, is_optional=True),
         title=lambda x, d: d.prose(x.name),
     ),
 )

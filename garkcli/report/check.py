@@ -12,13 +12,12 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import counted, folded
 from garkcli.properties.registry import KEYS, find
+from garkcli.reason import NO_REASON, Reason
 from garkcli.report.failure import FAULT
 from garkcli.tell.facts import (
-    NO_REASON,
     Answer,
     Kind,
     Level,
-    Reason,
     Row,
     Section,
     Status,
@@ -134,7 +133,7 @@ def of_several(key: str) -> Row:
         is_told = a.tableau.size > 1 and (answer.value or key == "conjugate_order")
         level = USUAL if is_told else DETAIL  # there is no pair where there is no conjugate
         return replace(
-            answer, reason=Reason(a.obstacle) if answer.value is None else NO_REASON, level=level
+            answer, reason=a.obstacle if answer.value is None else NO_REASON, level=level
         )
 
     return Row(key, ORDER, get, has_null=True)
@@ -270,7 +269,7 @@ def wrong(found: Sequence[Any], letter: str, within: Any) -> Answer:
     """Whether the nodes are the row sums."""
 
     def words(found: Any, d: Plain) -> str:
-        return d.few([d.place(letter, edge, ()) + d.prose("𝟙") for edge in found])
+        return d.few([d.block(letter, edge) + d.prose("𝟙") for edge in found])
 
     blocks = Kind({}, words=words)
     verb = "differs" if len(found) == 1 else "differ"
@@ -284,7 +283,7 @@ def wrong(found: Sequence[Any], letter: str, within: Any) -> Answer:
 def consistent(a: Any) -> Answer:
     """The same of the method, told where they are not."""
     return replace(
-        wrong(a.inconsistent, "a", a.tolerance), level=USUAL if a.inconsistent else DETAIL
+        wrong(a.inconsistent, "A", a.tolerance), level=USUAL if a.inconsistent else DETAIL
     )
 
 
@@ -293,15 +292,15 @@ def conjugate_consistent(a: Any) -> Any:
     if a.conjugate is None:
         return None
     is_told = a.conjugate_inconsistent and a.tableau.size > 1
-    found = wrong(a.conjugate_inconsistent, "â", a.tolerance)
+    found = wrong(a.conjugate_inconsistent, "Â", a.tolerance)
     return replace(found, level=USUAL if is_told else DETAIL)
 
 
 def verdict_answer(v: Any) -> Answer:
     """What is decided of a property."""
-    status = Status(at_least=v.is_at_least, open=Reason(v.why if v.is_undecided else ""))
-    why = NO_REASON if v.value is True or v.is_undecided else Reason(v.why)
-    return Answer(v.value, status, why)
+    status = Status(at_least=v.is_at_least, open=v.reason if v.is_undecided else NO_REASON)
+    is_told = v.value is not True and not v.is_undecided
+    return Answer(v.value, status, v.reason if is_told else NO_REASON)
 
 
 WORTH_A_WORD = {
@@ -559,7 +558,7 @@ SUGGESTION = Section(
 )
 
 
-def hints(o: Any) -> list[str]:
+def hints(o: Any) -> list[Reason]:
     """What failing conditions tell, a sentence or two each."""
     a = o.analysis
     if a.suggestion is None and a.misprint is None and o.blame is None:
@@ -574,7 +573,7 @@ def hints(o: Any) -> list[str]:
     ]
 
 
-HINTS = Row("hints", rows_of(lambda xs, d: [(d.note("hint"), d.prose(x)) for x in xs]), hints)
+HINTS = Row("hints", rows_of(lambda xs, d: [(d.note("hint"), d.reason(x)) for x in xs]), hints)
 
 
 # error constants, further weights
@@ -658,7 +657,7 @@ def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
     )
     reason = NO_REASON
     if found.witness is not None:
-        reason = Reason(dense_witness_text(found.witness, has_colours))
+        reason = dense_witness_text(found.witness, has_colours)
     return Answer(found.order, Status(found.tolerance, found.is_lower_bound, is_open), reason)
 
 
@@ -776,9 +775,9 @@ def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
     rows = []
     for c in outcome.failed_claims:
         said = f"{c.claim}: expected {c.expected}, found {c.found}"
-        why = f"; {c.why}" if c.why else ""
-        place = f"({outcome.file}:{c.line}:{c.column})"
-        rows.append((d.bad("CLAIM FAILS"), d.prose(f"{said}{why} {place}")))
+        why = f"; {d.reason(c.reason)}" if c.reason else ""
+        place = f" ({outcome.file}:{c.line}:{c.column})"
+        rows.append((d.bad("CLAIM FAILS"), d.prose(said) + why + d.prose(place)))
     missing = [CLAIM_CURE] if outcome.makes_no_claim else [*outcome.lacks, CLAIM_CURE]
     if outcome.lacks:
         rows += [(d.bad("NO CLAIM"), d.prose(message)) for message in missing]
@@ -842,10 +841,11 @@ def every_property(o: Any) -> Any:
 
 
 def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
-    return [
-        (key, d.prose(verdict_words(v) + (f": {v.why}" if v.why and v.value is not True else "")))
-        for key, v in found
-    ]
+    rows = []
+    for key, v in found:
+        why = f": {d.reason(v.reason)}" if v.reason and v.value is not True else ""
+        rows.append((key, d.prose(verdict_words(v)) + why))
+    return rows
 
 
 HEAD = (Row("file", TEXT, level=DATA), Row("name", TEXT, named, DETAIL))

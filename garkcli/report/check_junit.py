@@ -80,8 +80,7 @@ def _add_failure(case: ET.Element, outcome: Outcome, claim: Claim) -> None:
     failure = ET.SubElement(case, "failure", message=message, type="claim")
     witness = claim_witness(outcome, claim.claim)
     hint = claim_hint(outcome, claim.claim)
-    details = filter(None, (witness, hint))
-    text = "\n".join(details)
+    text = "\n".join(str(x) for x in (witness, hint) if x)
     failure.text = _clean(text) or None
 
 

@@ -14,6 +14,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.asciiplot import POINT, terminal_curves
 from garkcli.page.figures import for_programs, rounded, scientific
 from garkcli.problems.oscillator import Oscillator
+from garkcli.reason import Reason
 from garkcli.report.costs import curve
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED
@@ -23,7 +24,6 @@ from garkcli.tell.facts import (
     Choice,
     Kind,
     Level,
-    Reason,
     Row,
     Section,
     Status,

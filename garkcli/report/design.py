@@ -21,9 +21,10 @@ from garkcli.exact.polynomial_text import integral, polynomial_text, root_decima
 from garkcli.exact.roots import RealRoot
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
+from garkcli.reason import Reason
 from garkcli.report.design_values import conditions, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
-from garkcli.tell.facts import Kind, Level, Reason, Row, Section, part, parts, rows_of, told, via
+from garkcli.tell.facts import Kind, Level, Row, Section, part, parts, rows_of, told, via
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
 from garkcli.tell.report import Report
 

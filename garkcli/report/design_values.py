@@ -12,8 +12,8 @@ from garkcli.design.design import Step
 from garkcli.design.ideal import integral_scale
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.reason import Reason
 from garkcli.tableau.family import Family, Radical
-from garkcli.tell.facts import Reason
 from garkcli.tell.kinds import EXPRESSION
 
 AnyPolynomial: TypeAlias = "fmpq_mpoly | fmpz_mpoly"

@@ -15,21 +15,10 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.paint import counted
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS
+from garkcli.reason import Reason
 from garkcli.report.check import verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tell.facts import (
-    SAID,
-    Answer,
-    Kind,
-    Level,
-    Reason,
-    Row,
-    Section,
-    Status,
-    part,
-    parts,
-    table,
-)
+from garkcli.tell.facts import SAID, Answer, Kind, Level, Row, Section, Status, part, parts, table
 from garkcli.tell.facts import told as told_kind
 from garkcli.tell.kinds import (
     COUNT,
@@ -104,8 +93,8 @@ def _entry_words(x: Any, d: Plain) -> str:
     """An entry: exact where it is short."""
     if isinstance(x, arb):
         return d.prose(str(x.str(12, radius=False)))
-    text = value_text(x, 12)
-    return d.number(x) if text == to_text(x) else d.prose(text)
+    found = value_text(x, 12)
+    return d.prose(found) if isinstance(found, str) else d.number(x)
 
 
 def _verdict_cell(verdict: Any, d: Plain) -> str:
@@ -220,7 +209,7 @@ def _block_words(gap: Gap, d: Plain) -> str:
     block = gap.block
     colours = [block.colour] if block.seen is None else [block.colour, block.seen]
     if block.kind not in NAMES:
-        return d.place(block.kind.lower(), colours, ())
+        return d.block(block.kind, colours)
     colour = f" {{{d.colours[block.colour]}}}" if len(d.colours) > 1 else ""
     return d.prose(NAMES[block.kind] + colour + (f", θ^{block.power}" if block.power else ""))
 

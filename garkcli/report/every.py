@@ -19,6 +19,7 @@ from garkcli.exact.polynomial_text import power_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.properties.registry import KEYS
+from garkcli.reason import NO_REASON
 from garkcli.report import check as c
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, rows_of
 from garkcli.tell.kinds import (
@@ -163,7 +164,7 @@ EVERY_ORDER = Kind(
 BLOCK_LISTS = Kind(
     BLOCKS.schema,
     lambda x, _: numbers_from_one(x),
-    lambda x, d: f"no: {d.few([d.place('a', edge, ()) for edge in x])}" if x else "yes",
+    lambda x, d: f"no: {d.few([d.block('A', edge) for edge in x])}" if x else "yes",
 )
 
 
@@ -184,9 +185,7 @@ def obstacle(get: Callable[[Any], Any]) -> Callable[[Any], Answer]:
     """An order of the conjugate or the pair, or why there is none; a detail of one colour."""
 
     def answer(e: Any) -> Answer:
-        from garkcli.tell.facts import Reason
-
-        reason = Reason("" if get(e) is not None else e.obstacle)
+        reason = NO_REASON if get(e) is not None else e.obstacle
         return Answer(get(e), reason=reason, level=None if e.tableau.size > 1 else DETAIL)
 
     return answer

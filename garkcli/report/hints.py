@@ -6,15 +6,16 @@ from collections.abc import Sequence
 
 from flint import arb, fmpq
 
-from garkcli.check.explained import block_text, repair_text
+from garkcli.check.explained import names_of, repair_text
 from garkcli.exact.display import decimal
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.suggestion import Misprint, Suggestion
+from garkcli.reason import Place, Reason, joined
 
 MOST_REPAIRS = 3
 
 
-def blame_text(blame: Blame, own: Sequence[str]) -> str:
+def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
     """Which conditions fail, which block takes part in all of them, and what would mend them.
 
     Args:
@@ -30,48 +31,52 @@ def blame_text(blame: Blame, own: Sequence[str]) -> str:
         fail = f"{blame.of}: {fail}"
     if blame.only_coupling and len(names) > 1:
         fail += ", all of them coupling conditions"
-    texts = [fail]
+    texts = [Reason(fail)]
     if blame.culprit is not None and len(names) > 1:
-        culprit = block_text(letter, blame.culprit, names)
-        texts.append(f"{culprit} takes part in every one of them: look there first")
+        culprit = Place(letter, names_of(blame.culprit, names))
+        texts.append(Reason("{} takes part in every one of them: look there first", culprit))
     elif len(blame.in_every) > 1:
-        texts.append(f"in every one of them: {_blocks(letter, blame.in_every, names)}")
+        texts.append(Reason("in every one of them: {}", _blocks(letter, blame.in_every, names)))
     if blame.in_none:
-        texts.append(f"in none of them: {_blocks(letter, blame.in_none, names)}")
+        texts.append(Reason("in none of them: {}", _blocks(letter, blame.in_none, names)))
     if blame.repairs:
         also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
-        texts.append(f"the claimed order would hold with {_repairs(blame.repairs, own)}{also}")
-    return "; ".join(texts)
+        mended = _repairs(blame.repairs, own)
+        texts.append(Reason(f"the claimed order would hold with {{}}{also}", mended))
+    return joined("; ", texts)
 
 
-def _blocks(letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str]) -> str:
-    return ", ".join(block_text(letter, block, names) for block in blocks)
+def _blocks(letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str]) -> Reason:
+    return joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
 
 
-def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> str:
-    return ", or ".join(repair_text(x, names) for x in repairs[:MOST_REPAIRS])
+def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
+    return joined(", or ", [repair_text(x, names) for x in repairs[:MOST_REPAIRS]])
 
 
-def misprint_text(found: Misprint, names: Sequence[str]) -> str:
+def misprint_text(found: Misprint, names: Sequence[str]) -> Reason:
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
     text = (
         f"up to order {found.order} the residuals are at most {size(found.residual)}, the digits in"
         f" the file explain {size(found.explained)}: an entry looks misprinted"
     )
     if not found.repairs:
-        return text
-    return f"{text}; order {found.order} would hold with {_repairs(found.repairs, names)}"
+        return Reason(text)
+    mended = _repairs(found.repairs, names)
+    return Reason(f"{text}; order {found.order} would hold with {{}}", mended)
 
 
-def suggestion_text(found: Suggestion, tolerance: fmpq | None) -> str:
+def suggestion_text(found: Suggestion, tolerance: fmpq | None) -> Reason:
     """The coefficients look rounded, or more so than they say: what to write into the file."""
-    cure = f"with the line {found.line} the order is {found.order}"
+    cure = f"with the line {{}} the order is {found.order}"
     rounding = size(found.rounding)
     if tolerance is not None:
         effect = f"rounding by {decimal(tolerance)} makes residuals up to {rounding}"
-        return f"{effect}: the tolerance is too tight; {cure}"
+        return Reason(f"{effect}: the tolerance is too tight; {cure}", found.line)
     small = f"up to order {found.order} the residuals are at most {rounding}, then"
-    return f"{small} {size(found.genuine)}: the coefficients look rounded; {cure}"
+    return Reason(
+        f"{small} {size(found.genuine)}: the coefficients look rounded; {cure}", found.line
+    )
 
 
 def size(ball: arb) -> str:

@@ -13,14 +13,13 @@ from garkcli.exact.field import Number
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.latex import number
 from garkcli.page.paint import counted
+from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import WORDS, describe
 from garkcli.tell.facts import (
-    NO_REASON,
     Answer,
     Beside,
     Kind,
     Level,
-    Reason,
     Row,
     Section,
     Status,

@@ -54,7 +54,7 @@ def _is_large(method: GarkMethod) -> bool:
 def witness_html(witness: Witness) -> str:
     """The tree at which an order ends, and its condition."""
     colours = len(witness.tree.colours) > 1 or bool(witness.tree.root)
-    text = witness_text(witness, colours)
+    text = str(witness_text(witness, colours))
     picture = draw_svg_sheet([witness.tree])
     return f"{picture}<p>{_text(text)}</p>"
 

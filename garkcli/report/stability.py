@@ -22,6 +22,7 @@ from garkcli.exact.polynomial_text import (
 from garkcli.exact.roots import RealRoot
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.reason import NO_REASON, Reason
 from garkcli.report.stability_region import damped_lines, region_lines
 from garkcli.stability.ball_polynomials import Bounds
 from garkcli.stability.fraction import MOST_LINES, Fraction
@@ -29,20 +30,7 @@ from garkcli.stability.linear import poles_are_right
 from garkcli.stability.summary import Stability
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
-from garkcli.tell.facts import (
-    NO_REASON,
-    Answer,
-    Kind,
-    Level,
-    Reason,
-    Row,
-    Section,
-    Status,
-    part,
-    parts,
-    picture,
-    via,
-)
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, picture, via
 from garkcli.tell.kinds import (
     BOUNDS,
     EXACT,

@@ -20,6 +20,7 @@ from garkcli.exact.matrix import (
     subtract,
     transpose,
 )
+from garkcli.reason import Reason
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
@@ -46,7 +47,7 @@ def conjugate_block(
         adjoint = other.adjoint(block, b_other, here, b)
     except SingularMatrixError:
         raise ZeroWeight(
-            f"the symplectic conjugate divides by the weights b, {here.zero_weights(b)}",
+            Reason("the symplectic conjugate divides by the weights b, {}", here.zero_weights(b)),
             "a conjugate exists for nonzero weights only",
         ) from None
     return subtract(outer(here.one, b_other), adjoint)
@@ -89,8 +90,9 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
     try:
         return conjugate_block(block, space, here.b, other_space, other.b)
     except ZeroWeight as error:
-        message = f"colour {here.name}: {error.message}"
-        raise ZeroWeight(message, error.help) from None
+        if tableau.size == 1:
+            raise
+        raise ZeroWeight(Reason("colour {}: {}", here.name, error.reason), error.help) from None
 
 
 def are_opposite(one: Colour, other: Colour) -> bool:

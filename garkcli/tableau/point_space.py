@@ -14,6 +14,7 @@ from flint import fmpq, fmpq_poly, fmpz
 from garkcli.errors import CoincidingNodes
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, is_rational, transpose
+from garkcli.reason import Formula, Reason
 from garkcli.tableau.stages import StageSpace, in_flint
 
 MAX_BITS_COMPARED = 5_000_000
@@ -94,11 +95,13 @@ class PointSpace(StageSpace):
     def _lifts(self) -> Matrix:
         return transpose(tuple(self.basis_polynomials()))
 
-    def zero_weights(self, weights: Vector) -> str:
-        names = [f"b_{i}" for i, weight in enumerate(weights, start=1) if not weight]
-        if len(names) > 4:
-            names = [*names[:3], "…"]
-        return " = ".join([*names, "0"])
+    def zero_weights(self, weights: Vector) -> Reason:
+        numbers = [i for i, weight in enumerate(weights, start=1) if not weight]
+        shown = numbers[:3] if len(numbers) > 4 else numbers
+        end = "0" if shown == numbers else "… = 0"
+        text = " = ".join([*(f"b_{i}" for i in shown), end])
+        latex = " = ".join([*(f"b_{{{i}}}" for i in shown), end.replace("…", r"\dots")])
+        return Reason("{}", Formula(text, latex))
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:
         return _scaled_rows(weights, block)

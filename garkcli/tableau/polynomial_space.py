@@ -30,6 +30,7 @@ from garkcli.exact.matrix import (
 )
 from garkcli.exact.nodes import Chain, Expression, Literal, Root
 from garkcli.exact.radicands import square_free
+from garkcli.reason import Formula, Reason
 from garkcli.tableau.stages import StageSpace, in_flint
 
 MAX_BITS_OF_ROW = 20_000
@@ -144,13 +145,13 @@ class PolynomialSpace(StageSpace):
             return solve(self.gram(weights), right)
         return multiply(_inverse_gram(self, weights), right)
 
-    def zero_weights(self, weights: Vector) -> str:
+    def zero_weights(self, weights: Vector) -> Reason:
         if not is_rational((weights,)):
-            return "one of which is 0"
+            return Reason("one of which is 0")
         nodes = self.modulus // self._nodes_with_weight(weights)
         if nodes.degree() == 1:
-            return f"which is 0 at the node {-nodes[0]}"
-        return f"which are 0 at the nodes where {nodes} = 0"
+            return Reason("which is 0 at the node {}", Formula(str(-nodes[0])))
+        return Reason("which are 0 at the nodes where {} = 0", Formula(str(nodes)))
 
     def _nodes_with_weight(self, weights: Vector) -> fmpq_poly:
         """The monic polynomial g with the nodes of nonzero weight as its roots: b(x^i g) = 0 for

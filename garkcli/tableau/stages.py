@@ -19,6 +19,7 @@ from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector, identity, multiply, transpose
+from garkcli.reason import Reason
 
 
 class StageSpace(ABC):
@@ -91,7 +92,7 @@ class StageSpace(ABC):
         return tuple(self.times(weights, e) for e in identity(self.stages))
 
     @abstractmethod
-    def zero_weights(self, weights: Vector) -> str:
+    def zero_weights(self, weights: Vector) -> Reason:
         """Which of the weights are zero, in words; one of them is."""
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:

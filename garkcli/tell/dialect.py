@@ -25,6 +25,7 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.page.paint import Paint, folded, shown_width
 from garkcli.page.plain import inert, printable
+from garkcli.reason import Place, Reason
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
-    from garkcli.tell.facts import Reason, Status
+    from garkcli.tell.facts import Status
     from garkcli.trees.tree import Tree
 
 LONG = 40
@@ -135,18 +136,9 @@ class Plain:
 
     def reason(self, reason: Reason) -> str:
         """Why something is so, its values in the signs of this dialect."""
-        words = [self.prose(x) for x in reason.template.split("{}")]
-        values = []
-        for value in reason.values:
-            if isinstance(value, str):
-                values.append(self.prose(value))
-            else:
-                assert value.kind.words is not None
-                values.append(value.kind.words(value.value, self))
-        pieces = [words[0]]
-        for value, text in zip(values, words[1:], strict=True):
-            pieces += [value, text]
-        return "".join(pieces)
+        return reason.told(
+            self.prose, lambda x: self.prose(x) if isinstance(x, str) else x.words(self)
+        )
 
     def known(self, text: str, status: Status) -> str:
         """A value as it is known: no output can leave that out."""
@@ -230,22 +222,23 @@ class Plain:
 
     # places, trees, sets
 
-    def place(self, letter: str, colours: Sequence[int], indices: Sequence[int]) -> str:
-        """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``.
+    def place(self, place: Place) -> str:
+        """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``."""
+        return self.prose(str(place))
 
-        Args:
-            letter: a, b, c or â.
-            colours: counted from 0.
-            indices: of the entry, counted from 0; none for the whole.
-        """
-        name = letter if indices else letter.upper() if len(colours) == 2 else letter
-        if len(self.colours) > 1:
-            name += "{" + ",".join(self.colours[l] for l in colours) + "}"
-        return name + (f"[{','.join(str(i + 1) for i in indices)}]" if indices else "")
+    def block(self, letter: str, colours: Sequence[int]) -> str:
+        """A whole block or row of the method, by its colours, counted from 0."""
+        names = [self.colours[l] for l in colours] if len(self.colours) > 1 else []
+        return self.place(Place(letter, tuple(names)))
 
     def tree(self, tree: Tree) -> str:
         """A tree in brackets; with one colour that is not named."""
-        return format_tree(tree, len(self.colours) > 1 or bool({*tree.colours} - {0}))
+        has_colours = len(self.colours) > 1 or bool({*tree.colours} - {0})
+        return self.code(format_tree(tree, has_colours))
+
+    def code(self, text: str) -> str:
+        """What is quoted, such as a tree."""
+        return text
 
     def sketch(self, tree: Tree) -> str:
         """A picture of a tree in a cell, where the output has such."""

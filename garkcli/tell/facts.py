@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from flint import fmpq
 
 from garkcli.page.schema import Schema, array, nullable, one_of
+from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -36,36 +37,15 @@ class Said:
     kind: Kind
     value: Any
 
+    def words(self, dialect: Plain) -> str:
+        """The value in the signs of a dialect."""
+        assert self.kind.words is not None
+        return self.kind.words(self.value, dialect)
 
-class Reason:
-    """Why something is so, as a sentence with values in it; a dialect words it.
-
-    >>> Reason("{} is 0", "b").template
-    '{} is 0'
-    """
-
-    def __init__(self, template: str, *values: Said | str) -> None:
-        self.template = template
-        self.values = values
-
-    def __bool__(self) -> bool:
-        return bool(self.template)
-
-    def __repr__(self) -> str:
+    def __str__(self) -> str:
         from garkcli.tell.dialect import Plain
 
-        return Plain().reason(self)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Reason):
-            return NotImplemented
-        return (self.template, self.values) == (other.template, other.values)
-
-    def __hash__(self) -> int:
-        return hash(self.template)
-
-
-NO_REASON = Reason("")
+        return self.words(Plain())
 
 
 @dataclass(frozen=True)

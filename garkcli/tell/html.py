@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
-    from garkcli.trees.tree import Tree
 
 
 class Html(Plain):
@@ -54,8 +53,8 @@ class Html(Plain):
     def interval(self, x: Interval, variable: str) -> str:
         return super().interval(x, variable).replace(" < ", " &lt; ")
 
-    def tree(self, tree: Tree) -> str:
-        return f"<code>{self.prose(super().tree(tree))}</code>"
+    def code(self, text: str) -> str:
+        return f"<code>{self.prose(text)}</code>"
 
     def headline(self, text: str) -> list[str]:
         return [f"<p>{self.strong(text)}</p>"]

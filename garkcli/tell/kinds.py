@@ -15,7 +15,8 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
-from garkcli.tell.facts import NO_REASON, Answer, Beside, Kind, Reason, Status
+from garkcli.reason import NO_REASON, Reason
+from garkcli.tell.facts import Answer, Beside, Kind, Status
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ def numbers_from_one(places: Sequence[Sequence[int]]) -> list[list[int]]:
 BLOCKS = Kind(
     array(BLOCK),
     lambda x, _: numbers_from_one(x),
-    lambda x, d: d.few([d.place("a", place, ()) for place in x]),
+    lambda x, d: d.few([d.block("A", place) for place in x]),
 )
 
 
@@ -159,8 +160,7 @@ def order_answer(found: AnyOrder | None) -> Answer:
         return Answer(None)
     within = getattr(found, "tolerance", None)
     undecided = getattr(found, "undecided", "")
-    is_open = Reason(undecided) if undecided else Reason("")
-    return Answer(found, Status(within, found.is_lower_bound, is_open))
+    return Answer(found, Status(within, found.is_lower_bound, Reason(undecided)))
 
 
 def _order_words(answer: Answer, d: Plain) -> str:

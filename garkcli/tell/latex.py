@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
+    from garkcli.reason import Place
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
     from garkcli.trees.tree import Tree
@@ -94,17 +95,16 @@ class Latex(Plain):
             return super().root(root).replace("…", r"\dots")
         return self.expression(text)
 
-    def place(self, letter: str, colours: Sequence[int], indices: Sequence[int]) -> str:
-        base = r"\hat a" if letter == "â" else letter
-        if not indices and len(colours) == 2:
-            base = r"\hat A" if letter == "â" else letter.upper()
-        if len(self.colours) > 1:
-            names = ",".join(self.prose(self.colours[l]) for l in colours)
-            base += rf"^{{({names})}}"
-        return f"${base}_{{{','.join(str(i + 1) for i in indices)}}}$" if indices else f"${base}$"
+    def place(self, place: Place) -> str:
+        base = {"â": r"\hat a", "Â": r"\hat A"}.get(place.letter, place.letter)
+        if place.colours:
+            base += rf"^{{({','.join(map(self.prose, place.colours))})}}"
+        if place.indices:
+            base += f"_{{{','.join(str(i + 1) for i in place.indices)}}}"
+        return f"${base}$"
 
-    def tree(self, tree: Tree) -> str:
-        return rf"\texttt{{{self.prose(super().tree(tree))}}}"
+    def code(self, text: str) -> str:
+        return rf"\texttt{{{self.prose(text)}}}"
 
     def sketch(self, tree: Tree) -> str:
         from garkcli.trees.drawing import tikz

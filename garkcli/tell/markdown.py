@@ -11,7 +11,6 @@ from garkcli.tell.dialect import Plain
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
-    from garkcli.trees.tree import Tree
 
 
 class Markdown(Plain):
@@ -33,8 +32,8 @@ class Markdown(Plain):
     def strong(self, text: str) -> str:
         return f"**{text}**"
 
-    def tree(self, tree: Tree) -> str:
-        return f"`{super().tree(tree)}`"
+    def code(self, text: str) -> str:
+        return f"`{text}`"
 
     def headline(self, text: str) -> list[str]:
         return [self.strong(text), ""]

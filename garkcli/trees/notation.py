@@ -235,20 +235,23 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bo
     return f"{f'b{{{root}}}' if colours else 'b'}ᵀ{weight} = {required}"
 
 
-def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
-    r"""The order condition of a tree in LaTeX, as in the paper's Table 1; ``letters`` as in the
-    plain text.
+def condition_latex(tree: Tree, letters: Sequence[str] | None = None, colours: bool = True) -> str:
+    r"""The order condition of a tree in LaTeX, as in the paper's Table 1; ``letters`` and
+    ``colours`` as in the plain text.
 
     The vector of ones is the paper's ``\mathbbm{1}``, of package ``bbm``; ``\mathbb`` has no
     digits.
 
     >>> print(condition_latex(Tree(0, [Tree(1)])))
     {b^{\{1\}}}^T A^{\{1,2\}} \mathbbm{1}^{\{2\}} = \frac12
+    >>> print(condition_latex(Tree(0, [Tree(0)]), colours=False))
+    b^T A \mathbbm{1} = \frac12
     """
-    formula = _Formula(r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters)
+    block, one = (r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}") if colours else ("A ", r"\mathbbm{1}")
+    formula = _Formula(block, one, r" \odot ", letters)
     root, weight = formula.of(tree)
     required = _latex_inverse(tree.density)
-    weights = rf"{{b^{{\{{{root}\}}}}}}^T"
+    weights = rf"{{b^{{\{{{root}\}}}}}}^T" if colours else "b^T"
     return f"{weights} {weight} = {required}"
 
 

@@ -18,6 +18,8 @@ from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text
 from garkcli.page.latex import number
 from garkcli.tableau.pointwise import Cell
+from garkcli.trees.notation import condition_latex
+from garkcli.trees.tree import Tree
 
 _OPENING = re.compile(r"<math[^>]*>")
 _NEEDLESS = re.compile(r"<mrow>(<(m[ino])[^>]*>[^<]*</\2>)</mrow>")
@@ -25,8 +27,6 @@ _NEEDLESS = re.compile(r"<mrow>(<(m[ino])[^>]*>[^<]*</\2>)</mrow>")
 _ONES = re.compile(r"\\mathbbm\{1\}")
 _WEIGHTS = re.compile(r"\{b\^\{(\\\{[^{}]*\\\})\}\}\^T")
 """The transposed weights of a colour: both above, at the same height."""
-_OF_ONE = re.compile(r"\^\{\\\{1(,1)?\\\}\}")
-"""The number of the only colour."""
 _DOUBLE_ONE = "\U0001d7d9"
 """The vector of ones as the paper has it, which MathML has as a letter."""
 _MARKUP = frozenset("<>&")
@@ -53,16 +53,9 @@ def typeset(latex: str) -> Markup:
     return Markup(_NEEDLESS.sub(r"\1", text))
 
 
-def typeset_condition(latex: str, has_colours: bool) -> Markup:
-    """An order condition in the paper's notation.
-
-    Args:
-        latex: as ``condition_latex`` writes it.
-        has_colours: whether there are several; the number of a single one is left away.
-    """
-    if not has_colours:
-        return typeset(_OF_ONE.sub("", latex))
-    return typeset(_WEIGHTS.sub(r"b^{\1 T}", latex))
+def typeset_condition(tree: Tree, has_colours: bool) -> Markup:
+    """The order condition of a tree in the paper's notation."""
+    return typeset(_WEIGHTS.sub(r"b^{\1 T}", condition_latex(tree, colours=has_colours)))
 
 
 def typeset_cell(cell: Cell, digits: int) -> Markup:

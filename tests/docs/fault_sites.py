@@ -209,7 +209,7 @@ def _texts(node: ast.expr, file: _File, at: ast.AST, depth: int) -> Iterator[str
             yield HOLE
     elif isinstance(node, ast.Name):
         yield from _named(node.id, file, at, depth)
-    elif isinstance(node, ast.Call) and _name(node.func) == "printable":
+    elif isinstance(node, ast.Call) and _name(node.func) in {"printable", "Reason"}:
         yield from _texts(node.args[0], file, at, depth)
     else:
         yield HOLE

@@ -92,7 +92,7 @@ def test_a_zero_weight_is_named() -> None:
     assert found.startswith("m.gark.yaml: order 2, proved; ")
     assert "not symplectic; not all weights positive\n" in found
     for label in ("conjugate order", "pair order"):
-        reason = "colour 1: the symplectic conjugate divides by the weights b, b_1 = 0"
+        reason = "the symplectic conjugate divides by the weights b, b_1 = 0"
         assert f" {label} {reason} " in words(everything(text))
 
 
@@ -193,7 +193,7 @@ def test_hints_and_constants_of_one_colour() -> None:
     analysis = analyse(method.tableau)
     blame = find_blame(method.tableau, 2, 2)
     assert blame is not None
-    hint = blame_text(blame, ["1"])
+    hint = str(blame_text(blame, ["1"]))
     assert hint.startswith("the one condition of order 2 fails; ")
     assert "would hold with a[2,1] = 1/2 instead of 1/3, or a[2,2] = 1/6 instead of 0" in hint
     found = Outcome("m", "m", analysis=analysis, constants=error_constants(method.tableau, 2))

@@ -133,3 +133,23 @@ def test_the_calls_in_python() -> None:
     rounded = garkcli.loads("A: [[0.333333]]\nb: [1]\ntolerance: 1e-6")
     assert garkcli.find_property(rounded, "real-stability").is_undecided
     assert not garkcli.find_property(rounded, "real-stability", 0).is_undecided
+
+
+@pytest.mark.parametrize(
+    ("text", "properties", "conjugate"),
+    [
+        ("A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n", r"no: $b_{1}$ is $0$", r"weights b, $b_{1} = 0$"),
+        (
+            "methods:\n- {A: [[0, 0], [1, 0]], b: [-1/2, 3/2]}\n- {family: gauss, stages: 1}\n"
+            "transfer: collocation\n",
+            r"no: $b^{(1)}_{1}$ is $-\frac{1}{2}$",
+            "1, proved",
+        ),
+    ],
+)
+def test_reasons_are_formulas_in_latex(text: str, properties: str, conjugate: str) -> None:
+    """Entries have indices there, and colours where there are several."""
+    out = gark("check", "-", "--format", "latex", stdin=text).out
+    assert f"positive weights & {properties} " in out
+    assert re.search(rf"conjugate order & .*{re.escape(conjugate)}", out)
+    assert (r"^{(" in out) == ("methods" in text)

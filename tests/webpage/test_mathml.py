@@ -10,7 +10,7 @@ from flint import arb
 from hypothesis import given, settings, strategies
 
 import garkcli
-from garkcli.trees.notation import condition_latex, parse_tree
+from garkcli.trees.notation import parse_tree
 from garkcli.webpage.mathml import typeset, typeset_cell, typeset_condition, typeset_number
 from tests.webpage.reading import number_of
 
@@ -42,11 +42,9 @@ def test_long_numbers_are_told_to_be_near() -> None:
 
 def test_conditions_name_colours_where_there_are_some() -> None:
     """With colours each matrix has two and the transposed weights one; without, none has any."""
-    latex = condition_latex(parse_tree("[[]_2]_1"))
-    several = fromstring(typeset_condition(latex, True))
+    several = fromstring(typeset_condition(parse_tree("[[]_2]_1"), True))
     assert "".join(several.itertext()) == "b{1}TA{1,2}𝟙{2}=12"
-    latex = condition_latex(parse_tree("[[]_1]_1"))
-    one = fromstring(typeset_condition(latex, False))
+    one = fromstring(typeset_condition(parse_tree("[[]_1]_1"), False))
     assert "".join(one.itertext()) == "bTA𝟙=12"
 
 

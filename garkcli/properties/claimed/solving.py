@@ -6,45 +6,51 @@ from typing import Literal
 
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
-from garkcli.properties.naming import number_text, stages_name
+from garkcli.properties.naming import number_words, stages_name
 from garkcli.properties.property import Size, Verdict, claimed
 from garkcli.properties.subject import Subject
+from garkcli.reason import NO_REASON, Reason
 
 UNDECIDED = "an entry may be zero"
 """Why the order of the stages is left open."""
 
 
-def what_is_solved_for(subject: Subject) -> str:
+def what_is_solved_for(subject: Subject) -> Reason:
     """The stages that depend on themselves; empty where there are none."""
     together = what_is_solved_together(subject)
     if together:
         return together
     alone = list(subject.graph.loops)
     if not alone:
-        return ""
+        return NO_REASON
     verb = "depends on itself" if len(alone) == 1 else "depend on themselves"
-    return f"{stages_name(subject.tableau, alone)} {verb}"
+    return Reason(f"{{}} {verb}", stages_name(subject.tableau, alone))
 
 
-def what_is_solved_together(subject: Subject) -> str:
+def what_is_solved_together(subject: Subject) -> Reason:
     """The largest system of stages; empty where each is solved for by itself."""
     systems = subject.shape.systems
     if not systems:
-        return ""
+        return NO_REASON
     largest = max(systems, key=len)
-    return f"{stages_name(subject.tableau, largest)} are solved together"
+    return Reason("{} are solved together", stages_name(subject.tableau, largest))
 
 
-def what_is_not_singly(subject: Subject) -> str:
+def what_is_not_singly(subject: Subject) -> Reason:
     """Why there is no common coefficient γ; empty where there is one."""
     shape = subject.shape
     if shape.kind != "diagonally implicit":
-        return what_is_solved_together(subject) or f"it is {shape.kind}"
+        return what_is_solved_together(subject) or it_is(shape.kind)
     if shape.gamma is not None:
-        return ""
+        return NO_REASON
     found = {x: None for entries in subject.graph.loops.values() for x in entries}
-    first, second, *_ = (number_text(x) for x in found if x is not None)
-    return f"stages depend on themselves by {first} and by {second}"
+    first, second, *_ = (number_words(x) for x in found if x is not None)
+    return Reason("stages depend on themselves by {} and by {}", first, second)
+
+
+def it_is(kind: str | None) -> Reason:
+    """Of which kind a method is."""
+    return Reason(f"it is {kind}")
 
 
 def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdict:
@@ -57,9 +63,10 @@ def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdi
     why = what_is_not_singly(subject)
     if not why:
         explicit = set(subject.graph.successors) - set(subject.graph.loops)
-        none = "no stage is explicit"
-        names = stages_name(subject.tableau, explicit) if explicit else ""
-        why = f"{names} {'is' if len(explicit) == 1 else 'are'} explicit" if names else none
+        why = Reason("no stage is explicit")
+        if explicit:
+            verb = "is" if len(explicit) == 1 else "are"
+            why = Reason(f"{{}} {verb} explicit", stages_name(subject.tableau, explicit))
     return Verdict(False, why)
 
 
@@ -82,7 +89,7 @@ def diagonally_implicit(subject: Subject) -> Verdict:
     if kind is None:
         return Verdict.undecided(UNDECIDED)
     if kind == "explicit":
-        return Verdict(False, "it is explicit")
+        return Verdict(False, it_is(kind))
     return Verdict.unless(what_is_solved_together(subject))
 
 
@@ -130,7 +137,7 @@ def fully_implicit(subject: Subject) -> Verdict:
     kind = subject.shape.kind
     if kind is None:
         return Verdict.undecided(UNDECIDED)
-    return Verdict.unless("" if kind == "fully implicit" else f"it is {kind}")
+    return Verdict.unless(NO_REASON if kind == "fully implicit" else it_is(kind))
 
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6", kind="count")

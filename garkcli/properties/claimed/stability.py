@@ -18,9 +18,10 @@ from garkcli.exact.polynomial_text import (
     root_text,
 )
 from garkcli.exact.roots import RealRoot, sign, square_root
-from garkcli.properties.naming import entry_name, number_text, weight_name
+from garkcli.properties.naming import entry, entry_is, number_words, place
 from garkcli.properties.property import SEES_ALL, Size, Verdict, claimed
 from garkcli.properties.subject import MISSING_BLOCKS, Subject
+from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.linear import StabilityFunction, e_polynomial, imaginary_set, poles_are_right
 from garkcli.tableau.tableau import Tableau
 
@@ -30,33 +31,32 @@ _LONG = 60
 """Longer polynomials are not shown."""
 
 
-def no_meaning() -> Verdict:
-    """The linear test equation has no meaning for a method."""
-    return Verdict.meaningless(MISSING_BLOCKS)
-
-
 def decide_within(found: bool | None) -> Verdict:
     """A verdict on all methods within a tolerance."""
     if found is None:
         return Verdict.undecided("methods within the tolerance differ, or seem to")
-    return Verdict.unless("" if found else "no method within the tolerance is")
+    return Verdict.unless(NO_REASON if found else Reason("no method within the tolerance is"))
 
 
-def obstacle_to_a_stability(R: StabilityFunction) -> str:
+def obstacle_to_a_stability(R: StabilityFunction) -> Reason:
     """Where |R| > 1 in the left half plane; empty for an A-stable method."""
     P, Q = R.numerator, R.denominator
     if P.degree > Q.degree:
-        return "R(z) is not bounded: its numerator has the larger degree"
+        return Reason("R(z) is not bounded: its numerator has the larger degree")
     if not poles_are_right(Q):
-        return f"R has a pole at z = {_left_pole(Q)}"
+        return Reason("R has a pole at z = {}", _left_pole(Q))
     gap = first_gap(imaginary_set(R))
     if gap is None:
-        return ""
-    x = between(gap.start, gap.end)
+        return NO_REASON
+    where = "|R(iy)| > 1 at x = y² = {}"
+    x = Formula(str(between(gap.start, gap.end)))
     (E,) = integral([e_polynomial(R)])
     text = polynomial_text(E, "x")
-    shown = f": there {text} < 0" if len(text) <= _LONG else ""
-    return f"|R(iy)| > 1 at x = y² = {x}{shown}"
+    return (
+        Reason(f"{where}: there {{}} < 0", x, Formula(text))
+        if len(text) <= _LONG
+        else Reason(where, x)
+    )
 
 
 def _left_pole(Q: Polynomial) -> str:
@@ -104,20 +104,20 @@ def first_gap(intervals: Sequence[Interval]) -> Interval | None:
     return Interval(end, None, is_left_out)
 
 
-def ends_text(gap: Interval | None, variable: str) -> str:
+def inequality(gap: Interval, variable: str) -> Reason:
     """A gap as an inequality."""
-    if gap is None:
-        return ""
     if gap.is_point:
-        return f"{variable} = {_number(gap.start)}"
-    low, high = "≤" if gap.has_start else "<", "≤" if gap.has_end else "<"
-    right = "" if gap.end is None else f" {high} {_number(gap.end)}"
-    return f"{_number(gap.start)} {low} {variable}{right}"
+        return Reason(f"{variable} = {{}}", _number(gap.start))
+    low = Reason(f"{{}} {'≤' if gap.has_start else '<'} {variable}", _number(gap.start))
+    if gap.end is None:
+        return low
+    return Reason(f"{{}} {'≤' if gap.has_end else '<'} {{}}", low, _number(gap.end))
 
 
-def _number(root: RealRoot | None) -> str:
+def _number(root: RealRoot | None) -> Formula | str:
     assert root is not None
-    return root_text(root) or root_decimal(root, 12)
+    text = root_text(root)
+    return Formula(text) if text else root_decimal(root, 12)
 
 
 @claimed(
@@ -131,7 +131,7 @@ def a_stable(subject: Subject) -> Verdict:
     |P(iy)|² for R = P/Q.
     """
     if subject.linear is None:
-        return no_meaning()
+        return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return decide_within(subject.linear_within.a_stable)
     return Verdict.unless(obstacle_to_a_stability(subject.linear))
@@ -142,12 +142,12 @@ def l_stable(subject: Subject) -> Verdict:
     """A-stable with R(∞) = 0: what is infinitely stiff is damped in one step."""
     R = subject.linear
     if R is None:
-        return no_meaning()
+        return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return decide_within(subject.linear_within.l_stable)
     limit = R.at_infinity()
     if limit:
-        return Verdict(False, f"R(∞) = {number_text(limit)}")
+        return Verdict(False, Reason("R(∞) = {}", number_words(limit)))
     return Verdict.unless(obstacle_to_a_stability(R))
 
 
@@ -172,15 +172,13 @@ def p_stable(subject: Subject) -> Verdict:
     try:
         found = oscillator_stability(tableau, problem)
     except UsageProblem as error:
-        return Verdict.meaningless(error.message)
+        return Verdict.meaningless(Reason(error.message))
     if found.is_p_stable:
         return Verdict(True)
-    return Verdict(False, _lost(found.stable))
-
-
-def _lost(stable: tuple[Interval, ...]) -> str:
-    gap = first_gap(stable)
-    return f"powers of the step matrix are not bounded for {ends_text(gap, '(hω)²')}"
+    gap = first_gap(found.stable)
+    assert gap is not None
+    where = inequality(gap, "(hω)²")
+    return Verdict(False, Reason("powers of the step matrix are not bounded for {}", where))
 
 
 @claimed(
@@ -199,7 +197,7 @@ def ssp_coefficient(subject: Subject) -> Verdict:
     from garkcli.stability.ssp import ssp_coefficient
 
     if not subject.is_complete:
-        return no_meaning()
+        return Verdict.meaningless(MISSING_BLOCKS)
     if subject.points is None:
         return Verdict.undecided("the nodes have no simple radicals")
     negative = _negative(subject.points, subject.tolerance)
@@ -212,19 +210,18 @@ def ssp_coefficient(subject: Subject) -> Verdict:
     return Verdict(Size(found.value))
 
 
-def _negative(tableau: Tableau, tolerance: fmpq) -> str:
+def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
     """The first negative coefficient, with which there is no absolute monotonicity."""
     for (k, m), block in tableau.blocks.items():
         for i, row in enumerate(block):
             for j, a in enumerate(row):
                 if a and sign(a + tolerance) < 0:
-                    name = entry_name(tableau, k, m, i, j)
-                    return f"{name} is {number_text(a)}"
+                    return entry_is(entry(tableau, k, m, i, j), a)
     for m, colour in enumerate(tableau.colours):
         for j, b in enumerate(colour.b):
             if b and sign(b + tolerance) < 0:
-                return f"{weight_name(tableau, m, j)} is {number_text(b)}"
-    return ""
+                return entry_is(place("b", tableau, [m], j), b)
+    return NO_REASON
 
 
 @claimed(
@@ -238,7 +235,7 @@ def real_stability(subject: Subject) -> Verdict:
     from garkcli.stability.linear import real_set
 
     if subject.linear is None:
-        return no_meaning()
+        return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return Verdict.undecided("the coefficients are rounded")
     return Verdict(Size(first_end(real_set(subject.linear))))
@@ -257,7 +254,7 @@ def imaginary_stability(subject: Subject) -> Verdict:
     from garkcli.stability.linear import imaginary_set
 
     if subject.linear is None:
-        return no_meaning()
+        return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return Verdict.undecided("the coefficients are rounded")
     squared = first_end(imaginary_set(subject.linear))

@@ -8,7 +8,7 @@ from itertools import chain, combinations
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.roots import roots_below, sign
 from garkcli.properties.last_stage import (
     first_same_as_last,
@@ -16,12 +16,13 @@ from garkcli.properties.last_stage import (
     missed_entries,
     new_value,
 )
-from garkcli.properties.naming import entry_name, number_text, place_name, stages_name, weight_name
+from garkcli.properties.naming import entry, entry_is, number_words, place, stages_name
 from garkcli.properties.pattern import spaces_that_matter
 from garkcli.properties.property import SEES_ALL, Verdict, claimed
 from garkcli.properties.reduction import are_positive, is_plainly_irreducible, reduced, sizes
 from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
+from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import contractivity, form_within, negative_pivot
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -31,21 +32,19 @@ _BITS = 256
 """Precision of balls; far below any tolerance that files have."""
 
 
-def obstacle(tableau: Tableau) -> str:
+def obstacle(tableau: Tableau) -> Reason:
     """Why a method is not algebraically stable; empty where it is. All its blocks exist."""
     weights = _negative_weight(tableau)
     if weights:
         return weights
     pivot = negative_pivot(contractivity(tableau))
     if pivot is None:
-        return ""
-    what = "0 beside entries that are not 0"
-    if pivot:
-        what = number_text(pivot)
-    return f"elimination of M meets {what} on its diagonal"
+        return NO_REASON
+    what = number_words(pivot) if pivot else "0 beside entries that are not 0"
+    return Reason("elimination of M meets {} on its diagonal", what)
 
 
-def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> str:
+def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
     """The first weight that is negative for all methods within the tolerance; empty where there
     is none.
     """
@@ -55,17 +54,15 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> str:
             if are_positive(space, colour.b):
                 continue
             if negative_pivot(space.gram(colour.b)) is not None:
-                return f"b{{{colour.name}}} has a negative entry"
+                return Reason("{} has a negative entry", place("b", tableau, [m]))
             continue
         for j, b in enumerate(colour.b):
             if sign(b + tolerance) < 0:
-                name = weight_name(tableau, m, j)
-                value = number_text(b)
-                return f"{name} is {value}"
-    return ""
+                return entry_is(place("b", tableau, [m], j), b)
+    return NO_REASON
 
 
-def obstacle_within(tableau: Tableau, tolerance: fmpq) -> str | None:
+def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
     """The same for all methods within a tolerance: empty where none has an obstacle, None where
     that is not decided.
 
@@ -80,11 +77,11 @@ def obstacle_within(tableau: Tableau, tolerance: fmpq) -> str | None:
     with ctx.workprec(_BITS):
         form = form_within(tableau, tolerance)
         if _has_negative_minor(form):
-            return "a minor of M is negative"
+            return Reason("a minor of M is negative")
         rows = [colour.b for colour in tableau.colours]
         weights = map(to_ball, chain.from_iterable(rows))
         if all(b > tolerance for b in weights) and _is_definite(form):
-            return ""
+            return NO_REASON
         return None
 
 
@@ -133,20 +130,17 @@ def stiffly_accurate(subject: Subject) -> Verdict:
     return Verdict(False, _missed(tableau))
 
 
-def _missed(tableau: Tableau) -> str:
+def _missed(tableau: Tableau) -> Reason:
     """Where the last stage differs from the weights."""
     space = tableau.spaces[-1]
     if not isinstance(space, PointSpace):
-        return "at no node the stage has the weights as its rows"
+        return Reason("at no node the stage has the weights as its rows")
     k = len(tableau.spaces) - 1
     i = space.stages - 1
     (m, j), *_ = missed_entries(tableau, k, i, new_value(tableau))
-    block = tableau.blocks[k, m]
-    entry = number_text(block[i][j])
-    weight = number_text(tableau.colours[m].b[j])
-    name = entry_name(tableau, k, m, i, j)
-    name_of_weight = weight_name(tableau, m, j)
-    return f"{name} is {entry}, {name_of_weight} is {weight}"
+    of_entry = entry_is(entry(tableau, k, m, i, j), tableau.blocks[k, m][i][j])
+    of_weight = entry_is(place("b", tableau, [m], j), tableau.colours[m].b[j])
+    return Reason("{}, {}", of_entry, of_weight)
 
 
 @claimed("J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980)", meaning=SEES_ALL)
@@ -161,11 +155,11 @@ def fsal(subject: Subject) -> Verdict:
     found = first_same_as_last(tableau, subject.tolerance)
     if found.not_first is not None:
         stage = stages_name(tableau, [(found.not_first, 0)])
-        return Verdict(False, f"{stage} is not the old value")
+        return Verdict(False, Reason("{} is not the old value", stage))
     if found.not_last is not None:
         last = tableau.spaces[found.not_last].stages - 1
         stage = stages_name(tableau, [(found.not_last, last)])
-        return Verdict(False, f"{stage} is not the new value")
+        return Verdict(False, Reason("{} is not the new value", stage))
     return Verdict(True)
 
 
@@ -188,7 +182,7 @@ def symmetric(subject: Subject) -> Verdict:
 
 def _reduced_verdict(subject: Subject) -> Verdict:
     """Where no renumbering does: stages that do nothing, and equal ones, may be in its way."""
-    differs = Verdict(False, "no renumbering of the stages gives the adjoint method")
+    differs = Verdict(False, Reason("no renumbering of the stages gives the adjoint method"))
     tableau = subject.tableau
     if is_plainly_irreducible(tableau, subject.tolerance):
         return differs
@@ -202,7 +196,7 @@ def _reduced_verdict(subject: Subject) -> Verdict:
     if holds is None:
         return Verdict.undecided("there are too many renumberings once it is reduced")
     if holds:
-        return Verdict(True, "once it is reduced")
+        return Verdict(True, Reason("once it is reduced"))
     return differs
 
 
@@ -233,16 +227,16 @@ def reducible(subject: Subject) -> Verdict:
     """
     tableau = subject.tableau
     if is_plainly_irreducible(tableau, subject.tolerance):
-        return Verdict(False, "every stage has a weight, and row sums of its own")
+        return Verdict(False, Reason("every stage has a weight, and row sums of its own"))
     smaller = reduced(tableau)
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")
     if sizes(smaller) != sizes(tableau):
         stages = ", ".join(str(space.stages) for space in smaller.spaces)
-        return Verdict(True, f"{stages} stages do the same")
+        return Verdict(True, Reason("{} stages do the same", stages))
     if subject.tolerance:
         return Verdict.undecided("rounding may hide equal stages")
-    return Verdict(False, "every stage matters, and no two are equal")
+    return Verdict(False, Reason("every stage matters, and no two are equal"))
 
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.15", kind="count")
@@ -258,7 +252,7 @@ def stage_order(subject: Subject) -> Verdict:
         f"{'at least ' if q >= subject.limit else ''}{q} of {name}"
         for q, name in zip(found, names, strict=True)
     ]
-    why = f"by colour: {', '.join(by_colour)}" if len(found) > 1 else ""
+    why = Reason("by colour: {}", ", ".join(by_colour)) if len(found) > 1 else NO_REASON
     return Verdict(least, why, is_at_least=least >= subject.limit)
 
 
@@ -270,25 +264,17 @@ def nodes_in_unit_interval(subject: Subject) -> Verdict:
         if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
             reflected = space.modulus(fmpq_poly([1, -1]))
             if roots_below(space.modulus, ZERO) or roots_below(reflected, ZERO):
-                return Verdict(False, f"a node of colour {colour.name} is outside")
+                whose = f" of colour {colour.name}" if subject.tableau.size > 1 else ""
+                return Verdict(False, Reason("a node{} is outside", whose))
             continue
         found = subject.points
         if found is None:
             return Verdict.undecided("the nodes have no simple radicals")
         for i, c in enumerate(found.colours[l].c):
-            if sign(_beyond(c) - subject.tolerance) > 0:
-                return Verdict(False, _outside(found, l, i))
+            beyond = -c if sign(c) < 0 else c - ONE
+            if sign(beyond - subject.tolerance) > 0:
+                return Verdict(False, entry_is(place("c", found, [l], i), c))
     return Verdict(True)
-
-
-def _beyond(c: Number) -> Number:
-    """How far a node is outside of [0, 1]; not positive for one inside."""
-    return -c if sign(c) < 0 else c - ONE
-
-
-def _outside(tableau: Tableau, l: int, i: int) -> str:
-    colour = tableau.colours[l]
-    return f"{place_name('c', tableau, [colour.name], i)} is {number_text(colour.c[i])}"
 
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.12")
@@ -302,13 +288,14 @@ def positive_weights(subject: Subject) -> Verdict:
         space = tableau.space(m)
         if not isinstance(space, PointSpace):
             if not are_positive(space, colour.b):
-                return Verdict(False, f"b{{{colour.name}}} has an entry that is not positive")
+                return Verdict(
+                    False, Reason("{} has an entry that is not positive", place("b", tableau, [m]))
+                )
             is_open = is_open or bool(tolerance)
             continue
         for j, b in enumerate(colour.b):
             if not b or sign(b + tolerance) < 0:
-                why = f"{weight_name(tableau, m, j)} is {number_text(b)}"
-                return Verdict(False, why)
+                return Verdict(False, entry_is(place("b", tableau, [m], j), b))
             is_open = is_open or sign(b - tolerance) <= 0
     if is_open:
         return Verdict.undecided("a weight is not larger than the tolerance")

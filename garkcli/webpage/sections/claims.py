@@ -19,8 +19,8 @@ def _shown(outcome: Outcome, claim: Claim) -> Content:
     """A claim; of one that fails, what speaks against it and what would mend it."""
     why = hint = ""
     if not claim.holds:
-        why = claim_witness(outcome, claim.claim)
-        hint = claim_hint(outcome, claim.claim)
+        why = str(claim_witness(outcome, claim.claim))
+        hint = str(claim_hint(outcome, claim.claim))
     return {"claim": claim, "why": why, "hint": hint}
 
 

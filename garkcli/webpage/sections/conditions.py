@@ -88,7 +88,7 @@ def _rows(found: list[Condition], has_colours: bool) -> Iterator[Content]:
             **data,
             "tree": name,
             "picture": tree_picture(condition.tree, title, has_colours),
-            "formula": typeset_condition(row.latex, has_colours),
+            "formula": typeset_condition(condition.tree, has_colours),
             "weight": typeset_number(condition.value),
             "off": typeset_number(condition.residual),
             "state": _state(condition),

@@ -22,7 +22,7 @@ from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Row
 from garkcli.tell.kinds import ORDER, order_answer
 from garkcli.tell.outputs import cell
-from garkcli.trees.notation import condition_latex, format_tree
+from garkcli.trees.notation import format_tree
 from garkcli.trees.tree import Tree
 from garkcli.webpage.mathml import typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
@@ -69,7 +69,7 @@ def _content(method: Reported) -> Content | None:
 
 def _hints(outcome: Outcome) -> list[str]:
     """What failing conditions tell, as ``gark check`` has it."""
-    return [] if outcome.analysis is None else hints(outcome)
+    return [] if outcome.analysis is None else list(map(str, hints(outcome)))
 
 
 def _told_once(found: Sequence[Shown]) -> Iterator[Shown]:
@@ -97,7 +97,7 @@ def _of_method(analysis: Analysis) -> Iterator[Shown]:
         ("pair order", analysis.pair_order, analysis.pair),
     ):
         if found is None or tableau is None:
-            yield Shown(label, "none", "exact", analysis.obstacle)
+            yield Shown(label, "none", "exact", str(analysis.obstacle))
         else:
             yield _order(label, found, tableau)
 
@@ -173,7 +173,7 @@ def _tree(tree: Tree, has_colours: bool) -> Content:
         "order": tree.order,
         "tree": name,
         "picture": tree_picture(tree, title, has_colours),
-        "condition": typeset_condition(condition_latex(tree), has_colours),
+        "condition": typeset_condition(tree, has_colours),
     }
 
 
@@ -210,7 +210,7 @@ def _of_every_value(every: EveryValue) -> Iterator[Shown]:
         if order is not None:
             yield _every(label, order, name)
         elif label != "embedded order":
-            yield Shown(label, "none", "exact", every.obstacle)
+            yield Shown(label, "none", "exact", str(every.obstacle))
 
 
 def _every(label: str, order: EveryOrder, name: str) -> Shown:

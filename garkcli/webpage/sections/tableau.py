@@ -110,7 +110,7 @@ def _content(method: Reported) -> Content | None:
             tolerance,
         )
     found_of = analysis or method.outcome.every
-    obstacle = found_of.obstacle if found_of is not None else ""
+    obstacle = "" if found_of is None else str(found_of.obstacle)
     return {"tables": shown, "dense": dense, "obstacle": obstacle}
 
 

@@ -1,0 +1,122 @@
+"""Why something is so: a sentence with values in it, which every output words in its signs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+
+class Value(Protocol):
+    """What a reason has in it: it is worded by the dialect of an output, ``str`` is its text."""
+
+    def words(self, dialect: Any, /) -> str:
+        """The value in the signs of a dialect."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """An entry of a block or of a row, or the whole of it.
+
+    Attributes:
+        letter: a, b, c, A, â or Â.
+        colours: their names; none in a method of one colour.
+        indices: of the entry, counted from 0; none for the whole.
+
+    >>> print(Place("a", ("q", "p"), (1, 0)), Place("b", (), (1,)), Place("A", ("q", "p")))
+    a{q,p}[2,1] b[2] A{q,p}
+    """
+
+    letter: str
+    colours: tuple[str, ...] = ()
+    indices: tuple[int, ...] = ()
+
+    def __str__(self) -> str:
+        colours = f"{{{','.join(self.colours)}}}" if self.colours else ""
+        indices = f"[{','.join(str(i + 1) for i in self.indices)}]" if self.indices else ""
+        return self.letter + colours + indices
+
+    def words(self, dialect: Any) -> str:
+        """The place in the signs of a dialect."""
+        return str(dialect.place(self))
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression as method files write it, or with its LaTeX where it is none."""
+
+    text: str
+    latex: str = ""
+
+    def __str__(self) -> str:
+        return self.text
+
+    def words(self, dialect: Any) -> str:
+        """The expression in the signs of a dialect."""
+        latex = self.latex
+        return str(dialect.expression(self.text, (lambda: latex) if latex else None))
+
+
+@dataclass(frozen=True)
+class Code:
+    """What is quoted, such as a tree."""
+
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    def words(self, dialect: Any) -> str:
+        """The text as code in the signs of a dialect."""
+        return str(dialect.code(self.text))
+
+
+class Reason:
+    """Why something is so; it is false where there is nothing to say.
+
+    Attributes:
+        template: the sentence, with ``{}`` for each value.
+        values: words, or what a dialect words.
+
+    >>> print(Reason("{} is {}", Place("b", (), (0,)), Formula("-1/4")))
+    b[1] is -1/4
+    """
+
+    def __init__(self, template: str = "", *values: Value | str) -> None:
+        self.template = template
+        self.values = values
+
+    def told(self, prose: Callable[[str], str], words: Callable[[Value | str], str]) -> str:
+        """The sentence: what stands between the values by one function, these by another."""
+        first, *rest = self.template.split("{}")
+        pairs = zip(self.values, rest, strict=True)
+        return prose(first) + "".join(words(value) + prose(text) for value, text in pairs)
+
+    def words(self, dialect: Any) -> str:
+        """The sentence in the signs of a dialect, as a part of another one."""
+        return str(dialect.reason(self))
+
+    def __str__(self) -> str:
+        return self.told(str, str)
+
+    def __bool__(self) -> bool:
+        return bool(self.template)
+
+    def __repr__(self) -> str:
+        return f"<Reason {self}>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Reason):
+            return NotImplemented
+        return (self.template, self.values) == (other.template, other.values)
+
+    def __hash__(self) -> int:
+        return hash(self.template)
+
+
+NO_REASON = Reason()
+
+
+def joined(separator: str, values: Sequence[Value]) -> Reason:
+    """Values one after the other."""
+    return Reason(separator.join(["{}"] * len(values)), *values)
