@@ -16,7 +16,7 @@ from garkcli.order.conditions import count_conditions, coupling_graph
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.effects import Effects
 from garkcli.order.residuals import Sizes, TreeResiduals
-from garkcli.order.rounded import FEW_TREES, RoundedOrder
+from garkcli.order.rounded import FEW_TREES, Conditions, RoundedOrder
 from garkcli.order.tolerance import unnatural, within
 from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.point_space import PointSpace
@@ -200,7 +200,10 @@ def suggest_wider(
     """
     if found.witness is None or max(units.values(), default=ZERO) <= rounded.tolerance:
         return None
-    wider = order_of(RoundedTableau.printed(rounded.tableau, units), limit)
+    printed = RoundedTableau.printed(rounded.tableau, units)
+    if not printed.obstacle and Conditions(printed).fails(found.witness):
+        return None
+    wider = order_of(printed, limit)
     if wider.witness is None or wider.order <= found.order or not isinstance(wider, RoundedOrder):
         return None
     genuine, rounding = abs(to_ball(wider.witness.residual)), wider.largest_residual
