@@ -18,8 +18,8 @@ from garkcli.errors import BlockTooLarge, counted
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, add, multiply, scale, transpose
 from garkcli.tableau.conjugate import conjugate_block
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import antiderivative
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
 
 LOG10_2 = fmpq(30103, 100000)

@@ -26,7 +26,7 @@ from garkcli.exact.parametric import Parameters, Parametric
 from garkcli.exact.polynomial import in_one
 from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
 from garkcli.tableau.family import Family, family_in_points
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 MOST_DEGREE = 6

@@ -58,8 +58,8 @@ def draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Out
         UsageProblem: they are too many for a sheet.
     """
     from garkcli.page.writing import write_whole
+    from garkcli.trees.drawing import draw_svg_sheet
     from garkcli.trees.notation import format_tree
-    from garkcli.trees.svg import draw_svg_sheet
 
     trees = list(islice(listed, MAX_PICTURES + 1))
     if len(trees) > MAX_PICTURES:

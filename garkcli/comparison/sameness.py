@@ -24,8 +24,8 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix
 from garkcli.properties.reduction import reduced
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Row
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 Stage: TypeAlias = tuple[int, int]

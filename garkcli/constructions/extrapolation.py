@@ -17,7 +17,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.extrapolated import extrapolation_weights
 from garkcli.properties.reduction import merged
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 

@@ -22,8 +22,8 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
 from garkcli.properties.reduction import merged
 from garkcli.tableau.forms import gark
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import antiderivative
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Method, Tableau
 from garkcli.transfer import Rule
 

@@ -14,8 +14,8 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 

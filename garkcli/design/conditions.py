@@ -23,8 +23,7 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
-from garkcli.exact.linear_map import EntrywiseMap
-from garkcli.exact.matrix import dot
+from garkcli.exact.matrix import EntrywiseMap, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Edge, Tableau

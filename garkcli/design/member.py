@@ -21,8 +21,7 @@ from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.family import Family, Stability
-from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
 
 

@@ -12,7 +12,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, fraction
 from garkcli.tableau.family import Stability
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Kind: TypeAlias = Literal["flag", "count", "number"]

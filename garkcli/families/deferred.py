@@ -21,8 +21,8 @@ from garkcli.exact.nodes import Expression, Literal
 from garkcli.families.collocation import gauss, lobatto_iiia, radau_ia, radau_iia
 from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative, simple_nodes
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Method
 
 _COLLOCATION: Mapping[str, Callable[[int], Method]] = {

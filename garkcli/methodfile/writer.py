@@ -14,8 +14,8 @@ from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, Entries
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 NumberText: TypeAlias = Callable[[Number], str]

@@ -29,7 +29,7 @@ from flint import arb, arb_mat, ctx
 
 from garkcli.exact.enclosing import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.order.recursion import Forest, OrderByOrder
-from garkcli.tableau.enclosing import Enclosure
+from garkcli.tableau.rounded import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 

@@ -19,7 +19,7 @@ from garkcli.exact.matrix import Vector
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import order_of
 from garkcli.tableau.meant import AnyTableau, derived, meant, printed
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 

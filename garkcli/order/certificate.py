@@ -21,8 +21,7 @@ from flint import fmpq
 from garkcli.doing import doing
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number, coordinates
-from garkcli.exact.linear_map import LinearMap
-from garkcli.exact.matrix import dot
+from garkcli.exact.matrix import LinearMap, dot
 from garkcli.exact.span import AffineSpan
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Tableau

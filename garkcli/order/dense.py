@@ -25,7 +25,7 @@ from garkcli.order.functionals import Functional, Undecided, first_failure
 from garkcli.order.tolerance import are_alike, within
 from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.meant import AnyTableau, meant, printed, tolerance_of
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 

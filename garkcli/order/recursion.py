@@ -16,7 +16,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
-from garkcli.exact.linear_map import EntrywiseMap, LinearMap
+from garkcli.exact.matrix import EntrywiseMap, LinearMap
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
-from garkcli.exact.linear_map import EntrywiseMap, LinearMap
-from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.exact.matrix import EntrywiseMap, LinearMap, Matrix, Vector, dot
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau import conjugate
 from garkcli.tableau.meant import printed

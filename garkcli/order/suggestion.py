@@ -15,12 +15,10 @@ from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import count_conditions, coupling_graph
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.effects import Effects
-from garkcli.order.residuals import Sizes, TreeResiduals
-from garkcli.order.rounded import FEW_TREES, Conditions, RoundedOrder
+from garkcli.order.rounded import FEW_TREES, Conditions, RoundedOrder, Sizes, TreeResiduals
 from garkcli.order.tolerance import unnatural, within
-from garkcli.tableau.enclosing import enclose_tableau
-from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.rounded import RoundedTableau
+from garkcli.tableau.rounded import RoundedTableau, enclose_tableau
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 

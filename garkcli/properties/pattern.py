@@ -17,7 +17,7 @@ from flint import arb, fmpq
 from garkcli.exact.field import ZERO, Number
 from garkcli.graph import components
 from garkcli.order.tolerance import within
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

@@ -20,9 +20,8 @@ from garkcli.exact.roots import roots_below
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
 
 

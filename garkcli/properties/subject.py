@@ -16,7 +16,7 @@ from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.registry import find
 from garkcli.properties.symmetry import Symmetry, symmetry
 from garkcli.reason import Reason
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

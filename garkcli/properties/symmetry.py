@@ -18,9 +18,8 @@ from flint import fmpq, fmpq_poly
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, add, apply_left, identity, multiply, outer
 from garkcli.order.tolerance import within
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
 
 MOST_RENUMBERINGS = 2000

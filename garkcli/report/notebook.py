@@ -13,7 +13,7 @@ from garkcli.page.cells import remark
 from garkcli.page.plain import printable
 from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
-from garkcli.trees.svg import draw_svg_sheet
+from garkcli.trees.drawing import draw_svg_sheet
 
 if TYPE_CHECKING:
     from garkcli.order.certificate import Witness

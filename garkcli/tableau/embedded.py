@@ -13,7 +13,7 @@ from typing import TypeAlias
 from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Weights: TypeAlias = tuple[Vector, ...]

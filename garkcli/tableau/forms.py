@@ -12,7 +12,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.tableau.conjugate import conjugate_of
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau
 
 Blocks: TypeAlias = Mapping[Edge, Matrix]

@@ -21,14 +21,13 @@ from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import (
     PolynomialSpace,
     coordinates_at_nodes,
     powers_of_nodes,
     simple_nodes,
 )
-from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Edge, Method, Tableau
 
 Cell: TypeAlias = Number | arb

@@ -13,13 +13,26 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import combinations
+from math import prod
 from typing import cast
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq, fmpq_poly, fmpz
 
-from garkcli.exact.field import Number
-from garkcli.exact.matrix import Matrix, Vector, identity, multiply, transpose
-from garkcli.reason import Reason
+from garkcli.errors import CoincidingNodes
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+from garkcli.exact.matrix import (
+    Matrix,
+    SingularMatrixError,
+    Vector,
+    identity,
+    is_rational,
+    multiply,
+    transpose,
+)
+from garkcli.reason import Formula, Reason
 
 
 class StageSpace(ABC):
@@ -130,3 +143,170 @@ class StageSpace(ABC):
 def in_flint(coefficients: Sequence[Number]) -> fmpq_poly:
     """The polynomial of rational ``coefficients``, lowest first, for python-flint."""
     return fmpq_poly(cast("list[fmpq]", list(coefficients)))
+
+
+MAX_BITS_COMPARED = 5_000_000
+"""Longest denominators that are compared with each other only to tell what they share."""
+
+
+@dataclass(frozen=True)
+class PointSpace(StageSpace):
+    """K^s: one coordinate a stage, in the order of the file. ``points`` are the nodes."""
+
+    points: Vector
+
+    @property
+    def stages(self) -> int:
+        return len(self.points)
+
+    @property
+    def one(self) -> Vector:
+        return (ONE,) * self.stages
+
+    @property
+    def nodes(self) -> Vector:
+        return self.points
+
+    def product(self, u: Vector, v: Vector) -> Vector:
+        return tuple(x * y for x, y in zip(u, v, strict=True))
+
+    def times(self, functional: Vector, v: Vector) -> Vector:
+        return self.product(functional, v)
+
+    def reductions(self, count: int) -> Matrix:
+        return tuple(_powers(c, count) for c in self.points)
+
+    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+        if is_rational((coefficients, self.points)):
+            polynomial = in_flint(coefficients)
+            return tuple(polynomial(c) for c in cast("tuple[fmpq, ...]", self.points))
+        return tuple(_value(coefficients, c) for c in self.points)
+
+    def interpolation_bits(self, enough: int) -> int:
+        """About how long the common denominator of the Lagrange polynomials of the nodes is.
+
+        Args:
+            enough: a bound that is not larger than this is returned as it is; otherwise it is
+                looked at closer, at what the polynomials have in common.
+
+        Returns:
+            Bits, summed over the coordinates of irrational nodes.
+        """
+        bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
+        if bound <= enough or bound > MAX_BITS_COMPARED:
+            return bound
+        if not is_rational((self.points,)):
+            return bound
+        return _common_denominator(cast("tuple[fmpq, ...]", self.points)).bit_length()
+
+    def basis_polynomials(self) -> Iterator[Vector]:
+        self._check_distinct()
+        if is_rational((self.points,)):
+            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
+        else:
+            yield from _lagrange(self.points)
+
+    def _check_distinct(self) -> None:
+        first: dict[Number, int] = {}
+        for j, c in enumerate(self.points, start=1):
+            i = first.setdefault(c, j)
+            if i != j:
+                raise CoincidingNodes(
+                    f"nodes c_{i} and c_{j} are both {c}: no interpolation through them",
+                    "spell the blocks out, or choose a method with distinct nodes",
+                )
+
+    def lifts(self) -> Matrix:
+        return self._lifts
+
+    @cached_property
+    def _lifts(self) -> Matrix:
+        return transpose(tuple(self.basis_polynomials()))
+
+    def zero_weights(self, weights: Vector) -> Reason:
+        numbers = [i for i, weight in enumerate(weights, start=1) if not weight]
+        shown = numbers[:3] if len(numbers) > 4 else numbers
+        end = "0" if shown == numbers else "… = 0"
+        text = " = ".join([*(f"b_{i}" for i in shown), end])
+        latex = " = ".join([*(f"b_{{{i}}}" for i in shown), end.replace("…", r"\dots")])
+        return Reason("{}", Formula(text, latex))
+
+    def form(self, weights: Vector, block: Matrix) -> Matrix:
+        return _scaled_rows(weights, block)
+
+    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+        if not all(weights):
+            raise SingularMatrixError
+        # One inverse a row: of irrational weights they take the time.
+        inverses = tuple(ONE / b for b in weights)
+        return _scaled_rows(inverses, right)
+
+
+def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
+    """The product of a diagonal matrix and another."""
+    return tuple(tuple(factor * x for x in row) for factor, row in zip(factors, rows, strict=True))
+
+
+@lru_cache(maxsize=16)  # blocks both ways, and to many colours, ask again
+def _common_denominator(nodes: tuple[fmpq, ...]) -> fmpz:
+    """What the Lagrange polynomials of rational nodes are divided by, in common.
+
+    L_i = ∏ (x − c_j) / ∏ (c_i − c_j) over j ≠ i: the least common multiple of the numerators of the
+    lower products. The denominators of the nodes themselves are left out.
+    """
+    common = fmpz(1)
+    for c in nodes:
+        common = common.lcm(prod([c - x for x in nodes if x != c], start=ONE).p)
+    return common
+
+
+def _bits(number: Number) -> int:
+    if isinstance(number, Algebraic):
+        return sum(int(x.height_bits()) for x in number.poly.coeffs())
+    return int(number.height_bits())
+
+
+def _value(coefficients: Sequence[Number], x: Number) -> Number:
+    """A polynomial at x, by Horner's scheme."""
+    total: Number = ZERO
+    for coefficient in reversed(coefficients):
+        total = total * x + coefficient
+    return total
+
+
+def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[Vector]:
+    """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator.
+
+    Elimination in the Vandermonde matrix would carry the common denominator of all of them.
+    """
+    x = fmpq_poly([0, 1])
+    w = fmpq_poly([1])
+    for c in nodes:
+        w *= x - c
+    for c in nodes:
+        others = w // (x - c)
+        polynomial = others / others(c)
+        yield tuple(polynomial[k] for k in range(len(nodes)))
+
+
+def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
+    """The same in any domain, dividing w by x − c_j with Horner's scheme."""
+    w: list[Number] = [ONE]
+    for c in nodes:
+        w = [a - c * b for a, b in zip([ZERO, *w], [*w, ZERO], strict=True)]
+    for c in nodes:
+        others: list[Number] = []
+        carried: Number = ZERO
+        for coefficient in reversed(w[1:]):
+            carried = carried * c + coefficient
+            others.append(carried)
+        others.reverse()
+        factor = ONE / _value(others, c)
+        yield tuple(factor * coefficient for coefficient in others)
+
+
+def _powers(x: Number, count: int) -> Vector:
+    powers: list[Number] = [ONE]
+    while len(powers) < count:
+        powers.append(powers[-1] * x)
+    return tuple(powers[:count])

@@ -12,8 +12,7 @@ from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
-from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.stages import PointSpace, StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
 """The part of the unknowns that a colour's vector field drives: all of them, positions, or

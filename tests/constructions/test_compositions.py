@@ -12,8 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.api.methods import find_order, is_symplectic
-from garkcli.constructions.adjoint import adjoint
-from garkcli.constructions.composition import Substep, composed, drift_and_kick
+from garkcli.constructions.composition import Substep, adjoint, composed, drift_and_kick
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
 from garkcli.convergence.convergence import converge
 from garkcli.errors import MethodError

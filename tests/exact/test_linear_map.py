@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number, NumberField
-from garkcli.exact.linear_map import LinearMap, _has_denominators_apart, _sum
-from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.exact.matrix import LinearMap, Matrix, Vector, _has_denominators_apart, _sum, dot
 from tests.oracles.draws import fractions
 
 FIELDS = {

@@ -18,7 +18,7 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_poly
 
 from garkcli.stepping.fields import with_joined_terms
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
 

@@ -22,7 +22,7 @@ from garkcli.tableau.forms import (
     symplectic_pair,
     with_linear,
 )
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Method, Tableau
 from garkcli.transfer import (
     RULES,

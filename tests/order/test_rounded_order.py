@@ -19,11 +19,9 @@ from garkcli.order import rounded as module
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import conditions, coupling_graph
-from garkcli.order.residuals import TreeResiduals
-from garkcli.order.rounded import RoundedOrder, find_order_within
-from garkcli.tableau.enclosing import enclose_tableau
+from garkcli.order.rounded import RoundedOrder, TreeResiduals, find_order_within
 from garkcli.tableau.forms import gark, pair
-from garkcli.tableau.rounded import RoundedTableau
+from garkcli.tableau.rounded import RoundedTableau, enclose_tableau
 from garkcli.tableau.tableau import Tableau, butcher
 from garkcli.transfer import collocation
 from garkcli.trees.table import TreeTable

@@ -21,8 +21,8 @@ from garkcli import (
 from garkcli.exact.display import to_text
 from garkcli.page.tableau_latex import displays
 from garkcli.tableau.pointwise import entries
+from garkcli.trees.drawing import draw_svg_sheet
 from garkcli.trees.notation import format_tree
-from garkcli.trees.svg import draw_svg_sheet
 
 HOSTILE = '<script>alert("x")</script> & \x1b[2J'
 TWO = loads(

@@ -17,8 +17,8 @@ from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, conjugate_block, is_symplectic
 from garkcli.tableau.forms import additive, gark, pair, separable_prk, spelled_out, symplectic_pair
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import RULES, collocation
 from tests.oracles import samples

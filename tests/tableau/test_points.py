@@ -23,7 +23,6 @@ from garkcli.tableau import polynomial_space
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
 from garkcli.tableau.meant import meant
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import (
     Cell,
     coordinates_at_nodes,
@@ -33,6 +32,7 @@ from garkcli.tableau.pointwise import (
     powers_of_nodes,
 )
 from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau, butcher
 from garkcli.transfer import collocation
 from tests.oracles import samples

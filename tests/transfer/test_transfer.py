@@ -18,8 +18,8 @@ from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Method, butcher
 from garkcli.transfer import (
     PAIR_RULES,

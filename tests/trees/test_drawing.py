@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.trees.drawing import PALETTE, draw_text, layout, tikz
+from garkcli.trees.drawing import PALETTE, draw_svg_sheet, draw_text, layout, tikz
 from garkcli.trees.notation import MAX_DEPTH, MAX_VERTICES, parse_tree
-from garkcli.trees.svg import draw_svg_sheet
 from garkcli.trees.tree import Tree
 
 trees = st.recursive(

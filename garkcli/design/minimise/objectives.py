@@ -25,9 +25,8 @@ from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, real_set, stability_function
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.stability.ssp import conditions_at, ssp_coefficient
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
 
 

@@ -18,7 +18,7 @@ from garkcli.design.ideal import Ideal, factors, rational
 from garkcli.design.member import value_of
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, fraction
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 

@@ -17,7 +17,7 @@ from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.points import Fixed, Fixings, rank
 from garkcli.design.search.rational import RationalFunction, as_float
 from garkcli.exact.parametric import Parameters, Parametric
-from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

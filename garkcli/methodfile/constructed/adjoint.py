@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from yaml.nodes import Node
 
-from garkcli.constructions.adjoint import adjoint
+from garkcli.constructions.composition import adjoint
 from garkcli.methodfile.constructed.parts import PartReader
 from garkcli.methodfile.description import ConstructionText
 from garkcli.methodfile.grammar import Kind, defined

@@ -8,8 +8,7 @@ from typing import Any, TypeAlias
 
 from yaml.nodes import Node
 
-from garkcli.constructions.adjoint import adjoint
-from garkcli.constructions.composition import Substep, composed
+from garkcli.constructions.composition import Substep, adjoint, composed
 from garkcli.constructions.schemes import MAX_ORDER, OTHER_NAMES, SCHEMES, Scheme
 from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal

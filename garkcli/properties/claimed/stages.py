@@ -24,8 +24,8 @@ from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import contractivity, form_within, negative_pivot
-from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 _BITS = 256
