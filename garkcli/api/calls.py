@@ -11,11 +11,11 @@ from garkcli.api.methods import analyse
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
 from garkcli.check import proof
 from garkcli.check.proof import MethodProof
-from garkcli.check.true_claims import true_claims, usual_keys
+from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.claims_writer import write_claims
-from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.expectations import CLAIMS, highest_order
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.stability.summary import Stability, stability, stability_of_rounded
 from garkcli.stability.two_frequencies import (
@@ -25,6 +25,7 @@ from garkcli.stability.two_frequencies import (
     springs,
     two_frequencies,
 )
+from garkcli.tableau.garkmethod import GarkMethod
 
 
 def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, str]:
@@ -44,13 +45,31 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
     >>> claims_of("rk4", ["order", "symplectic"])
     {'order': '4', 'symplectic': 'false'}
     """
-    found = analyse(method_of(method))
     wanted = [keys] if isinstance(keys, str) else list(keys)
-    for key in wanted:
+    refuse_unknown(wanted)
+    return dict(true_claims_of(method_of(method), wanted).claims)
+
+
+def refuse_unknown(keys: Iterable[str]) -> None:
+    """Refuse what is no claim.
+
+    Raises:
+        UsageProblem: one is none.
+    """
+    for key in keys:
         if key not in CLAIMS:
             cure = did_you_mean(key, CLAIMS)
             raise UsageProblem(f"no claim {key!r}", cure, code="unknown-word")
-    return true_claims(found, wanted or usual_keys(found))
+
+
+def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
+    """What is true of some claims, of the usual ones where none are named."""
+    claims = method.claims if isinstance(method, MethodFile) else ()
+    found = analyse(method, max(DEFAULT_LIMIT, highest_order(claims) + 1))
+    wanted = keys or usual_keys(found)
+    true = true_claims(found, wanted)
+    source = method.source if isinstance(method, MethodFile) else method.name
+    return TrueClaims(source, true, tuple(key for key in wanted if key not in true))
 
 
 def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from garkcli.api.files import load_family, loads
@@ -11,16 +12,18 @@ from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_
 from garkcli.deadline import within
 from garkcli.design import design as designing
 from garkcli.design import stable_values as stabilities
-from garkcli.design.choices import accepted_methods, values_text
+from garkcli.design.choices import Chosen, accepted_methods
 from garkcli.design.design import CLAIMS, Design, Whose
 from garkcli.design.minimise import minimise as minimising
+from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.search import run as searching
-from garkcli.design.search.run import TOLERANCE, Result
+from garkcli.design.search.run import TOLERANCE, Method, Result
 from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
+from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.tableau.family import Family
@@ -28,6 +31,14 @@ from garkcli.tableau.family import Family
 AnyFamily: TypeAlias = "Family | str | os.PathLike[str]"
 """What ``load_family`` and ``loads_family`` return, or the path of a file."""
 
+DIGITS = 15
+"""Of claims without simple radicals."""
+HEADS = {
+    "exact": "exact",
+    "exists": "proved to exist, with these decimals",
+    "numerical": "numerical, nothing is proved",
+}
+"""What is known of methods that a search finds."""
 STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable")
 
 
@@ -203,7 +214,7 @@ def stable_values(
 
 
 def found_methods(
-    found: Design | Minimum | Result, family: AnyFamily | None = None, whose: Whose = "method"
+    found: Design | Minimum | Result, family: AnyFamily | None = None, whose: Whose | None = None
 ) -> list[MethodFile]:
     r"""The methods that were found, each with the text of its file: ``gark design --emit-all``.
 
@@ -211,7 +222,7 @@ def found_methods(
         found: what ``find_parameters``, ``minimise`` or ``search_methods`` returned. Of a design
             those of the highest order that has finitely many, of a minimum those with the value.
         family: that was searched; a design and a minimum know theirs.
-        whose: order a search was for.
+        whose: order a search was for, in place of the one that it knows.
 
     Raises:
         MethodError: a search is given without its family, the family is not from a file or a text,
@@ -223,60 +234,100 @@ def found_methods(
     >>> ralston.A, ralston.b, ralston.order
     (((0, 0), (2/3, 0)), (1/4, 3/4), 2)
     """
-    if isinstance(found, Result):
-        if family is None:
-            raise MethodError(
-                "a search does not know its family", "found_methods(result, family)", code="arrays"
-            )
-        return list(_searched(found, _file_of(family_of(family)), whose))
-    if isinstance(found, Minimum):
-        return list(_least(found, _file_of(found.design.family)))
-    if not isinstance(found, Design):
+    if not isinstance(found, (Design, Minimum, Result)):
         raise MethodError(
             f"what was found is expected, not {type(found).__name__}",
             "give what find_parameters, minimise or search_methods returned",
             code="arrays",
         )
-    chosen = accepted_methods(found)
-    read = _file_of(found.family)
-    return [_made(read, x.values, found.whose, x.order) for x in chosen]
+    if isinstance(found, Design):
+        read = found.family
+    elif isinstance(found, Minimum):
+        read = found.design.family
+    elif family is None:
+        raise MethodError(
+            "a search does not know its family", "found_methods(result, family)", code="arrays"
+        )
+    else:
+        read = family_of(family)
+        found = replace(found, whose=whose or found.whose)
+    if not isinstance(read, FamilyFile):
+        cure = "give what load_family or loads_family return"
+        raise MethodError(f"{read!r} has no text", cure, code="other-file")
+    return [loads(file.text, read.source) for file in found_files(found, read)]
 
 
-def _searched(result: Result, family: FamilyFile, whose: Whose) -> Iterator[MethodFile]:
-    for method in result.methods:
-        yield _made(family, method.values, whose, method.order, method.is_exact)
+@dataclass(frozen=True)
+class Found:
+    """A method that was found, with what its file says of it.
 
-
-def _least(minimum: Minimum, family: FamilyFile) -> Iterator[MethodFile]:
-    for candidate in minimum.minimisers:
-        solution = candidate.found.solution
-        elements = {x: solution.values[x] for x in family.parameters}
-        values = values_text(elements, solution.real[candidate.index])
-        order = minimum.step.order
-        if candidate.found.order is not None:
-            order = candidate.found.order.order
-        yield _made(family, values, minimum.design.whose, order)
-
-
-def _file_of(family: Family) -> FamilyFile:
-    """A family that has a text.
-
-    Raises:
-        MethodError: it has none.
+    Attributes:
+        family: of which it is one.
+        member: its parameters.
+        head: how it was found.
+        claim: what is known of it.
+        is_exact: whether its parameters are exact.
     """
-    if isinstance(family, FamilyFile):
-        return family
-    raise MethodError(
-        f"{family!r} has no text", "give what load_family or loads_family return", code="other-file"
-    )
+
+    family: FamilyFile
+    member: Chosen | Method
+    head: str
+    claim: str
+    is_exact: bool = True
+
+    @property
+    def text(self) -> str:
+        """Of its file.
+
+        Raises:
+            MethodError: its values cannot be written in a method file.
+        """
+        text = with_values(self.family, self.member.values, self.head, self.claim)
+        if not self.is_exact and "tolerance:" not in text:
+            text += f"tolerance: {TOLERANCE}\n"
+        return text
 
 
-def _made(
-    family: FamilyFile, values: Mapping[str, str], whose: Whose, order: int, is_exact: bool = True
-) -> MethodFile:
-    """A method of a family, its parameters as texts."""
-    claim = f"{CLAIMS[whose]}: {order}"
-    text = with_values(family, values, f"found by gark: {claim}", claim)
-    if not is_exact and "tolerance:" not in text:
-        text += f"tolerance: {TOLERANCE}\n"
-    return loads(text, family.source)
+def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterator[Found]:
+    """The methods that were found, as their files say it."""
+    source = f"found by gark design {family.source}"
+    if isinstance(found, Design):
+        of_all = [f", {x.kind}: true" for x in found.family.stable if x.colour is None]
+        further = "".join(of_all) if found.whose == "method" else ""
+        for chosen in accepted_methods(found):
+            claim = f"{CLAIMS[found.whose]}: {chosen.order}{further}"
+            yield Found(family, chosen, f"{source}: {claim}", claim)
+    elif isinstance(found, Minimum):
+        whose, order = found.design.whose, found.step.order
+        options = "" if whose == "method" else f" --{whose}"
+        options += f" --order {order} --minimise {found.objective.key}"
+        further = _claim(found) if whose == "method" else ""
+        for candidate in found.minimisers:
+            solution, own = candidate.found.solution, candidate.found.order
+            elements = {x: solution.values[x] for x in family.parameters}
+            chosen = Chosen(
+                elements, solution.real[candidate.index], order if own is None else own.order
+            )
+            claim = f"{CLAIMS[whose]}: {chosen.order}"
+            yield Found(family, chosen, f"{source}{options}: {claim}", claim + further)
+    else:
+        for method in found.methods:
+            claim = f"{CLAIMS[found.whose]}: {method.order}"
+            head = f"{source} --order {found.order}, start {method.start} of seed {found.seed}\n"
+            head += f"{HEADS[method.proof]}: {claim}"
+            if not method.is_exact:
+                head += f", residuals below {method.residual} before rounding"
+            yield Found(family, method, head, claim, method.is_exact)
+
+
+def _claim(minimum: Minimum) -> str:
+    """What a method file may claim of the greatest level."""
+    objective = minimum.objective
+    if not isinstance(objective, Level) or objective.claim is None:
+        return ""
+    if minimum.is_infinite:
+        return f", {objective.claim}: infinity"
+    if minimum.value is None:
+        return ""
+    text = root_text(minimum.value) or root_decimal(minimum.value, DIGITS)
+    return f", {objective.claim}: {text}"

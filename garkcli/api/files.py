@@ -14,13 +14,14 @@ from garkcli.comparison.comparison import Comparison
 from garkcli.conversion import convert as conversion
 from garkcli.conversion.convert import Converted
 from garkcli.errors import MethodError
-from garkcli.methodfile import family
+from garkcli.methodfile import bibliography, family
 from garkcli.methodfile import load as methods
 from garkcli.methodfile import problem as problems
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.problems.problem import Problem
+from garkcli.reference import Reference
 
 AnyPath: TypeAlias = "str | os.PathLike[str]"
 NONE: Settings = {}
@@ -63,6 +64,17 @@ def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> Metho
     (((1/4,),), 1)
     """
     return methods.loads(_text(text), source, texts(settings, "settings"))
+
+
+def reference_in(path: AnyPath) -> tuple[str, str, Reference | None]:
+    """What a method file or a method of the catalogue is called, and where it says that it was
+    published: in one line, and its fields. Nothing else of it is read.
+
+    Raises:
+        MethodFileError: there is no such file, it is no YAML, or the reference has a fault.
+    """
+    text, source = methods.read_method_text(os.fsdecode(path))
+    return source, *bibliography.reference_of(text, source)
 
 
 def load_family(

@@ -12,7 +12,7 @@ from garkcli.errors import MethodError, UsageProblem
 from garkcli.methodfile.problem import load_problem
 from garkcli.problems import builtin
 from garkcli.problems.hamiltonian import Hamiltonian
-from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
 from garkcli.problems.problem import Problem
 from garkcli.stepping.fields import split_into, with_joined_terms
 from garkcli.tableau.tableau import Tableau
@@ -67,11 +67,27 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
     return builtin.hamiltonian(name, whole(terms, "terms", 1), whole(seed, "seed"))
 
 
-def problem_for(given: AnyProblem, tableau: Tableau) -> Problem | Oscillator:
+def problem_for(
+    given: AnyProblem,
+    tableau: Tableau,
+    seed: int | None = None,
+    stiffness: fmpq | None = None,
+    omega: fmpq | None = None,
+    split: str | None = None,
+) -> Problem | Oscillator:
     """The problem that is meant, one that is named in as many terms as the method is for.
 
+    Args:
+        given: a problem, a name or a path.
+        tableau: of the method.
+        seed: for problems with random coefficients; 1 by default.
+        stiffness: for those that have one.
+        omega: the frequency of the oscillator; 1 by default.
+        split: its shares of the energies, as ``parse_shares`` reads them.
+
     Raises:
-        UsageProblem: there is no such problem, or it has another number of terms.
+        UsageProblem: there is no such problem, it takes no seed or no stiffness, or it has another
+            number of terms.
         MethodFileError: a file has faults.
         MethodError: it is no problem.
     """
@@ -84,18 +100,39 @@ def problem_for(given: AnyProblem, tableau: Tableau) -> Problem | Oscillator:
             code="arrays",
         )
     text = os.fspath(given)
-    terms = terms_of(with_joined_terms(tableau))
     if text == OSCILLATOR:
-        return Oscillator.default(terms, fmpq(1))
-    is_path = text.endswith((".yaml", ".yml")) or os.sep in text
-    if is_path or not isinstance(given, str):
-        return split_into(load_problem(text), terms)
-    return builtin.problem(text, terms)
+        terms = terms_of(tableau)
+        frequency = fmpq(1) if omega is None else omega
+        if split:
+            return Oscillator(frequency, parse_shares(split, terms))
+        return Oscillator.default(terms, frequency)
+    return _to_step(given, tableau, seed, stiffness)
 
 
-def to_step(given: AnyProblem, tableau: Tableau) -> Problem:
+def _to_step(
+    given: str | os.PathLike[str], tableau: Tableau, seed: int | None, stiffness: fmpq | None = None
+) -> Problem:
+    """The problem of a name or a path for steps in numbers, the oscillator among them."""
+    text = os.fspath(given)
+    builtin.check_seed(text, seed)
+    if builtin.is_path(text) or not isinstance(given, str):
+        return split_for(load_problem(text, stiffness), tableau)
+    terms = terms_of(with_joined_terms(tableau))
+    return builtin.problem(text, terms, 1 if seed is None else seed, stiffness)
+
+
+def split_for(problem: Problem, tableau: Tableau) -> Problem:
+    """A problem in as many terms as a method is for.
+
+    Raises:
+        UsageProblem: it has no natural split.
+    """
+    return split_into(problem, terms_of(with_joined_terms(tableau)))
+
+
+def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Problem:
     """The same where steps are taken in numbers, not by exact step maps."""
-    found = problem_for(given, tableau)
+    found = problem_for(given, tableau, seed)
     if isinstance(found, Problem):
         return found
     raise UsageProblem(
@@ -105,9 +142,10 @@ def to_step(given: AnyProblem, tableau: Tableau) -> Problem:
     )
 
 
-def hamiltonian_for(given: AnyProblem, tableau: Tableau) -> Hamiltonian:
+def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
     """The same where the problem has to be Hamiltonian."""
-    found = to_step(given, tableau)
+    found = _to_step(OSCILLATOR, tableau, seed) if given == OSCILLATOR else None
+    found = found or to_step(given, tableau, seed)
     if isinstance(found, Hamiltonian):
         return found
     message = f"{found.name} is not Hamiltonian"

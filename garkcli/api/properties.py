@@ -44,8 +44,8 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
 
 
 def reduced(method: AnyMethod) -> GarkMethod | None:
-    """The smallest method that does the same; None where stages are at irrational nodes and more
-    than row sums would have to be compared.
+    """The smallest method that does the same, itself where that is the method: ``gark reduce``.
+    None where stages are at irrational nodes and more than row sums would have to be compared.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -58,9 +58,12 @@ def reduced(method: AnyMethod) -> GarkMethod | None:
     if found is None:
         return None
     tableau, further = found
+    if tableau is method.tableau:
+        return method
+    is_named = method.name and method.name != getattr(method, "source", "")
     return GarkMethod(
         tableau=tableau,
-        name=method.name,
+        name=f"{method.name}, reduced" if is_named else "a reduced method",
         tolerance=method.tolerance,
         embedded=further.embedded,
         dense=further.dense,

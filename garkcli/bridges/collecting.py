@@ -79,7 +79,8 @@ class Result:
             yield f"{text} stays a decimal"
 
 
-def _no_one(table: FoundTable) -> None:
+def no_one(table: FoundTable) -> None:
+    """Nobody is told of what is left out."""
     del table
 
 
@@ -87,7 +88,7 @@ def collected(
     paths: Iterable[str],
     chosen: Sequence[Reader] = (),
     is_recognising: bool = False,
-    left_out: Callable[[FoundTable], None] = _no_one,
+    left_out: Callable[[FoundTable], None] = no_one,
 ) -> Iterator[Result]:
     """The tables of all sources, in order.
 

@@ -26,13 +26,11 @@ class TrueClaims:
 
     Attributes:
         file: its path as given.
-        text: of the file.
         claims: values as they are written in YAML, by key.
         left: what was asked for and has no meaning for the method, or is not decided.
     """
 
     file: str
-    text: str
     claims: Mapping[str, str]
     left: tuple[str, ...] = ()
 

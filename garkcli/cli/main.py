@@ -7,19 +7,21 @@ import gc
 import os
 import sys
 from collections.abc import Sequence
-from importlib import import_module
 from typing import NoReturn
 
 import click
 from click.shell_completion import CompletionItem
 
-from garkcli.cli.options import help_option
-from garkcli.cli.signals import INTERRUPTED, READER_GONE, Ended, ending
+from garkcli.cli.options import command_of, help_option
 from garkcli.cli.streams import (
+    INTERRUPTED,
+    READER_GONE,
+    Ended,
     NoStandardOutput,
     ReaderGone,
     complain,
     drop,
+    ending,
     flush,
     prepare,
     put,
@@ -47,11 +49,7 @@ class _LazyGroup(click.Group):
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        if cmd_name not in COMMANDS:
-            return None
-        command = import_module(f"garkcli.cli.{cmd_name}_command").command
-        assert isinstance(command, click.Command)
-        return command
+        return command_of(cmd_name) if cmd_name in COMMANDS else None
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

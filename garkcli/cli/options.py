@@ -1,31 +1,87 @@
-"""What the commands share: how they are made of the table of calls, where the report goes, whether
-it has colour.
+"""What the commands share: how they are made of the table of calls, what they are given, where the
+report goes, whether it has colour.
 """
 
 from __future__ import annotations
 
 import inspect
+import os
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence, Sized
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, partial
+from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.method_argument import INPUT, METHOD, notes, with_notes
-from garkcli.cli.streams import put, safe_pieces, say, wants_colour
-from garkcli.cli.table import COMMANDS, OPTIONS, PATH, Option
+from garkcli.cli import arguments
+from garkcli.cli.arguments import INPUT, PATH, completed, read_by
+from garkcli.cli.streams import complain, put, safe_pieces, say, wants_colour
+from garkcli.cli.table import COMMANDS, Option, option_of, options_of
 from garkcli.doing import hush
-from garkcli.errors import UsageProblem
+from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
 from garkcli.files import note_input
 from garkcli.page.paint import Paint
 
 if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
+    from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tell.report import Report
 
 CONTEXT = {"help_option_names": [], "max_content_width": 100}
 """Settings of every command; ``-h`` and ``--help`` are an option of each."""
+_FILE = {"type": arguments.MethodType(), "callback": arguments.with_notes}
+ARGUMENTS: dict[str, dict[str, Any]] = {
+    "FILE": _FILE,
+    "FIRST": _FILE,
+    "SECOND": _FILE,
+    "PLACE": {"type": PATH, "name": "file", "metavar": "[FILE]"},
+    "SPEC": {"type": INPUT},
+    "SOURCE": {"type": INPUT},
+    "PATH": {"type": INPUT},
+}
+"""What commands take, by the words of their usage; what is not here is given by the command."""
+KINDS: dict[str, dict[str, Any]] = {
+    "written": {"type": PATH},
+    "picture": {"type": PATH, "callback": arguments.picture},
+    "read": {"type": INPUT},
+    "many": {"multiple": True},
+    "pairs": {"multiple": True, "metavar": "NAME=VALUE", "callback": arguments.pairs},
+    "folders": {
+        "multiple": True,
+        "metavar": "DIR",
+        "type": click.Path(readable=False, file_okay=False),
+        "is_eager": True,
+        "expose_value": False,
+        "callback": arguments.add_folders,
+    },
+    "problem": {"type": arguments.ProblemType()},
+    "positive": {"callback": read_by(arguments.positive)},
+    "positives": {"callback": read_by(arguments.positives)},
+    "ratios": {"callback": read_by(arguments.ratio)},
+    "square": {"callback": read_by(arguments.square)},
+    "seconds": {"type": click.FloatRange(min=0, min_open=True), "callback": arguments.finite},
+    "target": {
+        "required": True,
+        "shell_complete": completed(lambda: _named("bridges.registry:bridges")()),
+    },
+    "report": {"shell_complete": completed(lambda: _named("report.schemas:REPORTS"))},
+}
+"""What values of options are, by the words of the table."""
+WORDS = {
+    "forms": "conversion.targets:TARGETS",
+    "kinds": "trees.symplectic:KINDS",
+    "objectives": "design.minimise.objectives:OBJECTIVES",
+}
+"""Where the words are that an option takes one of."""
+
+
+def _named(place: str) -> Any:
+    """What a module of the package calls so."""
+    file, _, name = place.partition(":")
+    return getattr(import_module(f"garkcli.{file}"), name)
 
 
 def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -47,19 +103,16 @@ def help_option() -> click.Option:
 
 
 class _Argument(click.Option):
-    """An option that is an argument of a function of the package: its help and its default are
-    those of the argument, and looked up when they are needed.
+    """An option that is an argument of a function of the package. Its help and its default are
+    those of the argument, looked up for the help alone: where it is not given, it is not handed
+    over.
     """
 
     def __init__(self, flags: list[str], of: str, **settings: Any) -> None:
         self._of = of
         self._help: str | None = None
-        self._has_default = "default" in settings
-        if settings.get("required"):
-            self._has_default = True
+        self._has_default = "default" in settings or bool(settings.get("required"))
         super().__init__(flags, **settings)
-        if not self._has_default:
-            self.show_default = True
 
     @property
     def help(self) -> str | None:
@@ -71,29 +124,24 @@ class _Argument(click.Option):
         self._help = text
 
     def get_default(self, ctx: click.Context, call: bool = True) -> Any:
-        """That of the argument, unless the command has its own."""
+        """For the help that of the argument, unless the command has its own."""
         if self._has_default:
             return super().get_default(ctx, call)
-        default = parameter_of(self._of).default
+        default = None if call else parameter_of(self._of).default
         # an empty text is not worth a word of help
-        is_none = default is inspect.Parameter.empty or (default == "" and not call)
-        return None if is_none else default
+        return None if default in (inspect.Parameter.empty, "") else default
 
 
 def parameter_of(of: str) -> inspect.Parameter:
     """The argument that is called ``function.argument`` in the package."""
-    import garkcli
-
     function, _, name = of.partition(".")
-    return inspect.signature(getattr(garkcli, function)).parameters[name]
+    return inspect.signature(getattr(import_module("garkcli"), function)).parameters[name]
 
 
 def told(of: str) -> str:
     """What the docstring of a function says of an argument."""
-    import garkcli
-
     function, _, name = of.partition(".")
-    lines = iter((inspect.getdoc(getattr(garkcli, function)) or "").splitlines())
+    lines = iter((inspect.getdoc(getattr(import_module("garkcli"), function)) or "").splitlines())
     found = ""
     for line in lines:
         if found and not line.startswith("        "):
@@ -104,53 +152,64 @@ def told(of: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-ARGUMENTS: dict[str, dict[str, Any]] = {
-    "FILE": {"type": METHOD, "callback": with_notes},
-    "FIRST": {"type": METHOD, "callback": with_notes},
-    "SECOND": {"type": METHOD, "callback": with_notes},
-    "PLACE": {"type": PATH, "name": "file", "metavar": "[FILE]"},
-    "SPEC": {"type": INPUT},
-    "SOURCE": {"type": INPUT},
-    "PATH": {"type": INPUT},
-}
-"""What commands take, by the words of their usage; what is not here is given by the command."""
+_DECLARED: dict[str, Callable[[], click.Command]] = {}
 
 
-def declared(name: str, formats: Sequence[str] = (), **more: Any) -> Callable[..., click.Command]:
-    """The command that the table of calls has by that name.
+def declared(
+    name: str, formats: Sequence[str] = (), **more: Any
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """The function is what the command of that name in the table of calls does.
 
-    ``--format``, ``-o``, ``-q``, ``-v`` and ``--color`` arrive as one ``Output``, ``--conjugate``
-    and ``--pair`` as ``which``.
+    It takes what the command is ``Given`` and its ``Output``, and returns the exit code, or nothing
+    where all is well.
 
     Args:
         name: of the command.
         formats: that it writes, the first one by default.
-        more: settings of its arguments that it knows itself; ``options``, those that are made.
+        more: settings of its arguments that it knows itself; ``options``, a function that makes
+            further ones.
     """
+
+    def declare(function: Callable[..., Any]) -> Callable[..., Any]:
+        _DECLARED[name] = partial(_made, name, function, formats, more)
+        return function
+
+    return declare
+
+
+@cache
+def command_of(name: str) -> click.Command:
+    """The command of that name, from the file that the table says."""
+    import_module(f"garkcli.cli.{COMMANDS[name].file}")
+    return _DECLARED[name]()
+
+
+def _made(
+    name: str, function: Callable[..., Any], formats: Sequence[str], more: Mapping[str, Any]
+) -> click.Command:
     row = COMMANDS[name]
+    own, shared = row.options.split(), row.common.split()
+    if "FILE" in row.arguments or "FIRST" in row.arguments:
+        shared = ["--catalogue", *shared]
+    further = more["options"]() if "options" in more else ()
 
-    def decorate(function: Callable[..., Any]) -> click.Command:
-        own = row.options.split()
-        common = row.common.split()
-        run = function
-        if "--conjugate" in own and name != "design":
-            run = _with_companion(run)
-        if "--format" in common and "--verbose" in common and name != "import":
-            run = _with_output(run)
-        arguments = [_argument(word, more) for word in row.arguments.split()]
-        if "FILE" in row.arguments or "FIRST" in row.arguments:
-            common.insert(0, "--catalogue")
-        options = [_option(name, flag, formats) for flag in own]
-        shared = [help_option() if x == "--help" else _option(name, x, formats) for x in common]
-        return click.Command(
-            name,
-            callback=run,
-            params=[*arguments, *options, *more.get("options", ()), *shared],
-            help=inspect.getdoc(function),
-            context_settings=CONTEXT,
-        )
+    def run(**values: Any) -> Any:
+        output = Output.of(values)
+        return function(Given(name, values), output)
 
-    return decorate
+    return click.Command(
+        name,
+        callback=run,
+        params=[
+            *(_argument(word, more) for word in row.arguments.split()),
+            *(_option(option_of(name, flag), formats) for flag in own),
+            *further,
+            *(_option(option_of(name, flag), formats) for flag in shared if flag != "--help"),
+            help_option(),
+        ],
+        help=inspect.getdoc(function),
+        context_settings=CONTEXT,
+    )
 
 
 def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
@@ -163,70 +222,110 @@ def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
     return click.Argument([name], nargs=-1 if several else 1, **settings)
 
 
-def _option(command: str, flag: str, formats: Sequence[str]) -> click.Option:
-    row: Option = OPTIONS.get(f"{command} {flag}") or OPTIONS[flag]
-    settings = dict(row.settings or {})
-    if flag == "--format":
-        settings |= {"type": click.Choice(formats), "default": formats[0]}
-    if flag in {"--format", "--color"}:
-        settings["show_default"] = True
-    if "choices" in settings:
-        settings["type"] = click.Choice(settings.pop("choices")())
-    flags = [*row.flags, settings.pop("name")] if "name" in settings else row.flags
+def _option(row: Option, formats: Sequence[str]) -> click.Option:
+    settings: dict[str, Any] = {"is_flag": True} if row.is_flag and "/" not in row.written else {}
+    for word in row.kind:
+        key, sign, value = word.partition("=")
+        if word == "formats":
+            settings |= {"type": click.Choice(formats), "default": formats[0]}
+        elif word[0].isdigit():
+            least, _, most = word.partition("..")
+            settings["type"] = click.IntRange(int(least), int(most) if most else None)
+        elif word in KINDS:
+            settings |= KINDS[word]
+        elif key == "words":
+            settings["type"] = click.Choice(
+                _named(WORDS[value]) if value in WORDS else value.split(",")
+            )
+        elif key == "default":
+            settings["default"] = value or None
+        elif key == "value":
+            settings["flag_value"] = value
+        elif key == "alone":
+            flag_value = int(value) if value.isdigit() else value
+            settings |= {"is_flag": False, "flag_value": flag_value, "default": None}
+        elif not sign:
+            settings["metavar"] = word
+    settings["help"] = row.help or None
+    is_of_argument = bool(row.of) and "default" not in settings
+    settings["show_default"] = is_of_argument or settings.get("default") is not None
+    flags = [*row.flags, row.name]
     if row.of:
-        return _Argument(flags, row.of, help=row.help or None, **settings)
-    return click.Option(flags, help=row.help or None, **settings)
+        return _Argument(flags, row.of, **settings)
+    return click.Option(flags, **settings)
 
 
-def _with_companion(function: Callable[..., Any]) -> Callable[..., Any]:
-    """``--conjugate`` and ``--pair`` as ``which``, None for the method itself."""
+class Given(SimpleNamespace):
+    """What a command is given: its arguments and options by their names.
 
-    def run(is_conjugate: bool, is_pair: bool, **rest: Any) -> Any:
-        if is_conjugate and is_pair:
+    ``which`` is ``"conjugate"`` or ``"pair"`` where one of these is meant, else None.
+
+    Raises:
+        UsageProblem: both are.
+    """
+
+    def __init__(self, command: str, values: dict[str, Any]) -> None:
+        super().__init__(**values)
+        self._command = command
+        derived = [x for x in ("conjugate", "pair") if values.get(x)]
+        if len(derived) > 1:
             raise UsageProblem(
                 "--pair and --conjugate are two methods", "ask for one", code="options-clash"
             )
-        which = "conjugate" if is_conjugate else "pair" if is_pair else None
-        return function(which=which, **rest)
+        self.which: Any = derived[0] if derived else None
 
-    return run
+    def of(self, function: str) -> dict[str, Any]:
+        """The options that are given and are arguments of a function of the package, by their
+        names there.
+        """
+        found = {}
+        for option in options_of(self._command):
+            owner, _, name = option.of.partition(".")
+            value = getattr(self, option.name, None) if owner == function else None
+            if value is not None and value is not False and value != ():
+                found[name] = value
+        return found
 
+    def method(self, file: str = "", is_exact: bool = False) -> GarkMethod:
+        """The method of FILE with the values of --set, or its conjugate or its pair.
 
-def _with_output(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Where the report goes and how it looks as one ``Output``."""
+        Args:
+            file: another one.
+            is_exact: whether what is said of it is proved.
 
-    def run(
-        format: str, output: str | None, quiet: bool, verbose: bool, color: str, **rest: Any
-    ) -> Any:
-        chosen = Output(format, output, verbose - quiet, color)
-        for note in notes():
-            chosen.note(note)
-        return function(output=chosen, **rest)
+        Raises:
+            MethodFileError: it is none.
+            HasFreeParameters: a parameter has no value.
+            MethodError: the pair or the conjugate of rounded coefficients, where it is to be exact.
+            ZeroWeight: a conjugate would divide by zero.
+        """
+        from garkcli.methodfile.load import load
 
-    return run
+        method: GarkMethod = load(file or self.file, self.settings)
+        if is_exact and self.which:
+            from garkcli.api.anymethod import refuse_rounded
 
+            refuse_rounded(method, self.which)
+        return getattr(method, self.which) if self.which else method
 
-def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> None:
-    """``--set`` is about the parameters of one file.
+    def files_meant(self, output: Output) -> list[str]:
+        """The files that FILE... means: folders and patterns are looked into, and none of the files
+        is written over.
 
-    Raises:
-        UsageProblem: it is given with several.
-    """
-    if settings and len(paths) > 1:
-        raise UsageProblem(
-            "--set is for one FILE", "give the files one by one", code="options-clash"
-        )
+        Raises:
+            UsageProblem: the report is to go to one of them, or --set is given with several.
+        """
+        from garkcli.methodfile.finding import find_files
 
-
-def check_document(is_document: bool, format: str) -> None:
-    """Refuse ``--document`` where no LaTeX is written.
-
-    Raises:
-        UsageProblem: it would change nothing.
-    """
-    if is_document and format != "latex":
-        message = "--document goes with --format latex"
-        raise UsageProblem(message, "add --format latex", code="option-alone")
+        found = list(find_files(self.files, output.note))
+        for path in found:
+            note_input(path)
+        output.check_place()
+        if len(found) > 1 and getattr(self, "settings", None):
+            raise UsageProblem(
+                "--set is for one FILE", "give the files one by one", code="options-clash"
+            )
+        return found
 
 
 class Output:
@@ -241,7 +340,13 @@ class Output:
         UsageProblem: the report will have no place; said before any work is done.
     """
 
-    def __init__(self, format: str, path: str | None, verbosity: int, color: str) -> None:
+    def __init__(
+        self,
+        format: str = "text",
+        path: str | None = None,
+        verbosity: int = 0,
+        color: str = "never",
+    ) -> None:
         self.format = format
         self.path = path
         self.verbosity = verbosity
@@ -249,6 +354,18 @@ class Output:
         if verbosity < 0:
             hush()
         self.check_place()
+
+    @classmethod
+    def of(cls, values: dict[str, Any]) -> Output:
+        """What ``--format``, ``-o``, ``-q``, ``-v`` and ``--color`` say, taken out of the values of
+        options.
+        """
+        verbosity = values.pop("verbose", False) - values.pop("quiet", False)
+        format, path = values.pop("format", "text"), values.pop("output", None)
+        output = cls(format, path, verbosity, values.pop("color", "never"))
+        for note in arguments.notes():
+            output.note(note)
+        return output
 
     def check_place(self) -> None:
         """Look whether the report may be written where it is to go.
@@ -293,48 +410,65 @@ class Output:
 
         write_whole(self.path, safe_pieces(pieces, format, coloured))
 
-    def tell(self, report: Report[Any], wholes: Sequence[Any], **signs: Any) -> None:
+    def tell(self, report: Report[Any], *wholes: Any) -> None:
         """Write results in the format that is asked for."""
-        signs["width"] = self.width
-        self.write(report.render(wholes, self.format, self.paint, self.verbosity, **signs))
+        self.write(report.render(wholes, self.format, self.paint, self.verbosity, width=self.width))
+
+    def suit(self) -> None:
+        """Take for the format ``auto`` the one that suits where the command runs."""
+        if self.format == "auto":
+            is_job = os.environ.get("GITHUB_ACTIONS") == "true"
+            self.format = "github" if is_job else "text"
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""
         if self.verbosity >= 0:
             say(text)
 
+    def save_plot(self, scene: Scene, path: str) -> None:
+        """Draw the scene into a file, and say so."""
+        from garkcli.plots.saving import save_scene
 
-def files_meant(arguments: Sequence[str], output: Output) -> list[str]:
-    """The files that FILE... means: folders and patterns are looked into, and none of the files is
-    written over.
+        save_scene(scene, Path(path))
+        self.note(f"wrote {path}")
+
+    def tell_failure(self, error: GarkError, name: str, report: Report[Any]) -> int:
+        """Tell people why a run has no result, and programs in the report; and return the exit
+        code.
+
+        Args:
+            error: what has failed.
+            name: of the method.
+            report: of the command.
+        """
+        from garkcli.report.failure import Failure
+
+        complain(error)
+        if self.format in ("json", "csv"):
+            self.tell(report, Failure(name, faults_of(error)))
+        return failure_code(error)
+
+
+def faults_of(error: GarkError) -> tuple[Fault, ...]:
+    """What is wrong: the faults of a file, or one fault."""
+    if isinstance(error, MethodFileError):
+        return error.faults
+    return (Fault(error.message, error.help, code=error.code),)
+
+
+def failure_code(error: GarkError) -> int:
+    """The exit code of a run that has failed: of a step 1, of everything else 2."""
+    from garkcli.stepping.integrator import StepFailed
+
+    return 1 if isinstance(error, StepFailed) else 2
+
+
+def check_document(is_document: bool, format: str) -> None:
+    """Refuse ``--document`` where no LaTeX is written.
 
     Raises:
-        UsageProblem: the report is to go to one of them.
+        UsageProblem: it would change nothing.
     """
-    from garkcli.methodfile.finding import find_files
-
-    paths = list(find_files(arguments, output.note))
-    for path in paths:
-        note_input(path)
-    output.check_place()
-    return paths
-
-
-def check_plot(path: str | None) -> None:
-    """Refuse a picture of another kind, before the work.
-
-    Raises:
-        UsageProblem: its suffix is none of those that can be drawn.
-    """
-    if path is not None:
-        from garkcli.plots.saving import check_suffix
-
-        check_suffix(Path(path))
-
-
-def save_plot(scene: Scene, path: str, output: Output) -> None:
-    """Draw the scene into a file, and say so."""
-    from garkcli.plots.saving import save_scene
-
-    save_scene(scene, Path(path))
-    output.note(f"wrote {path}")
+    if is_document and format != "latex":
+        message = "--document goes with --format latex"
+        raise UsageProblem(message, "add --format latex", code="option-alone")

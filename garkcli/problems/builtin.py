@@ -155,6 +155,11 @@ def built_in(name: str) -> BuiltIn:
     return PROBLEMS[name]
 
 
+def is_path(text: str) -> bool:
+    """Whether this is the path of a problem file rather than the name of one of these."""
+    return text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
+
+
 def check_seed(name: str, seed: int | None) -> None:
     """Refuse a seed for a problem that has no random coefficients, be it one of a file.
 

@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 
 from garkcli.api.anymethod import AnyMethod, method_of
 from garkcli.api.calls import prove_method
+from garkcli.api.files import AnyPath, reference_in
 from garkcli.api.numbers import Whole, whole
-from garkcli.bridges.calls import AnyPath
 from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
-from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
+from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.families.registry import FAMILIES
-from garkcli.problems.builtin import PROBLEMS
 from garkcli.report import citation
 from garkcli.report.certificate import REPORT
+from garkcli.report.listing import all_lists
 from garkcli.report.sweep import SweepReport
-from garkcli.sweep.plan import load_plan
-from garkcli.sweep.run import sweep
+from garkcli.sweep.plan import Plan, load_plan
+from garkcli.sweep.run import Progress, sweep
 from garkcli.sweep.store import RowStore
-from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.transfer import RULES
 
 
 def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
@@ -40,12 +38,20 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
     if format not in citation.FORMATS:
         message = f"no format {format!r}"
         raise UsageProblem(message, did_you_mean(format, citation.FORMATS), code="unknown-word")
-    cited = [_cited(method_of(method)) for method in methods]
-    return citation.render(citation.together(cited), format)
+    return citation.render(references(methods), format)
 
 
-def _cited(method: GarkMethod) -> citation.Cited:
+def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
+    """The publications of some methods, each once. Of a file no more is read than its reference."""
+    return citation.together([_cited(method) for method in methods])
+
+
+def _cited(given: AnyMethod) -> citation.Cited:
     """A method with its reference; without one where it is not from a file."""
+    if isinstance(given, (str, os.PathLike)):
+        source, reference, fields = reference_in(given)
+        return citation.Cited((source,), reference, fields)
+    method = method_of(given)
     source = getattr(method, "source", method.name)
     reference = getattr(method, "reference", "")
     fields = getattr(method, "bibliography", None)
@@ -95,10 +101,20 @@ def run_sweep(
     """
     source = os.fspath(spec)
     plan = load_plan(source)
-    with RowStore(os.fspath(rows), is_resumed) as store:
-        for _ in sweep(plan, store, whole(jobs, "jobs", 1), scheduler):
-            pass
-        return SweepReport(source, plan, store.rows, top=10)
+    report, _ = swept(plan, source, os.fspath(rows), is_resumed, whole(jobs, "jobs", 1), scheduler)
+    return report
+
+
+def swept(
+    plan: Plan, source: str, rows: str, is_resumed: bool = False, jobs: int = 1, scheduler: str = ""
+) -> tuple[SweepReport, Progress]:
+    """A sweep that was read, run or gone on with; and what was done for it."""
+    with RowStore(rows, is_resumed) as store:
+        with doing("methods") as work:
+            for last in sweep(plan, store, jobs, scheduler):
+                work.total = last.total
+                work.reach(last.before + last.done)
+        return SweepReport(source, plan, store.rows, top=10), last
 
 
 def names() -> dict[str, list[str]]:
@@ -108,12 +124,13 @@ def names() -> dict[str, list[str]]:
     >>> "gauss" in names()["families"], "collocation" in names()["transfer"]
     (True, True)
     """
+    lists = {kind: list(names) for kind, names in all_lists()._asdict().items()}
     return {
-        "families": list(FAMILIES),
-        "transfer": list(RULES),
-        "compositions": list(SCHEMES),
-        "splittings": list(SPLITTINGS),
-        "problems": list(PROBLEMS),
+        "families": lists["families"],
+        "transfer": lists["rules"],
+        "compositions": lists["schemes"],
+        "splittings": lists["splittings"],
+        "problems": lists["problems"],
         "exports": list(bridges()),
         "words": known_words(),
     }

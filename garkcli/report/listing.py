@@ -6,12 +6,15 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.bridges.registry import Bridge
-from garkcli.constructions.schemes import Scheme, Splitting
+from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
 from garkcli.families.family import Family, Option
+from garkcli.families.registry import FAMILIES
 from garkcli.page.paint import counted
+from garkcli.problems.builtin import PROBLEMS
 from garkcli.tell.facts import SAID, Level, Row, Section, parts, table, told
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
 from garkcli.tell.report import ListReport, Report
+from garkcli.transfer import SUMMARIES
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -27,6 +30,12 @@ class Lists(NamedTuple):
     schemes: Mapping[str, Scheme]
     splittings: Mapping[str, Splitting]
     problems: Mapping[str, str]
+
+
+def all_lists() -> Lists:
+    """What method files and commands can name."""
+    problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
+    return Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, problems)
 
 
 def _sizes(family: Family) -> str:

@@ -16,6 +16,7 @@ from garkcli.page.cells import cell_text, remark
 from garkcli.page.schema import DERIVATION, NUMBER, NUMERAL, Schema, array, nullable
 from garkcli.page.tableau_text import readable
 from garkcli.report.check import COLOURS, colours_of
+from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
@@ -45,9 +46,14 @@ class Shown(NamedTuple):
         return readable(self.entries) if self.is_rounded else self.entries
 
 
-def of_method(method: GarkMethod) -> Shown:
-    """A method of Python."""
-    return Shown(method.tableau, method.entries, method.name, method.derivation)
+def of_method(method: GarkMethod, digits: int | None = None) -> Shown:
+    """A method, its entries in decimals of so many digits where these are named."""
+    entries = method.entries
+    if digits is not None:
+        entries = pointwise.entries(method.tableau, digits).beside(method.further)
+        entries = entries.in_decimals(digits)
+    is_rounded = method.tolerance is not None
+    return Shown(method.tableau, entries, method.name, method.derivation, is_rounded)
 
 
 def _float(cell: Cell | Parametric) -> float | None:

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from garkcli.catalogue.entries import ORDERS, Range, all_entries, read_range, sorted_by
-from garkcli.cli.list_command import command
+from garkcli.cli.options import command_of
 from garkcli.errors import UsageProblem
 from garkcli.properties.registry import every_property
 from tests.cli.harness import gark
@@ -70,8 +70,8 @@ def test_a_filter_takes_those_and_no_others(options: str) -> None:
 
 def test_every_property_has_its_filter() -> None:
     """A property more is a filter more: truths with their opposite, counts as ranges."""
-    options = {name for x in command.params for name in x.opts}
-    opposites = {name for x in command.params for name in x.secondary_opts}
+    options = {name for x in command_of("list").params for name in x.opts}
+    opposites = {name for x in command_of("list").params for name in x.secondary_opts}
     for found in every_property():
         if found.kind != "number":
             assert f"--{found.key}" in options

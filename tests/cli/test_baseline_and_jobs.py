@@ -300,14 +300,14 @@ def test_a_baseline_is_a_file_of_bounded_size(tmp_path: Path) -> None:
 
 ENDING = """\
 import os, signal, sys
-import garkcli.cli.parallel as parallel
+import garkcli.cli.checking as checking
 from garkcli.cli import main
-check = parallel.check_file
+check = checking.check_file
 def check_file(path, **options):
     if "deadly" in path:
         {how}
     return check(path, **options)
-parallel.check_file = check_file
+checking.check_file = check_file
 main(["check", "-j", "2", *sys.argv[1:]])
 """
 """``gark check -j 2`` in which a file with a deadly name ends what checks it."""
@@ -347,16 +347,16 @@ def test_a_worker_that_dies_is_told_and_stops_nothing(how: str, says: str, tmp_p
 
 def test_a_fault_in_one_file_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One at a time too, a fault of ours is told with its file, and the others are checked."""
-    from garkcli.cli import parallel
+    from garkcli.cli import checking
 
-    check = parallel.check_file
+    check = checking.check_file
 
     def check_file(path: str, **options: object) -> object:
         if path == "b.gark.yaml":
             raise RuntimeError("broken")
         return check(path, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(parallel, "check_file", check_file)
+    monkeypatch.setattr(checking, "check_file", check_file)
     for name in "abc":
         (tmp_path / f"{name}.gark.yaml").write_text(FAILS)
     run = gark("check", ".", cwd=tmp_path)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
+from garkcli.cli.arguments import MethodType
 from garkcli.cli.main import COMMANDS
-from garkcli.cli.method_argument import MethodType
+from garkcli.cli.options import command_of
 from tests.cli.harness import Run, gark
 from tests.cli.test_completion import completions
 
@@ -85,7 +85,7 @@ def test_every_argument_that_is_a_file_is_of_this_type() -> None:
     """No command reads a method in a way of its own, which would know no names."""
     found = {}
     for name in COMMANDS:
-        command = import_module(f"garkcli.cli.{name}_command").command
+        command = command_of(name)
         for option in command.params:
             if option.name in {"file", "files", "first", "second"}:
                 found[name] = isinstance(option.type, MethodType)

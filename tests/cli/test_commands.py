@@ -8,7 +8,6 @@ import re
 import sys
 import xml.etree.ElementTree as ET
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -17,6 +16,7 @@ from flint import fmpq
 from jsonschema import Draft7Validator
 
 from garkcli.cli.main import COMMANDS
+from garkcli.cli.options import command_of
 from garkcli.methodfile.load import load, loads
 from tests.cli.harness import ROOT, Run, gark
 
@@ -101,7 +101,7 @@ def test_every_format_of_every_command_is_tried() -> None:
     """The runs of this file name every command and every format there is."""
     known = {}
     for name in set(COMMANDS) - WITHOUT_A_REPORT:
-        command = import_module(f"garkcli.cli.{name}_command").command
+        command = command_of(name)
         (choice,) = [x.type for x in command.params if x.name == "format"]
         known[name] = set(choice.choices)
     tried = {
@@ -198,10 +198,17 @@ def test_help_of_every_command(command: str) -> None:
     assert f"  {command} " in gark("--help").out
 
 
-def test_every_command_file_is_in_the_summary() -> None:
-    """The list of commands and the command files of the room are the same."""
-    files = (ROOT / "garkcli/cli").glob("*_command.py")
-    assert {path.stem.removesuffix("_command") for path in files} == set(COMMANDS)
+def test_every_command_is_where_the_table_says() -> None:
+    """The files of the room declare the commands of the table, and no others."""
+    declaring = {
+        path.stem: set(
+            re.findall(r"^@declared\(\s*\"(\w+)\"", path.read_text("utf-8"), re.MULTILINE)
+        )
+        for path in (ROOT / "garkcli/cli").glob("*.py")
+    }
+    assert {name: row.file for name, row in COMMANDS.items()} == {
+        name: file for file, names in declaring.items() for name in names
+    }
 
 
 def test_version() -> None:
@@ -406,10 +413,10 @@ def test_millions_of_lines_are_asked_for_twice(options: tuple[str, ...], tmp_pat
 
 def test_whoever_is_asked_decides(monkeypatch: pytest.MonkeyPatch) -> None:
     """On a terminal the answer decides; anything but yes is no."""
-    from garkcli.cli import trees_command
+    from garkcli.cli import trees
 
-    monkeypatch.setattr(trees_command, "is_terminal", lambda _: True)
-    monkeypatch.setattr(trees_command, "MANY", 10)
+    monkeypatch.setattr(trees, "is_terminal", lambda _: True)
+    monkeypatch.setattr(trees, "MANY", 10)
     for answer, code in (("y\n", 0), ("yes\n", 0), ("n\n", 2), ("\n", 2), ("", 2)):
         run = gark("trees", "-n", "6", stdin=answer)
         assert run.code == code

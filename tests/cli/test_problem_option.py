@@ -11,11 +11,13 @@ import click
 import pytest
 from click.shell_completion import ShellComplete
 
+from garkcli.api.problems import problem_for
+from garkcli.cli.arguments import ProblemType
 from garkcli.cli.main import gark as group
-from garkcli.cli.problems import ProblemType, find_problem, is_path
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import load
-from garkcli.problems.builtin import PROBLEMS
+from garkcli.problems.builtin import PROBLEMS, is_path
+from garkcli.problems.oscillator import Oscillator
 from tests.cli.harness import ROOT, gark
 
 RECTANGULAR = "methods/rectangular.gark.yaml"
@@ -80,10 +82,10 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
     single, double, triple = (
         load(str(ROOT / x)).tableau for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE)
     )
-    assert len(find_problem(str(two), single).terms) == 1
-    assert len(find_problem(str(two), double).terms) == 2
-    assert [len(find_problem(str(one), x).terms) for x in (single, double, triple)] == [1, 2, 3]
-    assert len(set(find_problem(str(one), triple).terms)) == 2
+    assert len(problem_for(str(two), single).terms) == 1
+    assert len(problem_for(str(two), double).terms) == 2
+    assert [len(problem_for(str(one), x).terms) for x in (single, double, triple)] == [1, 2, 3]
+    assert len(set(problem_for(str(one), triple).terms)) == 2
     run = gark("converge", THREE, "--problem", str(two))
     assert run.code == 2
     assert "two has 2 terms, the method is for 3" in run.err
@@ -145,10 +147,11 @@ def test_names_are_those_of_the_list() -> None:
     assert all(ProblemType().convert(name, None, None) == name for name in PROBLEMS)
     tableau = load(str(ROOT / COLLOCATION)).tableau
     for name in PROBLEMS:
-        assert len(find_problem(name, tableau).terms) == 2
+        found = problem_for(name, tableau)
+        assert len(found.shares if isinstance(found, Oscillator) else found.terms) == 2
     assert not any(map(is_path, PROBLEMS))
     with pytest.raises(UsageProblem, match="--seed"):
-        find_problem("kepler", tableau, 3)
+        problem_for("kepler", tableau, 3)
 
 
 def test_list_mentions_files() -> None:

@@ -112,7 +112,7 @@ def test_a_fault_of_the_program_is_owned_up_to() -> None:
     traceback.
     """
     script = (
-        "import garkcli.cli.list_command\n"
+        "import garkcli.cli.looking_up\n"
         "from garkcli.tell.report import Report\n"
         "from garkcli.cli import main\n"
         "def broken(*_, **__): raise RuntimeError('broken')\n"

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.cli.reduce_command import smallest_of
-from garkcli.errors import UsageProblem
+from garkcli.api.properties import reduced
 from garkcli.exact.field import ZERO
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
@@ -96,8 +95,15 @@ def test_what_is_not_compared_is_refused() -> None:
     method = loads("methods: {family: gauss, stages: 6}")
     zeros = dict.fromkeys(method.tableau.blocks, ((ZERO,) * 6,) * 6)
     flat = replace(method, tableau=replace(method.tableau, blocks=zeros))
-    with pytest.raises(UsageProblem, match="no simple radicals"):
-        smallest_of("a.yaml", flat)
+    assert reduced(flat) is None
+
+
+def test_why_it_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command says it with a cure."""
+    monkeypatch.setattr("garkcli.api.properties.smallest", lambda *_: None)
+    run = gark("reduce", "rk4")
+    assert (run.code, run.out) == (2, "")
+    assert run.err.startswith("gark: rk4: the nodes have no simple radicals")
 
 
 def test_what_no_file_says_is_refused() -> None:

@@ -6,11 +6,12 @@ import re
 import runpy
 import struct
 import sys
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from garkcli.cli.options import command_of
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -74,8 +75,7 @@ def test_commands_of_the_gallery_are_commands(script: dict[str, Any]) -> None:
     """Each is read as it stands, with all its options; the last word is the picture."""
     for name, words in script["commands"]().items():
         command, *arguments = words
-        module = import_module(f"garkcli.cli.{command}_command")
-        context = module.command.make_context(command, arguments)
+        context = command_of(command).make_context(command, arguments)
         assert name in context.params.values()
 
 

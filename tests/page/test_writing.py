@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.cli.emitting import file_names, make_folder
+from garkcli.cli.designing import file_names, make_folder
 from garkcli.errors import UsageProblem
 from garkcli.page.writing import refuse_unwritable, write_whole
 from tests.cli.harness import ROOT, gark

@@ -23,8 +23,8 @@ from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.findings import KINDS, findings
 from garkcli.check.outcome import Outcome
-from garkcli.cli.check_command import command as check_command
 from garkcli.cli.main import gark as commands
+from garkcli.cli.options import command_of
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
@@ -576,5 +576,5 @@ def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:
 
 def test_the_formats_are_the_choice() -> None:
     """One dictionary is what can be asked for and what writes it."""
-    (option,) = [x for x in check_command.params if x.name == "format"]
+    (option,) = [x for x in command_of("check").params if x.name == "format"]
     assert list(option.type.choices) == ["auto", *FORMATS]  # type: ignore[attr-defined]

@@ -133,6 +133,9 @@ class Result:
         methods: each once, in the order of the starts.
         seconds: of the processor.
         ending: what ended the search before its last start; None where nothing did.
+        order: that was wanted.
+        whose: order that is.
+        seed: of the starts.
     """
 
     starts: int = 0
@@ -141,6 +144,9 @@ class Result:
     methods: list[Method] = field(default_factory=list)
     seconds: float = 0.0
     ending: Ending | None = None
+    order: int = 0
+    whose: Whose = "method"
+    seed: int = 0
 
     @property
     def is_interrupted(self) -> bool:
@@ -233,7 +239,7 @@ def search_methods(
             "leave it out, and ask gark check of what is found",
             code="wanted-without-meaning",
         )
-    result = Result()
+    result = Result(order=order, whose=whose, seed=seed)
     try:
         with within(seconds):
             for found in results(Search(family, order, whose), starts, seed, most):
@@ -260,8 +266,8 @@ def results(
         workers: who does the work; what is found does not hang on that.
     """
     workers = workers or Alone(partial(do, search))
-    run = _Run(search, workers, most)
     coming = search.starts(seed, starts)
+    run = _Run(search, workers, most, seed)
     size = FIRST
     while True:
         together = workers.size
@@ -276,11 +282,11 @@ def results(
 class _Run:
     """What is known in the middle of a search."""
 
-    def __init__(self, search: Search, workers: Workers[Task, Timed], most: int) -> None:
+    def __init__(self, search: Search, workers: Workers[Task, Timed], most: int, seed: int) -> None:
         self.search = search
         self.workers = workers
         self.most = most
-        self.result = Result()
+        self.result = Result(order=search.order, whose=search.whose, seed=seed)
         self._seen: list[Start] = []
         self._texts: set[tuple[str, ...]] = set()
 

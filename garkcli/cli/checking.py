@@ -1,0 +1,222 @@
+"""``gark check``, many files side by side with the same outcome as one after the other; and
+``gark claims``.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.check.check_file import check_file
+from garkcli.check.outcome import Outcome
+from garkcli.cli.options import Given, Output, declared
+from garkcli.cli.project import Project, find_project
+from garkcli.crew.hiring import hired
+from garkcli.crew.work import in_order
+from garkcli.doing import counting, doing
+from garkcli.errors import Fault, HasFreeParameters, UsageProblem
+from garkcli.files import is_stream
+from garkcli.report.check_formats import FORMATS
+from garkcli.tell.report import FORMATS as TOLD
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
+
+
+@declared("check", ["auto", *FORMATS])
+def check(given: Given, output: Output) -> int:
+    """Everything known about each method, and its claims.
+
+    FILE is a method file, a directory (all *.gark.yaml below it), a pattern (in quotes, ** for any
+    directories), or - for standard input.
+
+    The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree
+    whose condition fails next; B, C and D of every block and the bounds they give; consistency and
+    symplecticity; the claims under `expect`. The format auto is github in GitHub Actions and text
+    elsewhere.
+
+    Without FILE the paths of .gark.toml, or of [tool.gark] in pyproject.toml, are meant; what else
+    they say holds where no option says otherwise.
+
+    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
+    """
+    if given.explain is not None:
+        return _explain(given.explain, output)
+    project = find_project()
+    given.files = given.files or project.paths
+    if not given.files:
+        raise click.MissingParameter(
+            ctx=click.get_current_context(), param_hint="'FILE...'", param_type="argument"
+        )
+    _take_defaults(project, given, output)
+    if given.baseline is not None:
+        return _compare(project, given, output)
+    outcomes = _outcomes(project, given, output)
+    output.suit()
+    render = FORMATS[output.format]
+    output.write(render(outcomes, output.paint, output.verbosity, given.digits, output.width))
+    return max(outcome.exit_code for outcome in outcomes)
+
+
+def _explain(key: str, output: Output) -> int:
+    """Write what a claim means."""
+    from garkcli.check.meanings import claim_meaning
+    from garkcli.report.meaning import REPORT, told
+
+    if output.format not in TOLD:
+        output.format = "text"
+    output.tell(REPORT, *told(key, [claim_meaning(key)]))
+    return 0
+
+
+def _take_defaults(project: Project, given: Given, output: Output) -> None:
+    """What the project says in place of options that are not given."""
+    source = click.get_current_context().get_parameter_source
+    for name, value in project.defaults.items():
+        if source(name) is click.core.ParameterSource.DEFAULT:
+            setattr(output if name == "format" else given, name, value)
+
+
+def _compare(project: Project, given: Given, output: Output) -> int:
+    """Write what is worse than in an earlier report."""
+    from garkcli.check.baseline import read_baseline, regressions
+    from garkcli.report import check_baseline
+    from garkcli.report.checked import REPORT
+
+    earlier = read_baseline(given.baseline)
+    outcomes = _outcomes(project, given, output)
+    worse = regressions(REPORT.document(outcomes), earlier)
+    output.write(check_baseline.render(worse, len(outcomes)))
+    return int(bool(worse))
+
+
+def _outcomes(project: Project, given: Given, output: Output) -> list[Outcome]:
+    """The outcome of each file that is meant, in order, with what it is to tell and what fails
+    it.
+    """
+    paths = given.files_meant(output)
+    work = partial(check_file, **given.of("check_file"), settings=given.settings)
+    running = counting("files", check_files(work, paths, given.jobs), len(paths))
+    return [
+        replace(
+            outcome,
+            needs_claims=given.require_claims or project.require_claims,
+            needed=project.needed,
+            wants_properties=given.properties,
+        )
+        for outcome in running
+    ]
+
+
+def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) -> Iterator[Outcome]:
+    """Check ``paths`` in their order, ``jobs`` of them at a time; 0 for as many as there are
+    processors.
+
+    A file that ends its worker, by a lack of memory or a signal, has an outcome that says so, and
+    the others are checked as if nothing had been.
+    """
+    jobs = min(jobs or os.cpu_count() or 1, len(paths))
+    if any(map(is_stream, paths)):
+        jobs = 1  # standard input is this process's, and so are other streams
+    with hired(partial(_checked, check), _ended, jobs) as workers:
+        yield from in_order(workers, paths)
+
+
+def _checked(check: Callable[[str], Outcome], path: str) -> Outcome:
+    """The outcome of one file, also where the program has a fault."""
+    try:
+        with doing(path):
+            return check(path)
+    except Exception as error:
+        if "--debug" in sys.argv:
+            raise
+        what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
+        return _crashed(
+            path, f"internal fault: {what}", "please report it, with the file", "internal-fault"
+        )
+
+
+def _crashed(path: str, what: str, cure: str, code: str) -> Outcome:
+    return Outcome(path, path, faults=(Fault(what, cure, code=code),), is_crash=True)
+
+
+def _ended(path: str, why: str) -> Outcome:
+    """The outcome of a file that ended its worker."""
+    cure = "check it alone; where memory is short use fewer --jobs"
+    return _crashed(path, f"its check was ended {why}", cure, "worker-lost")
+
+
+@declared("claims", TOLD)
+def claims(given: Given, output: Output) -> None:
+    """What is true of a method, as a file claims it under `expect`.
+
+    Of a file that makes claims these, with what is true in place of what it says; of one that makes
+    none the orders, whether it is symplectic, its stage order, and the properties that it has.
+    What has no meaning for a method, or is not decided, is not claimed. FILE as for gark check.
+
+    With --write the claims are put into the files: gark check fails from then on where the method
+    is no longer what it was.
+    """
+    from garkcli.api.calls import refuse_unknown, true_claims_of
+    from garkcli.methodfile.claims_writer import write_claims
+    from garkcli.methodfile.expectations import CLAIMS
+    from garkcli.page.writing import write_whole
+    from garkcli.report.claims import REPORT, Claims, yaml_text
+
+    refuse_unknown(given.keys)
+    if given.write and "-" in given.files:
+        raise UsageProblem("--write needs a file", "name one in place of -", code="option-alone")
+    paths = given.files_meant(output)
+    if given.write:
+        _refuse_names(paths)
+    methods = [_loaded(path) for path in paths]
+    found = []
+    for method in methods:
+        made = (claim.key for claim in method.claims)
+        wanted = list(CLAIMS) if given.all else [*made, *given.keys]
+        found.append(true_claims_of(method, wanted))
+    if given.write:
+        for method, true in zip(methods, found, strict=True):
+            text = write_claims(method.source, method.text, true.claims)
+            if text != method.text:
+                write_whole(method.source, [text], is_renewed=True)
+    told = [Claims(true, given.write) for true in found]
+    if output.format == "text":
+        output.write(yaml_text(told, output.width))
+    else:
+        output.tell(REPORT, *told)
+
+
+def _refuse_names(paths: list[str]) -> None:
+    """A method of the catalogue has no file that is the user's to write."""
+    from garkcli.methodfile.naming import find_named
+
+    for path in paths:
+        if find_named(path) is not None:
+            message = f"--write needs a file, and {path} is a name of the catalogue"
+            raise UsageProblem(message, "give the path of the file", code="option-alone")
+
+
+def _loaded(path: str) -> MethodFile:
+    """A method with its claims.
+
+    Raises:
+        MethodFileError: the file is no method.
+        UsageProblem: it is a family of them.
+    """
+    from garkcli.methodfile.load import load
+
+    try:
+        return load(path)
+    except HasFreeParameters as error:
+        raise UsageProblem(
+            f"{error.source} has free parameters, and claims are of one method",
+            "gark check says what holds for every value",
+            code="free-parameters",
+        ) from None

@@ -1,0 +1,560 @@
+"""``gark design`` and ``gark sweep``: methods found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from garkcli.cli.options import Given, Output, declared
+from garkcli.cli.streams import INTERRUPTED, say_problem
+from garkcli.cli.table import SECONDS
+from garkcli.crew.work import WorkerLost
+from garkcli.deadline import seconds_left, until, within
+from garkcli.doing import doing
+from garkcli.errors import (
+    ExpressionError,
+    MethodError,
+    NotDecided,
+    UsageProblem,
+    counted,
+    did_you_mean,
+)
+from garkcli.files import STDIN
+from garkcli.tell.report import FORMATS
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.api.design import Found
+    from garkcli.design.choices import Choice
+    from garkcli.design.design import Design
+    from garkcli.design.minimise.result import Minimum
+    from garkcli.design.search.run import Result, Task, Timed
+    from garkcli.design.stable_values import StableValues
+    from garkcli.methodfile.family import FamilyFile
+    from garkcli.methodfile.search_file import FileSearch
+    from garkcli.sweep.plan import Plan
+    from garkcli.tableau.family import Stability
+
+_STANDARD_INPUT = {STDIN, "<stdin>"}
+PROOFS = ("exact", "exists", "numerical")
+"""What is known of a method that was found, the most first."""
+
+
+@declared("design", FORMATS)
+def design(given: Given, output: Output) -> int:
+    """For which values of its free parameters a method has an order, exactly.
+
+    A parameter is free by parameters: {tau: free}. The answer is every value, these values, a
+    family of a dimension, or none, and then the tree whose condition cannot be met. Each value
+    found goes through the certificate of gark check. Exit code 1: no value has the order of
+    --order, or the stability that is asked for.
+
+    With --search methods of the order are looked for by least squares from random starts. Each find
+    is exact, its order proved by the certificate; proved to exist; or numerical, and then it is
+    not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
+    says nothing of what there is.
+    """
+    from garkcli.methodfile.family import load_family
+
+    _check(given)
+    seconds = SECONDS if given.seconds is None and given.search is None else given.seconds
+    given.moment = None if seconds is None else monotonic() + seconds
+    given.whose = given.which or "method"
+    family = load_family(given.file, given.settings, given.moment)
+    is_of_springs = given.slow is not None
+    given.order = given.order or family.order
+    asked = _asked(family, given)
+    if asked is not None and (given.order is None or is_of_springs):
+        _check_stability(given)
+        _refuse_unsettled(family)
+        _refuse_other_wishes(family, asked, is_of_springs)
+        return _stable_values(family, given, output)
+    family = _as_stable(family, asked)
+    _check_one_by_one(family, given)
+    _prepare_places(given)
+    if given.search is not None:
+        _refuse_unsettled(family)
+        return _search(family, given, output)
+    chosen: list[Choice] = []
+    if given.choose:
+        with _half(given):
+            chosen = _walk(_found(family, given), given.choose)
+        family = load_family(given.file, {**given.settings, **given.choose}, given.moment)
+        family = _as_stable(family, asked)
+    return _told(family, chosen, given, output)
+
+
+def _check(given: Given) -> None:
+    """Refuse options that do not go together, before anything is read.
+
+    Raises:
+        UsageProblem: two of them do not.
+    """
+    from garkcli.cli.stability import refuse_one_spring
+
+    for option in ("seed", "most", "jobs", "scheduler"):
+        if given.search is None and getattr(given, option) is not None:
+            message = f"--{option} goes with --search"
+            raise UsageProblem(message, "add --search N", code="option-alone")
+    refuse_one_spring(given)
+    has_springs = given.slow is not None
+    if given.up_to is not None and not has_springs:
+        message = "--up-to is a bound for the fast one of two springs"
+        raise UsageProblem(message, "give --slow and --fast too", code="option-alone")
+    if has_springs and given.stability != "p-stable":
+        message = "--slow and --fast say on which springs"
+        raise UsageProblem(message, "add --p-stable", code="option-alone")
+    if has_springs and given.order is not None:
+        message = "two springs give a set of values, --order does not"
+        raise UsageProblem(message, "ask for one", code="options-clash")
+    if given.colour is not None and given.stability not in {"a-stable", "l-stable"}:
+        message = "--colour goes with --a-stable and --l-stable"
+        raise UsageProblem(message, "add one of them", code="option-alone")
+    if given.search is not None and given.minimise is not None:
+        message = "--minimise compares all methods, --search finds some"
+        raise UsageProblem(message, "leave one of them out", code="options-clash")
+    if given.emit_all is not None and given.minimise is not None:
+        message = "--minimise finds one method, --emit-all writes several"
+        raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
+
+
+def _check_stability(given: Given) -> None:
+    """Refuse what a set of values does not have.
+
+    Raises:
+        UsageProblem: a file or a search is asked for too.
+    """
+    others = (given.emit, given.emit_all, given.search, given.minimise)
+    if all(option is None for option in others):
+        return
+    message = f"--{given.stability} gives a set of values, "
+    message += "--emit, --search, --minimise do not"
+    cure = "ask for one; with --order solutions of that order are looked at"
+    raise UsageProblem(message, cure, code="options-clash")
+
+
+def _check_one_by_one(family: FamilyFile, given: Given) -> None:
+    """Refuse what does not look at stability, where that is wanted too.
+
+    Raises:
+        UsageProblem: a search or a minimum is asked for.
+    """
+    for option in ("search", "minimise"):
+        if family.stable and getattr(given, option) is not None:
+            kind = family.stable[0].kind
+            message = f"{kind} is decided for exact solutions, --{option} has others"
+            cure = "leave it out, and ask gark check of what is found"
+            raise UsageProblem(message, cure, code="wanted-without-meaning")
+
+
+@contextmanager
+def _half(given: Given) -> Iterator[None]:
+    """Half of the time that is left, where there is work to come."""
+    with until(given.moment):
+        left = seconds_left()
+        with within(None if left is None else left / 2):
+            yield
+
+
+def _asked(family: FamilyFile, given: Given) -> Stability | None:
+    """The stability that an option asks for, if any.
+
+    Raises:
+        UsageProblem: there is no such colour.
+    """
+    from garkcli.tableau.family import Stability
+
+    if given.stability is None:
+        return None
+    if given.colour is None:
+        return Stability(given.stability)
+    size = family.tableau.size
+    if given.colour > size:
+        message = f"--colour: no colour {given.colour}"
+        raise UsageProblem(message, f"the method has {counted(size, 'colour')}", code="wrong-value")
+    return Stability(given.stability, given.colour - 1)
+
+
+def _refuse_unsettled(family: FamilyFile) -> None:
+    """Refuse to look for methods by what was not worked out.
+
+    Raises:
+        UsageProblem: something was not.
+    """
+    for key in family.unsettled:
+        message = f"what {key} under design asks was not worked out "
+        message += "in the time of --seconds"
+        raise UsageProblem(message, "give it more, or want less", code="not-found")
+
+
+def _prepare_places(given: Given) -> None:
+    """Refuse places that cannot be written to, before the work."""
+    if given.emit is not None:
+        from garkcli.page.writing import refuse_unwritable
+
+        refuse_unwritable(given.emit)
+    if given.emit_all is not None:
+        make_folder(given.emit_all)
+
+
+def make_folder(path: str) -> None:
+    """Make a folder that files are written into, where there is none.
+
+    Raises:
+        UsageProblem: its name is empty, or it cannot be made.
+    """
+    if not path:
+        raise UsageProblem("the name of the folder is empty", "name a folder", code="cannot-write")
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        message = f"cannot make the folder {path}: {error.strerror}"
+        raise UsageProblem(message, "choose another place", code="cannot-write") from None
+
+
+def _refuse_other_wishes(family: FamilyFile, asked: Stability, is_of_springs: bool) -> None:
+    """Refuse what a file wants that a set of values with one kind of stability leaves out.
+
+    Raises:
+        UsageProblem: an order, or another kind of stability.
+    """
+    wishes = [str(x) for x in family.stable if is_of_springs or x != asked]
+    if family.order is not None:
+        wishes.insert(0, f"order {family.order}")
+    if not wishes:
+        return
+    message = f"under design the file wants {wishes[0]}, "
+    if is_of_springs:
+        message += "which is not looked at on two springs"
+        raise UsageProblem(message, "leave it out of the file", code="options-clash")
+    message += f"and --{asked.kind} gives the values of one kind"
+    cure = "add --order P: solutions of an order have all that is wanted"
+    raise UsageProblem(message, cure, code="options-clash")
+
+
+def _as_stable(family: FamilyFile, asked: Stability | None) -> FamilyFile:
+    """A family of which methods with a kind of stability are wanted, if any."""
+    if asked is None or asked in family.stable:
+        return family
+    return replace(family, stable=(*family.stable, asked))
+
+
+def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output) -> int:
+    """Find the values, write the report and the files, and return the exit code."""
+    from garkcli.methodfile.naming import called
+    from garkcli.report.design import REPORT, DesignReport
+
+    with _half(given) if given.minimise is not None else until(given.moment):
+        found = _found(family, given)
+    sets = _sets(found, given)
+    stable = [None] if sets is None else [x.has_values for x in sets]
+    is_reached = _all_of([found.reaches(given.order or 1), *stable])
+    minimum = None
+    has_rest = given.order is None or found.last.kind != "undecided"
+    is_compared = given.minimise is not None and is_reached is not False and has_rest
+    if is_compared:
+        minimum = _least(found, given)
+    report = DesignReport(called(given.file), found, given.digits, chosen, minimum, sets or ())
+    output.tell(REPORT, report)
+    if is_compared and minimum is None:
+        return _exit_code(None)
+    _emit(found if minimum is None else minimum, family, given, output)
+    return _exit_code(None if found.last.kind == "undecided" else is_reached)
+
+
+def _found(family: FamilyFile, given: Given) -> Design:
+    """For which values the method has the order."""
+    from garkcli.api.design import find_parameters
+
+    return find_parameters(family, given.order, given.whose)
+
+
+def _least(found: Design, given: Given) -> Minimum | None:
+    """The minimum of the objective; None, and it is said why, where it is open."""
+    from garkcli.api.design import minimise
+
+    try:
+        with until(given.moment):
+            return minimise(found, given.minimise)
+    except NotDecided:
+        problem = UsageProblem(
+            f"--minimise {given.minimise}: not decided, the solution set is too large or curved",
+            "choose values for some unknowns with --choose",
+            code="not-found",
+        )
+        say_problem(problem)
+        return None
+
+
+def _sets(found: Design, given: Given) -> tuple[StableValues, ...] | None:
+    """The values that are as stable as is wanted, where all have the order; None, and it is said,
+    where they take too long.
+    """
+    from garkcli.design.stable_values import stable_sets
+
+    try:
+        with until(given.moment):
+            return stable_sets(found)
+    except NotDecided as error:
+        say_problem(error)
+        return None
+
+
+def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
+    """What each value of --choose leaves.
+
+    Raises:
+        UsageProblem: a choice is none, leaves no unknown, or leaves what is not decided in time.
+    """
+    from garkcli.design.choices import walk_down
+
+    unknowns = known.family.parameters
+    values = {}
+    for name, text in choices.items():
+        if name not in unknowns:
+            cure = did_you_mean(name, list(unknowns))
+            raise UsageProblem(f"--choose: no unknown {name!r}", cure, code="option-value")
+        values[name] = text, _chosen_value(name, text)
+    if len(values) == len(unknowns):
+        message = "--choose leaves no unknown"
+        cure = "gark check with --set judges one method"
+        raise UsageProblem(message, cure, code="options-clash")
+    try:
+        return walk_down(known, values)
+    except NotDecided:
+        message = "--choose: what is left is not decided "
+        message += "in the time of --seconds"
+        raise UsageProblem(message, "choose with --set", code="not-found") from None
+
+
+def _chosen_value(name: str, text: str) -> fmpq:
+    """The rational number that --choose gives an unknown."""
+    from garkcli.exact.domain import Domain
+    from garkcli.exact.expression import parse
+    from garkcli.exact.field import Algebraic
+
+    try:
+        expression = parse(text)
+        value = Domain([expression]).evaluate(expression)
+    except ExpressionError as error:
+        message = f"--choose {name}: {error.message}"
+        raise UsageProblem(message, error.help, code="option-value") from None
+    if isinstance(value, Algebraic):
+        message = f"--choose {name}: a rational number is expected"
+        raise UsageProblem(message, "--set takes radicals", code="option-value")
+    return value
+
+
+def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
+    """The set of values with a kind of stability."""
+    from garkcli.api.design import stable_values
+    from garkcli.cli.stability import colour_named
+    from garkcli.design.design import TABLEAUS
+    from garkcli.report.stable_values import REPORT, StableReport
+
+    asked = given.of("stable_values")
+    if given.fast is not None:
+        asked["fast"] = colour_named(TABLEAUS[given.whose](family.tableau), given.fast)
+    try:
+        with until(given.moment):
+            found = stable_values(family, whose=given.whose, **asked)
+    except NotDecided as error:
+        say_problem(error)
+        return _exit_code(None)
+    output.tell(REPORT, StableReport(family.source, found, given.digits))
+    return _exit_code(found.has_values)
+
+
+def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Output) -> None:
+    """Write the first of the methods found, or all.
+
+    Raises:
+        UsageProblem: there is none.
+        MethodError: the values of the first cannot be written in a method file.
+    """
+    if given.emit is None and given.emit_all is None:
+        return
+    from garkcli.api.design import found_files
+    from garkcli.design.minimise.result import Minimum
+    from garkcli.page.writing import write_whole
+
+    files = list(found_files(found, family))
+    if not files and isinstance(found, Minimum):
+        raise UsageProblem(
+            f"--emit: no method has the infimum of {given.minimise}",
+            "a range for the parameter, closed at its ends, has a minimum",
+            code="not-found",
+        )
+    if not files:
+        message = "there is no single method to be written: no order has finitely many"
+        cure = "choose values with --set, or ask for a higher order"
+        raise UsageProblem(message, cure, code="not-found")
+    if given.emit is not None:
+        write_whole(given.emit, [files[0].text])
+    if given.emit_all is not None:
+        names = file_names(given.emit_all, family.source)
+        for number, file in enumerate(files, start=1):
+            path = next(names)
+            try:
+                text = file.text
+            except MethodError as error:
+                output.note(f"solution {number} is not written: {error.message}")
+                continue
+            write_whole(path, [text])
+            output.note(f"wrote {path}")
+
+
+def file_names(folder: str, source: str) -> Iterator[str]:
+    """Where the files of the methods go that are found from a file, one after the other."""
+    stem = Path(source).name.split(".")[0] or "method"
+    if source in _STANDARD_INPUT:
+        stem = "method"
+    k = 0
+    while True:
+        k += 1
+        yield str(Path(folder, f"{stem}-{k}.gark.yaml"))
+
+
+def _exit_code(is_reached: bool | None) -> int:
+    """What cannot be decided is no fault of the file: 3, as what could not be done."""
+    if is_reached is None:
+        return 3
+    return 0 if is_reached else 1
+
+
+def _all_of(answers: Iterable[bool | None]) -> bool | None:
+    """Whether all is so; None where that is not decided."""
+    known = list(answers)
+    return False if False in known else None if None in known else True
+
+
+def _search(family: FamilyFile, given: Given, output: Output) -> int:
+    """Search for methods, report them and write their files."""
+    from garkcli.methodfile.search_file import FileSearch
+    from garkcli.report.search import REPORT, SearchReport
+
+    if given.order is None:
+        cure = "say which by --order P, or in the file by design: {order: P}"
+        raise UsageProblem("a search is for an order", cure, code="option-alone")
+    asked = FileSearch.of(family, given.order, given.whose)
+    result, ended = _searched(asked, given)
+    files = _written(family, result, given)
+    output.tell(REPORT, SearchReport(family.source, asked.search, result, files))
+    if ended is not None:
+        return ended
+    # that nothing was found says nothing of what there is
+    return 0 if result.methods else 3
+
+
+def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
+    """The result, and the exit code where an interrupt or a lost worker ends the search; where the
+    time does, it is that of what was found.
+    """
+    from garkcli.crew.hiring import hired
+    from garkcli.design.search.run import MOST, Result, results
+
+    starts = given.search
+    result, ended = Result(), None
+    with doing("starts", starts) as work:
+        try:
+            place = given.jobs or 1, given.scheduler or ""
+            with until(given.moment), hired(asked.do, _lost, *place) as workers:
+                search, most = asked.search, given.most or MOST
+                for result in results(search, starts, given.seed or 0, most, workers):
+                    work.what = f"{len(result.methods)} methods found, starts"
+                    work.reach(result.starts)
+        except KeyboardInterrupt:
+            result.ending, ended = "interrupt", INTERRUPTED
+        except NotDecided:
+            result.ending = "time"
+        except WorkerLost as error:
+            say_problem(error)
+            result.ending, ended = "worker", 3
+    return result, ended
+
+
+def _lost(_task: Task, why: str) -> Timed:
+    """A piece of a search that ended its process; the others' are kept."""
+    raise WorkerLost(
+        f"a process of the search was ended {why}", "where memory is short use fewer --jobs"
+    )
+
+
+def _written(family: FamilyFile, result: Result, given: Given) -> Sequence[str | None]:
+    """Write the files that are asked for, of one the first method of which most is proved; where
+    each method is.
+    """
+    from garkcli.api.design import found_files
+    from garkcli.page.writing import write_whole
+
+    found = list(found_files(result, family))
+    files: list[str | None] = [None] * len(found)
+    if given.emit_all is not None:
+        files = list(islice(file_names(given.emit_all, family.source), len(found)))
+    best = min(found, key=_proof, default=None)
+    for place, method in enumerate(found):
+        for path in (files[place], given.emit if method is best else None):
+            if path is not None:
+                write_whole(path, [method.text])
+                files[place] = files[place] or path
+    return files
+
+
+def _proof(found: Found) -> int:
+    """The less is proved, the more."""
+    member: Any = found.member
+    return PROOFS.index(member.proof)
+
+
+@declared("sweep", [*FORMATS, "jsonl", "csv"])
+def sweep(given: Given, output: Output) -> None:
+    """Many methods side by side: families, stages, transfer rules, values of parameters.
+
+    SPEC says which, which criteria are told of each, which methods are kept, and what is better;
+    see docs/sweep.md. Each criterion is decided exactly, as gark check and gark stability do. The
+    rows are written one by one: a sweep that is ended at any moment goes on with --resume.
+    """
+    from garkcli.report.calls import swept
+    from garkcli.report.sweep import REPORT, json_lines, refuse_parquet, write_parquet
+    from garkcli.sweep.plan import load_plan
+
+    plan = load_plan(given.spec)
+    if given.plot is not None:
+        _refuse_plot(plan)
+    if given.parquet is not None:
+        refuse_parquet(given.parquet)
+    asked = {"rows": str(Path(given.spec).with_suffix(".jsonl")), **given.of("run_sweep")}
+    report, last = swept(plan, given.spec, **asked)
+    report = replace(report, top=given.top)
+    before = f", {last.before} were there" if last.before else ""
+    output.note(f"{last.done} rows added to {asked['rows']}{before}")
+    if output.verbosity > 0:
+        output.note(f"processor time of the methods: {last.seconds:.2f} s")
+    output.verbosity = max(output.verbosity, 0)  # what -q leaves out is on stderr
+    if output.format == "jsonl":
+        output.write(json_lines(report))
+    else:
+        output.tell(REPORT, report)
+    if given.parquet is not None:
+        write_parquet(report, given.parquet)
+    if given.plot is not None:
+        from garkcli.plots.saving import save_scene
+        from garkcli.plots.sweep import sweep_scene
+
+        save_scene(sweep_scene(report, *plan.pareto[:2]), Path(given.plot))
+
+
+def _refuse_plot(plan: Plan) -> None:
+    """Refuse a plot without axes, before the work is done."""
+    if len(plan.pareto) < 2:
+        raise UsageProblem(
+            "--plot needs two columns",
+            "write pareto: [error, stages] into the spec",
+            code="option-alone",
+        )

@@ -1,0 +1,166 @@
+"""``gark export``, ``import`` and ``audit``: methods in other people's formats."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from garkcli.cli.options import Given, Output, declared
+from garkcli.doing import counting
+from garkcli.errors import UsageProblem, counted, printable
+from garkcli.tell.report import FORMATS
+
+if TYPE_CHECKING:
+    from garkcli.bridges.collecting import Result
+    from garkcli.bridges.registry import Bridge
+    from garkcli.sources.found import FoundTable
+
+
+@declared("export")
+def export(given: Given, output: Output) -> None:
+    """A method as the codes that people run read it: SciPy, SUNDIALS, PETSc, C, JSON and others.
+
+    The head of the file says which orders gark proved. Decimals are correctly rounded. What a
+    target cannot hold is refused, with the reason.
+    """
+    from garkcli.bridges.preparing import prepared
+    from garkcli.bridges.registry import bridge_named
+
+    bridge = bridge_named(given.to)
+    if given.test:
+        _check_test(bridge, output)
+    payload = prepared(given.method(is_exact=True), given.digits)
+    table = bridge.written(payload)
+    path = Path(output.path or "")
+    beside = bridge.test_driver(payload, path.name) if given.test and bridge.test_driver else ()
+    output.write(table, bridge.name)
+    for written in beside:
+        Output(path=str(path.with_name(path.stem + written.ending))).write(written.text)
+
+
+def _check_test(bridge: Bridge, output: Output) -> None:
+    """Whether a test can be written, before any work is done.
+
+    Raises:
+        UsageProblem: the target runs nothing, or there is no place for it.
+    """
+    if bridge.test_driver is None:
+        raise UsageProblem(
+            f"{bridge.name} is data, which nothing runs", "leave out --test", code="cannot-export"
+        )
+    if output.path is None:
+        raise UsageProblem(
+            "--test writes further files beside the first", "name it: -o FILE", code="option-alone"
+        )
+
+
+@declared("import", (*FORMATS, "yaml"))
+def import_(given: Given, output: Output) -> None:
+    """Methods out of other people's sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
+
+    SOURCE is a file, a folder (all files in it of the formats that are read), or - for standard
+    input. Nothing in it is ever executed. Each table is a method; its order is found, and claimed
+    in its file. Decimals of many digits are taken for rounded: the file says within which
+    tolerance.
+
+    Exit code: 0 methods were found, 2 there is none.
+    """
+    from garkcli.bridges.calls import results_of
+    from garkcli.bridges.sources import source_files
+    from garkcli.report.imported import REPORT, all_found, yaml_text
+
+    if given.folder is not None:
+        from garkcli.cli.designing import make_folder
+
+        make_folder(given.folder)
+    paths = list(source_files(given.sources, output.note))
+    left_out: list[FoundTable] = []
+    read = counting("sources", paths, len(paths))
+    results = list(results_of(read, **given.of("import_methods"), left_out=left_out.append))
+    if not any(result.method is not None for result in results):
+        raise _nothing(given.sources, len(paths), results, left_out)
+    for table in left_out:
+        # of a folder one expects other arrays of such names
+        if table.source in given.sources:
+            output.note(f"{_other(table)}; {_take_it(table)}")
+    files = {} if given.folder is None else _written(results, given.folder)
+    if output.format == "yaml":
+        output.write(yaml_text(results))
+    else:
+        output.tell(REPORT, all_found(results, files))
+
+
+def _other(table: FoundTable) -> str:
+    """What is told of arrays that may be no method."""
+    place = f"{printable(table.source)}:{table.line}"
+    if table.c[0] is None:
+        return f"{place}: A and b without nodes may be no method"
+    return f"{place}: A, b and c are no method, by their sums"
+
+
+def _take_it(table: FoundTable) -> str:
+    return f"--from {table.format} takes them for one"
+
+
+def _nothing(
+    sources: Sequence[str], files: int, results: Sequence[Result], left_out: Sequence[FoundTable]
+) -> UsageProblem:
+    """Why there is nothing to be written."""
+    from garkcli.bridges.readers.registry import all_readers
+
+    for result in results:
+        name = f"{result.table.name} is no method" if result.table.name else "no method"
+        message = f"{result.table.source}:{result.table.line}: {name}: {result.trouble}"
+        return UsageProblem(message, "see docs/import.md for what is read", code="cannot-import")
+    for table in left_out:
+        return UsageProblem(_other(table), _take_it(table), code="cannot-import")
+    known = ", ".join(all_readers())
+    message = _no_table(sources, files)
+    return UsageProblem(message, f"--from FORMAT says what it is: {known}", code="cannot-import")
+
+
+def _no_table(sources: Sequence[str], files: int) -> str:
+    return f"no table is found in {', '.join(sources[:3])} ({counted(files, 'file')})"
+
+
+def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
+    """Write the method files; their names by the numbers of the results."""
+    from garkcli.page.writing import write_whole
+
+    files = {}
+    for number, result in enumerate(results):
+        if result.method is not None:
+            files[number] = str(Path(folder, result.file_name))
+            write_whole(files[number], [result.method.text])
+    return files
+
+
+@declared("audit", ("auto", *FORMATS, "github", "sarif"))
+def audit(given: Given, output: Output) -> int:
+    """The tables of a solver's source tree against what they declare.
+
+    PATH is a folder (all files in it of the formats that gark import reads), a file, or - for
+    standard input. Of every table that is found: whether it has the order and the embedded order
+    that the source declares, whether its nodes are its row sums and what it costs where they are
+    not, whether its weights have the sum 1. Nothing in a source is executed. The format auto is
+    github in GitHub Actions and text elsewhere.
+
+    Exit code: 0 nothing is wrong, 1 a finding is an error, 2 there is no table, or none that can be
+    read.
+    """
+    from garkcli.bridges.audit import audited, unlike
+    from garkcli.bridges.sources import source_files
+    from garkcli.report.audited import FORMATS as RENDERERS
+
+    files = list(source_files(given.paths, output.note))
+    found = list(audited(counting("files", files, len(files))))
+    if not found:
+        message = "; ".join([_no_table(given.paths, len(files)), *list(unlike(files))[:1]])
+        raise UsageProblem(message, "docs/import.md says what is read", code="cannot-import")
+    output.suit()
+    render = RENDERERS[output.format]
+    output.write(render(found, output.paint, output.verbosity, output.width))
+    if any(x.has_errors for x in found):
+        return 1
+    return 0 if any(x.is_read for x in found) else 2

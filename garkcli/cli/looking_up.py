@@ -1,0 +1,310 @@
+"""What is known: ``gark list``, ``show``, ``explain``, ``cite``, ``certificate``, ``report``,
+``schema``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from garkcli.cli.arguments import completed
+from garkcli.cli.options import Given, Output, declared
+from garkcli.cli.streams import say_faults
+from garkcli.doing import counting
+from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem
+from garkcli.tell.report import FORMATS
+
+if TYPE_CHECKING:
+    from garkcli.catalogue.facts import Entry
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.tableau.garkmethod import GarkMethod
+
+_COUNTS = {
+    "order": "The order, such as 4, '>=4' or 2..4; so the others.",
+    "embedded-order": "The order of embedded weights.",
+    "conjugate-order": "The order of the symplectic conjugate.",
+    "pair-order": "The order of the symplectic pair.",
+    "nonautonomous-order": "The order for y' = f(t, y), with the printed nodes.",
+    "stages": "The stages, of several colours the most.",
+    "colours": "The vector fields.",
+}
+_TRUTHS = {
+    "symplectic": "Symplectic methods.",
+    "embedded": "Methods with embedded weights.",
+    "dense": "Methods with dense output.",
+    "exact": "Methods whose coefficients are not rounded.",
+}
+_KINDS = ("rk", "ark", "prk", "gark", "family")
+
+
+@declared("certificate", ("json", *(x for x in FORMATS if x != "json")))
+def certificate(given: Given, output: Output) -> None:
+    """What proves the orders of a method, to be checked without gark.
+
+    The exact tableau, its conjugate and pair, the trees that span all trees of each order, and a
+    tree that fails. tools/referee.py of the source distribution, one short file of plain Python,
+    decides the orders again from it.
+    """
+    from garkcli.api.calls import prove_method
+    from garkcli.report.certificate import REPORT
+
+    output.tell(REPORT, prove_method(given.method()))
+
+
+def _known_words() -> list[str]:
+    from garkcli.check.meanings import known_words
+
+    return known_words()
+
+
+@declared("explain", FORMATS, WORD={"shell_complete": completed(_known_words)})
+def explain(given: Given, output: Output) -> None:
+    """What a word of a report or of a file means: its definition, its formula, its source.
+
+    WORD is a term such as density or "stage order", a line of a report, a claim, a key of a file
+    such as compose.steps, a family, a transfer rule, a problem, the code of an error or its
+    message. Without one the terms are listed.
+    """
+    from garkcli.check.meanings import explain
+    from garkcli.report.meaning import REPORT, every_term, list_text, told
+
+    word = " ".join(given.words)
+    if not word and output.format == "text":
+        output.write(list_text(output.width))
+    else:
+        output.tell(REPORT, *(told(word, explain(word)) if word else every_term()))
+
+
+class RangeType(click.ParamType):  # type: ignore[type-arg]
+    """A whole number or several that follow each other."""
+
+    name = "range"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> object:
+        """The numbers that are meant."""
+        from garkcli.catalogue.entries import read_range
+
+        try:
+            return read_range(value) if isinstance(value, str) else value
+        except UsageProblem as error:
+            self.fail(str(error), param, ctx)
+
+
+def _filters() -> list[click.Option]:
+    """All options that say which methods are listed, and how they are sorted; they arrive by their
+    keys in entries of the catalogue, None where they were not given.
+    """
+    from garkcli.catalogue.entries import ORDERS
+    from garkcli.properties.registry import every_property
+
+    counts, truths = {**_COUNTS}, {**_TRUTHS}
+    for x in every_property():
+        if x.kind in ("count", "truth"):
+            (counts if x.kind == "count" else truths)[x.key] = f"The property {x.key}."
+    words = {
+        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, or general."),
+        "sort": (ORDERS, "By what the list is sorted; by default the order."),
+    }
+    structures = "Which vector fields the problem has: general, separable, nystrom ..."
+    judging = "Judge methods of one's own as gark check does; else they are as they claim."
+    return [
+        *(click.Option([f"--{key}"], type=RangeType(), help=x) for key, x in counts.items()),
+        *(click.Option([f"--{key}/--no-{key}"], default=None, help=x) for key, x in truths.items()),
+        *(click.Option([f"--{x}"], type=click.Choice(y), help=z) for x, (y, z) in words.items()),
+        click.Option(["--structure"], metavar="WORD", help=structures),
+        click.Option(["--folder"], metavar="NAME", help="Of the catalogue, such as erk."),
+        click.Option(["--judge"], is_flag=True, default=None, help=judging),
+    ]
+
+
+@declared(
+    "list", (*FORMATS, "csv"), WHAT={"type": click.Choice(["methods", "exports"])}, options=_filters
+)
+def list_(given: Given, output: Output) -> None:
+    """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
+    methods, those of the catalogue, or exports, the targets of gark export.
+
+    Methods are those that are as every option says and that have every WORD in their name, an
+    alias, their title or their reference; --no-... those for which it is known not to hold.
+    """
+    from garkcli.report import list_methods, listing
+
+    filters = {key: getattr(given, key) for key in (*_filter_keys(), "words")}
+    if given.what == "methods":
+        output.tell(list_methods.REPORT, _listed(filters))
+        return
+    _refuse_filters(filters, output.format)
+    if given.what == "exports":
+        from garkcli.bridges.registry import bridges
+
+        output.tell(listing.EXPORTS, bridges())
+    else:
+        output.tell(listing.REPORT, listing.all_lists())
+
+
+def _filter_keys() -> list[str]:
+    return [str(option.name) for option in _filters()]
+
+
+def _refuse_filters(given: Mapping[str, object], format: str) -> None:
+    """Filters and formats of the list of methods, where something else is listed.
+
+    Raises:
+        UsageProblem: there is one.
+    """
+    for key, value in given.items():
+        if value not in (None, ()):
+            name = "words" if key == "words" else f"--{key.replace('_', '-')}"
+            message = f"{name}: chosen are methods alone"
+            raise UsageProblem(message, "write gark list methods", code="options-clash")
+    if format == "csv":
+        message = f"--format {format} is for methods"
+        raise UsageProblem(message, "write gark list methods", code="options-clash")
+
+
+def _listed(given: Mapping[str, Any]) -> list[Entry]:
+    """The methods that are as wanted, sorted."""
+    from garkcli.catalogue.entries import Range, Wanted, all_entries, sorted_by
+
+    ranges: dict[str, Range] = {}
+    truths: dict[str, bool] = {}
+    for key, value in given.items():
+        if isinstance(value, Range):
+            ranges[key] = value
+        elif isinstance(value, bool) and key != "judge":
+            truths[key] = value
+    values = {key: given[key] for key in ("kind", "structure") if given[key]}
+    wanted = Wanted(ranges, truths, values, given["folder"] or "", given["words"])
+    found = [x for x in all_entries(bool(given["judge"])) if wanted.takes(x)]
+    return sorted_by(found, given["sort"] or "order")
+
+
+@declared("show", FORMATS)
+def show(given: Given, output: Output) -> None:
+    """All about one method: its tableau, orders, properties, where it was published.
+
+    What is known of a method of the package stands in its index; every other one is judged as by
+    gark check.
+    """
+    from garkcli.methodfile.load import load
+    from garkcli.report.show import REPORT, Shown
+
+    method = load(given.file, given.settings)
+    entry = _entry(given, method)
+    tableau, description = method.tableau, method.description
+    output.tell(REPORT, Shown(entry, tableau, method.entries, description, method.bibliography))
+
+
+def _entry(given: Given, method: MethodFile) -> Entry:
+    """What is known of the method."""
+    from garkcli.catalogue.entries import entry_of_method, entry_on
+    from garkcli.methodfile.naming import find_named, shelf_of
+
+    named = find_named(given.file)
+    if named is not None and not given.settings:
+        return entry_on(shelf_of(named), named, judges=True)
+    return entry_of_method(method, given.file)
+
+
+@declared("cite", ("bibtex", *FORMATS))
+def cite(given: Given, output: Output) -> None:
+    """Where methods were published, as an entry of a bibliography.
+
+    FILE is a method file or a name of the catalogue, as for gark check; catalogue: means all of
+    it. Methods of one publication have one entry. A file whose `reference` is plain text gives a
+    note, one without a reference is told.
+    """
+    from garkcli.report.calls import references
+    from garkcli.report.citation import REPORT, bibliography
+
+    found = references(given.files_meant(output))
+    if output.format == "bibtex":
+        output.write(bibliography(found))
+    else:
+        output.tell(REPORT, found)
+    bare = [one.methods[0] for one in found if not one.text]
+    if bare:
+        shown = bare[0] if len(bare) == 1 else f"{len(bare)} methods"
+        output.note(f"note: no reference in the file of {shown}")
+
+
+@declared("report", ["html"])
+def report(given: Given, output: Output) -> int:
+    """All about methods as one HTML page, to be looked at, printed and passed on.
+
+    FILE is a method file, a directory, a pattern or a name of the catalogue, as for gark check.
+    The page needs no network: tableau, conjugate and pair typeset, the orders with the tree at
+    which each ends, B, C and D, the order conditions to be filtered, pictures, properties, claims,
+    references. Of several methods it has a table that compares them, and a part each. The claims of
+    a file are about its method: with --pair or --conjugate the page has none.
+
+    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method; the page
+    is written in each case, and says so.
+    """
+    from garkcli.webpage.page import render
+    from garkcli.webpage.reported import reported
+
+    paths = given.files_meant(output)
+    asked = given.order, given.pictures is not False, given.settings
+    found = (reported(_meant(path, given), *asked) for path in paths)
+    methods = list(counting("methods", found, len(paths)))
+    output.write(render(methods))
+    for method in methods:
+        if not method.outcome.is_read:
+            say_faults(method.outcome)
+    return max(method.outcome.exit_code for method in methods)
+
+
+def _meant(path: str, given: Given) -> str | GarkMethod:
+    """What the page is about: a file as it is, or the conjugate or the pair of its method.
+
+    Raises:
+        UsageProblem: the coefficients are rounded or have free parameters.
+        ZeroWeight: a conjugate would divide by zero.
+    """
+    if given.which is None:
+        return path
+    try:
+        return given.method(path, is_exact=True)
+    except HasFreeParameters as error:
+        from garkcli.cli.tableaux import read_family
+
+        read_family(error, given.settings, {f"--{given.which}": given.which})
+        raise
+    except MethodFileError:
+        return path  # the page says what is wrong with it
+
+
+@declared("schema", ["json"])
+def schema(given: Given, output: Output) -> None:
+    """The JSON Schema (draft-07) of method files, for editors; or of problem files, or of reports.
+
+    With the YAML extension of an editor, name it in the first line of a method file:
+    # yaml-language-server: $schema=gark.schema.json
+    """
+    from garkcli.methodfile.file_keys import method_file_schema
+    from garkcli.methodfile.problem_keys import problem_file_schema
+    from garkcli.report.schemas import report_schema
+    from garkcli.sweep.plan import sweep_schema
+
+    makers: dict[str, Callable[[], dict[str, Any]]] = {}
+    if given.problem:
+        makers["--problem"] = problem_file_schema
+    if given.sweep:
+        makers["--sweep"] = sweep_schema
+    if given.report is not None:
+        makers["--report"] = partial(report_schema, given.report)
+    if len(makers) > 1:
+        raise UsageProblem(
+            f"{' and '.join(makers)} are {len(makers)} schemas",
+            "ask for one at a time",
+            code="options-clash",
+        )
+    make = next(iter(makers.values()), method_file_schema)
+    output.write(json.dumps(make(), indent=2, ensure_ascii=False) + "\n")

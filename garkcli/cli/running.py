@@ -1,0 +1,511 @@
+"""``gark converge``, ``energy`` and ``modified``: methods on problems."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from garkcli.cli.options import Given, Output, check_document, declared, failure_code, faults_of
+from garkcli.cli.streams import say_faults
+from garkcli.doing import doing
+from garkcli.errors import GarkError, MethodFileError, UsageProblem
+from garkcli.tell.report import FORMATS
+
+if TYPE_CHECKING:
+    from garkcli.backward.formulas import ModifiedFormula
+    from garkcli.convergence.result import Convergence
+    from garkcli.longtime.history import LongRun
+    from garkcli.longtime.symplecticity import Symplecticity
+    from garkcli.plots.scene import Scene
+    from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.problem import Problem
+    from garkcli.report.comparison import Entry
+    from garkcli.report.energy import Claim
+    from garkcli.tableau.garkmethod import GarkMethod
+    from garkcli.tableau.tableau import Tableau
+
+NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
+"""Verdicts that do not meet ``--bounded``."""
+
+
+def refuse_misplaced(given: Given) -> None:
+    """Refuse options of another problem than --problem: they would change nothing.
+
+    Raises:
+        UsageProblem: one of them was given.
+    """
+    from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
+
+    for option in ("omega", "split"):
+        if given.problem != "oscillator" and getattr(given, option, None):
+            message = f"--{option} is for the oscillator, not for {given.problem}"
+            raise UsageProblem(message, "leave it out", code="other-problem")
+    check_seed(given.problem, given.seed)
+    if getattr(given, "stiffness", None) is not None and given.problem in PROBLEMS:
+        check_stiffness(given.problem)
+
+
+def note_changing(problem: Problem, output: Output) -> None:
+    """Say which invariants of a problem file are none: their errors are not the method's."""
+    from garkcli.convergence.reference import changing
+
+    for name, change, time in changing(problem):
+        output.note(
+            f"{problem.name}: {name} is no invariant: the exact solution changes it by "
+            f"{change:.2g} to t = {time}"
+        )
+
+
+@declared("converge", [*FORMATS, "csv"])
+def converge(given: Given, output: Output) -> int:
+    """The convergence test: errors over step sizes, observed against predicted order, energy error.
+
+    Steps are taken with as many digits as the errors need, so that a method of order 12 shows slope
+    12 and not rounding; the step map of the oscillator is linear and taken exactly. Without
+    --problem it is generic, or its counterpart for separable, semi-separable and Nyström methods:
+    these see every tree, others may show a higher order than the method has.
+
+    The method of FILE steps as it is given, whatever form it has; its symplectic pair with --pair.
+
+    Several FILEs, directories (all *.gark.yaml below them) or patterns are compared, in one table
+    and one plot. With --work they are compared by what their errors cost.
+
+    Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
+    step fails, 2 a file cannot be read, or its method is not for this problem, 3 one is undecided:
+    no order is seen.
+    """
+    paths = given.files_meant(output)
+    if given.problem is None and (given.omega or given.split):
+        given.problem = "oscillator"
+    _check(given)
+    given.against = given.against or ("evaluations" if given.work else "h")
+    if len(paths) == 1:
+        return _one(paths[0], given, output)
+    return _several(paths, given, output)
+
+
+def _check(given: Given) -> None:
+    """Refuse options that do not go together, before anything is read.
+
+    Raises:
+        UsageProblem: two of them do not.
+    """
+    if given.problem is not None:
+        refuse_misplaced(given)
+    elif given.stiffness is not None:
+        raise UsageProblem(
+            "--stiffness is for a problem that has one",
+            "name it with --problem, such as --problem van-der-pol",
+            code="other-problem",
+        )
+    if given.against not in (None, "h") and not given.work:
+        message = f"--against {given.against} is not known without measuring it"
+        raise UsageProblem(message, "add --work", code="other-problem")
+
+
+def _one(path: str, given: Given, output: Output) -> int:
+    """The test of one method."""
+    from garkcli.report.convergence import REPORT, ConvergenceReport
+
+    name = path
+    try:
+        problems = Problems(given)
+        method = given.method(path)
+        name = method.name
+        problems.prepare([method.tableau], output)
+        result = problems.tested(method)
+    except GarkError as error:
+        return output.tell_failure(error, name, REPORT)
+    output.tell(REPORT, ConvergenceReport(result, name, given.work, given.against))
+    hint_rounding(method, result, output)
+    if given.plot is not None:
+        output.save_plot(_scene([(name, result)], given), given.plot)
+    return result.exit_code
+
+
+def _scene(results: Sequence[tuple[str, Convergence]], given: Given) -> Scene:
+    """Errors over step sizes, of one method with their slopes; or over their costs."""
+    from garkcli.plots.convergence import comparison_scene, convergence_scene
+
+    if len(given.files) == len(results) == 1 and given.against == "h" and not given.work:
+        ((name, result),) = results
+        return convergence_scene(result, name)
+    return comparison_scene(results, given.against)
+
+
+def _several(paths: Sequence[str], given: Given, output: Output) -> int:
+    """The comparison: the tests of all files, in order. What fails is told on stderr at once, and
+    stops none of the others.
+
+    Raises:
+        MethodFileError: the problem file has faults.
+        UsageProblem: the steps that are wanted do not fit the time.
+    """
+    from garkcli.methodfile.naming import called
+    from garkcli.report.comparison import REPORT, Compared, Entry
+
+    problems = Problems(given)
+    methods = [_loaded(path, given) for path in paths]
+    files = [called(path) for path in paths]
+    problems.prepare([x.tableau for x in methods if not isinstance(x, Entry)], output)
+    entries = []
+    with doing("methods", len(files)) as work:
+        for file, found in zip(files, methods, strict=True):
+            entries.append(found if isinstance(found, Entry) else _entry(file, found, problems))
+            work.reach(work.done + 1)
+    for file, found, entry in zip(files, methods, entries, strict=True):
+        if not isinstance(found, Entry) and entry.result is not None:
+            hint_rounding(found, entry.result, output, f"{file}: ")
+    output.tell(REPORT, Compared(entries, given.work, given.against))
+    results = [(x.name, x.result) for x in entries if x.result is not None]
+    if given.plot is not None and results:
+        output.save_plot(_scene(results, given), given.plot)
+    elif given.plot is not None:
+        output.note(f"nothing to draw into {given.plot}")
+    return max(entry.exit_code for entry in entries)
+
+
+def _loaded(path: str, given: Given) -> GarkMethod | Entry:
+    """The method that steps, or what its failure leaves."""
+    try:
+        return given.method(path)
+    except GarkError as error:
+        return _failed(path, path, error)
+
+
+def _entry(path: str, method: GarkMethod, problems: Problems) -> Entry:
+    from garkcli.report.comparison import Entry
+
+    try:
+        with doing(path):
+            result = problems.tested(method)
+    except GarkError as error:
+        return _failed(path, method.name, error)
+    return Entry(path, method.name, result, (), result.exit_code)
+
+
+def _failed(path: str, name: str, error: GarkError) -> Entry:
+    """Tell an error with the name of the file."""
+    from garkcli.check.outcome import Outcome
+    from garkcli.report.comparison import Entry
+
+    faults = faults_of(error)
+    text = error.text if isinstance(error, MethodFileError) else ""
+    say_faults(Outcome(path, name, faults=faults, text=text))
+    return Entry(path, name, None, faults, failure_code(error))
+
+
+class Problems:
+    """The problem of a convergence test, split for each of the methods that are tested on it.
+
+    A file is read once. All methods get the same sum of terms, also where its coefficients depend
+    on their number. Where no problem is named it is one that sees every tree of the methods.
+
+    Errors:
+        MethodFileError: the problem file has faults.
+        UsageProblem: the steps that are wanted do not fit the time.
+    """
+
+    def __init__(self, given: Given) -> None:
+        from garkcli.convergence.convergence import check_steps, usual_time
+        from garkcli.methodfile.problem import load_problem
+        from garkcli.problems.builtin import GENERIC, is_path, problem
+        from garkcli.problems.oscillator import Oscillator
+
+        self._given = given
+        self._name = given.problem
+        self._seed = 1 if given.seed is None else given.seed
+        self._tableaux: Sequence[Tableau] = ()
+        self._read: Problem | None = None
+        if self._name is not None and is_path(self._name):
+            self._read = load_problem(self._name, given.stiffness)
+        if given.steps is not None:
+            # its times are those of every split
+            whole: Problem | Oscillator | None = self._read
+            if self._name == "oscillator":
+                whole = Oscillator.default(1, given.omega or 1)
+            elif whole is None:
+                whole = problem(self._name or GENERIC[0], 1, stiffness=given.stiffness)
+            check_steps(whole, given.t_end or usual_time(whole), given.steps)
+
+    def prepare(self, tableaux: Sequence[Tableau], output: Output) -> None:
+        """Make the problem one for all of these methods.
+
+        Raises:
+            UsageProblem: none is named, and there is none for their structures.
+        """
+        self._tableaux = tableaux
+        if self._name is None and tableaux:
+            from garkcli.convergence.convergence import seeing_problem
+
+            self._name = seeing_problem(tableaux, self._seed)
+        if self._read is not None:
+            note_changing(self._read, output)
+
+    def of(self, tableau: Tableau) -> Problem | Oscillator:
+        """The problem for one of the methods that it was prepared for.
+
+        Raises:
+            UsageProblem: it cannot be split for it.
+        """
+        from garkcli.api.problems import problem_for, split_for
+        from garkcli.convergence.convergence import in_common
+        from garkcli.problems.builtin import PROBLEMS
+
+        if self._read is not None:
+            return split_for(self._read, tableau)
+        assert self._name is not None
+        if PROBLEMS[self._name].takes_seed:
+            return in_common(self._name, [tableau, *self._tableaux], self._seed)[0]
+        given = self._given
+        return problem_for(self._name, tableau, None, given.stiffness, given.omega, given.split)
+
+    def tested(self, method: GarkMethod) -> Convergence:
+        """The convergence test of one method.
+
+        Raises:
+            GarkError: the method is not for the problem, or a step fails.
+        """
+        from garkcli.api.runs import converge
+
+        given = self._given
+        problem = self.of(method.tableau)
+        return converge(method, problem, given.t_end, given.steps, is_timed=given.work)
+
+
+def hint_rounding(method: GarkMethod, result: Convergence, output: Output, where: str = "") -> None:
+    """Where the exact order shows late or not at all because coefficients look rounded: the line
+    that is missing.
+    """
+    is_late = result.verdict == "disagree" or result.short_time is not None
+    if not is_late or method.tolerance is not None:
+        return
+    from garkcli.order.certificate import find_order
+    from garkcli.order.suggestion import suggest_tolerance
+
+    found = suggest_tolerance(method.tableau, find_order(method.tableau))
+    if found is not None:
+        output.note(
+            f"{where}hint: the coefficients look rounded; with the line  {found.line}  "
+            f"the order is {found.order}"
+        )
+
+
+@declared("energy", [*FORMATS, "csv"])
+def energy(given: Given, output: Output) -> int:
+    """The energy error over a long time, and that of every other invariant: does it drift?
+
+    A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of
+    the oscillator is linear: there the energy error has no rounding, and whether it is bounded for
+    all time is decided exactly. The other problems are stepped in floats with compensated
+    summation, or with --digits. The method of FILE steps as it is given, its symplectic pair with
+    --pair.
+
+    A drift that a slow modulation may explain is undecided, and a longer run proposed.
+
+    Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows
+    up or the orbit escapes. What is undecided does not meet --bounded.
+
+    With --modified the energy error over step sizes, of H and of its modified Hamiltonian, cut off
+    after each power of h: it has the order of the next one. Exit code 1 where it has a lower order.
+    """
+    from garkcli.api.runs import long_run
+    from garkcli.report.energy import REPORT, EnergyReport
+
+    refuse_misplaced(given)
+    if given.problem == "oscillator" and given.digits is not None:
+        message = "--digits is not for the oscillator: its steps are exact"
+        raise UsageProblem(message, "leave it out", code="other-problem")
+    if given.modified is not None:
+        return _in_modified(given, output)
+    name = given.file
+    try:
+        method = given.method()
+        name = method.name
+        problem = _followed(method.tableau, given, output)
+        run = long_run(method, **{**given.of("long_run"), "problem": problem})
+        steps = _symplecticity(method, run, given.symplecticity)
+    except GarkError as error:
+        return output.tell_failure(error, name, REPORT)
+    claims = _claims(run, given)
+    output.tell(REPORT, EnergyReport(name, run, steps, claims))
+    if given.plot is not None:
+        from garkcli.plots.energy import energy_scene
+
+        output.save_plot(energy_scene(run), given.plot)
+    is_met = all(claim.holds for claim in claims)
+    return 0 if is_met and not run.is_unstable else 1
+
+
+def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Problem:
+    """The problem of a long run, in as many terms as the tableau is for.
+
+    Raises:
+        UsageProblem: nothing is conserved, or the problem is not Hamiltonian and its steps are to
+            be symplectic.
+    """
+    from garkcli.api.problems import problem_for
+    from garkcli.problems.builtin import is_path
+    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.oscillator import Oscillator
+
+    problem = problem_for(
+        given.problem, tableau, given.seed, given.stiffness, given.omega, given.split
+    )
+    if isinstance(problem, Oscillator):
+        return problem
+    if not problem.quantities:
+        raise UsageProblem(
+            f"{problem.name} has no energy and no invariants to follow",
+            "give invariants in a problem file, or choose a Hamiltonian problem",
+            code="other-problem",
+        )
+    if given.symplecticity and not isinstance(problem, Hamiltonian):
+        raise UsageProblem(
+            f"--symplecticity is for Hamiltonian problems, and {problem.name} is none",
+            "leave it out",
+            code="other-problem",
+        )
+    if is_path(given.problem):
+        note_changing(problem, output)
+    return problem
+
+
+def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Symplecticity | None:
+    """Of the steps of ``run``: by the coefficients, and measured where that was asked for; None
+    where the problem is not Hamiltonian.
+    """
+    from garkcli.longtime.symplecticity import (
+        Symplecticity,
+        holds,
+        is_proved,
+        symplecticity_defects,
+    )
+    from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.righthandside import RightHandSide
+
+    tableau = method.tableau
+    if isinstance(run.problem, RightHandSide):
+        return None
+    if isinstance(run.problem, Oscillator):
+        return Symplecticity(holds(tableau, method.tolerance))
+    proved = is_proved(tableau, run.problem, method.tolerance)
+    if not is_measured:
+        return Symplecticity(proved)
+    defects = symplecticity_defects(tableau, run.problem, run.step, run.states)
+    return Symplecticity(proved, defects)
+
+
+def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:
+    """What the options claim. What is undecided is not shown to be bounded."""
+    from garkcli.exact.display import decimal, to_float
+    from garkcli.page.figures import measured
+    from garkcli.report.energy import Claim
+
+    claims = []
+    if given.bounded:
+        wrong = [x for x in run.invariants if x.verdict in NOT_BOUNDED]
+        found = ", ".join(f"{x.name} {x.verdict}" for x in wrong)
+        claims.append(Claim("bounded", found or "bounded", not wrong))
+    limit = given.max_error
+    if limit is not None:
+        # the energy, or of what else is conserved the one with the largest error
+        energy = run.energy or max(run.invariants, key=lambda x: x.max_error)
+        holds = not run.is_unstable and energy.max_error <= to_float(limit)
+        found_error = measured(energy.max_error, energy.round_off)
+        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, holds))
+    return tuple(claims)
+
+
+def _in_modified(given: Given, output: Output) -> int:
+    """The energy error in the modified Hamiltonian.
+
+    Raises:
+        UsageProblem: an option does not go with --modified, or the coefficients are rounded.
+    """
+    from garkcli.api.modified import modified_run
+    from garkcli.api.problems import hamiltonian_for
+    from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
+
+    method = given.method(is_exact=True)
+    others = ("omega", "split", "stiffness", "digits", "symplecticity", "bounded", "max_error")
+    for option in (*others, "plot"):
+        if getattr(given, option):
+            message = f"--{option.replace('_', '-')} does not go with --modified"
+            raise UsageProblem(message, "leave it out", code="options-clash")
+    if method.tolerance is not None:
+        raise UsageProblem(
+            "--modified: the order in it is shown for exact coefficients, not for rounded ones",
+            "give exact coefficients, without tolerance",
+            code="rounded",
+        )
+    try:
+        solved = hamiltonian_for(given.problem, method.tableau, given.seed)
+        run = modified_run(method, solved, given.modified, given.t_end, given.step)
+    except GarkError as error:
+        return output.tell_failure(error, method.name, REPORT)
+    output.tell(REPORT, ModifiedEnergyReport(method.name, run))
+    return 1 if run.is_refuted else 0
+
+
+@declared("modified", FORMATS)
+def modified(given: Given, output: Output) -> None:
+    """The modified equation of a method, in trees, exactly.
+
+    A step is a step along the exact solution of another equation, whose coefficients are listed:
+    of a symplectic method those of its modified Hamiltonian in free trees. They tell the order
+    to which the method is symplectic and conserves energy, and its effective order: the order in
+    the best coordinates.
+
+    With --problem the modified Hamiltonian itself, of a method that is not symplectic the modified
+    equation.
+    """
+    from garkcli.api.modified import backward_analysis
+    from garkcli.backward.series import possible_order
+    from garkcli.methodfile.naming import called
+    from garkcli.page.latex import fragment
+    from garkcli.report.modified import REPORT, ModifiedReport
+
+    check_document(given.document, output.format)
+    method = given.method(is_exact=True)
+    order, formula = given.order, None
+    if given.problem is not None:
+        refuse_misplaced(given)
+        formula = _formula(method, given)
+        # the problem sees fewer trees than the tableau has
+        order = possible_order(method.tableau, order)
+    elif given.seed is not None:
+        raise UsageProblem("--seed is for the problem", "give --problem too", code="option-alone")
+    found = backward_analysis(method, order)
+    report = ModifiedReport(
+        called(given.file),
+        method.name,
+        found,
+        method.derivation,
+        given.digits,
+        given.equation,
+        formula,
+    )
+    if output.format == "latex":
+        output.write(fragment([REPORT.render([report], "latex")], given.document))
+    else:
+        output.tell(REPORT, report)
+
+
+def _formula(method: GarkMethod, given: Given) -> ModifiedFormula:
+    """The formula on the problem of --problem.
+
+    Raises:
+        UsageProblem: the coefficients are rounded, or the problem is not Hamiltonian.
+    """
+    from garkcli.api.modified import modified_formula
+    from garkcli.api.problems import hamiltonian_for
+
+    if method.tolerance is not None:
+        raise UsageProblem(
+            "--problem: a formula has exact coefficients, and those of the file are rounded",
+            "give exact coefficients, without tolerance",
+            code="rounded",
+        )
+    solved = hamiltonian_for(given.problem, method.tableau, given.seed)
+    return modified_formula(method, solved, given.order).expanded()

@@ -1,0 +1,151 @@
+"""``gark stability``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from garkcli.cli.arguments import rational, square
+from garkcli.cli.options import Given, Output, declared
+from garkcli.errors import HasFreeParameters, UsageProblem, did_you_mean
+from garkcli.tell.report import FORMATS
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.report.stability import StabilityReport
+    from garkcli.tableau.garkmethod import GarkMethod
+    from garkcli.tableau.tableau import Tableau
+
+
+@declared("stability", FORMATS)
+def stability(given: Given, output: Output) -> None:
+    """Stability on linear, oscillating and contractive problems, decided exactly.
+
+    The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator,
+    its intervals of stability, P-stability, phase lag; algebraic stability; the SSP coefficient.
+    Of a file with free parameters R(z) with these, and for which values it is stable.
+    """
+    from garkcli.methodfile.naming import called
+    from garkcli.report.stability import REPORT
+
+    _check(given)
+    reports = []
+    paths = given.files_meant(output)
+    for file in paths:
+        try:
+            method = given.method(file, is_exact=True)
+        except HasFreeParameters as error:
+            if len(paths) > 1:
+                raise
+            _tell_for_every_value(error, given, output)
+            return
+        reports.append(_report(called(file), method, given))
+    output.tell(REPORT, *reports)
+    if given.plot is not None:
+        from garkcli.plots.regions import stability_scene
+
+        output.save_plot(stability_scene(reports, given.order_star), given.plot)
+
+
+def _check(given: Given) -> None:
+    """Whether options that need one another are given together, before any work is done.
+
+    Raises:
+        UsageProblem: one of them is missing, or there can be no such picture.
+    """
+    refuse_one_spring(given)
+    if given.order_star and given.plot is None:
+        raise UsageProblem(
+            "--order-star is for the picture", "give --plot FILE too", code="option-alone"
+        )
+    if given.plot is not None and not Path(given.plot).parent.is_dir():
+        raise UsageProblem(
+            f"cannot write {given.plot}: there is no such folder",
+            "choose another place",
+            code="cannot-write",
+        )
+
+
+def refuse_one_spring(given: Given) -> None:
+    """Refuse --slow without --fast, or the other way round.
+
+    Raises:
+        UsageProblem: it is so.
+    """
+    if (given.slow is None) != (given.fast is None):
+        raise UsageProblem("--slow and --fast belong together", "give both", code="option-alone")
+
+
+def colour_named(tableau: Tableau, colour: str) -> int:
+    """The colour that was given for --fast, counted from 1.
+
+    Raises:
+        UsageProblem: there is no such colour.
+    """
+    names = [x.name for x in tableau.colours]
+    if colour not in names:
+        message = f"--fast: no colour {colour!r}"
+        raise UsageProblem(message, did_you_mean(colour, names), code="wrong-value")
+    return 1 + names.index(colour)
+
+
+def _tell_for_every_value(error: HasFreeParameters, given: Given, output: Output) -> None:
+    """A file with free parameters: R(z), and for which values it is stable."""
+    from garkcli.cli.tableaux import read_family
+    from garkcli.report.every import STABILITY, every_stability
+
+    needs = {
+        f"--{given.which}": given.which,
+        "--slow": given.slow,
+        "--ratio": given.ratio,
+        "--plot": given.plot,
+    }
+    file, family = read_family(error, given.settings, needs)
+    output.tell(STABILITY, every_stability(file.source, file.name, family))
+
+
+def _report(file: str, method: GarkMethod, given: Given) -> StabilityReport:
+    """What is told of one method: its stability, or the two springs that the options ask for."""
+    from garkcli.api.calls import find_stability, two_springs
+    from garkcli.report.stability import StabilityReport
+    from garkcli.stability.springs_plane import plane_with_ends_of
+    from garkcli.stability.summary import Stability
+    from garkcli.stability.two_frequencies import SlowInterval, springs
+
+    tableau = method.tableau
+    is_of_springs = given.slow is not None
+    found = Stability(tableau, (), None, None)
+    if not is_of_springs:
+        found = find_stability(method, **given.of("find_stability"))
+    report = StabilityReport(
+        file, method.name, found, digits=given.digits, derivation=method.derivation
+    )
+    if not is_of_springs:
+        return report
+    colour = colour_named(tableau, given.fast)
+    low, high = _strengths(given.slow)
+    of_springs = two_springs(method, (low, high) if ".." in given.slow else low, colour)
+    if isinstance(of_springs, SlowInterval):
+        report = replace(report, slow=of_springs)
+    else:
+        report = replace(report, springs=of_springs)
+    if given.plot is None:
+        return report
+    split = springs(tableau, tableau.colours[colour - 1].term)
+    return replace(report, plane=plane_with_ends_of(tableau, split, of_springs.stable, high))
+
+
+def _strengths(slow: str) -> tuple[fmpq, fmpq]:
+    """The ends of --slow, the same twice for one number."""
+    first, dots, last = slow.partition("..")
+    low = square("--slow", first)
+    high = rational("--slow", last) if dots else low
+    if dots and not low < high:
+        raise UsageProblem(
+            f"--slow {slow}: the ends are not in ascending order",
+            "give --slow A..B",
+            code="option-value",
+        )
+    return low, high

@@ -1,0 +1,352 @@
+"""``gark tableau``, ``conjugate``, ``reduce``, ``convert`` and ``diff``: methods as tableaux and as
+method files, also those with free parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from garkcli.cli.options import Given, Output, check_document, declared
+from garkcli.errors import HasFreeParameters, MethodError, UsageProblem, did_you_mean
+from garkcli.tell.report import FORMATS
+
+if TYPE_CHECKING:
+    from garkcli.check.every_family import EveryFamily
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.methodfile.family import FamilyFile
+    from garkcli.tableau.garkmethod import GarkMethod
+    from garkcli.tableau.tableau import Tableau
+
+DEFAULT_DIGITS = 17
+"""Digits of entries that have no simple radicals, where none are asked for."""
+EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "undecided": 3}
+"""By what the methods are to each other."""
+
+
+@declared("tableau", (*FORMATS, "yaml"))
+def tableau(given: Given, output: Output) -> None:
+    """The assembled tableau, all blocks.
+
+    Entries are exact where the nodes are rational or quadratic numbers, decimals otherwise. With
+    --format yaml it is a method file that loads again. LaTeX shows a method for positions and
+    momenta as two arrays, Q and P. Entries of a file with free parameters are rational functions of
+    these.
+    """
+    try:
+        method = given.method()
+    except HasFreeParameters as error:
+        _write_family(error, given, output)
+        return
+    if method.base is not None and method.base.further:
+        output.note(
+            f"the embedded weights and the dense output are left out: the {given.which} has none"
+        )
+    if output.format != "yaml":
+        write_tableau(method, output, given.digits, given.document)
+        return
+    check_document(given.document, output.format)
+    if given.digits is None and method.derivation:
+        output.write(_derived_file(method, output))
+    else:
+        output.write(_method_file(method, given.digits))
+
+
+@declared("conjugate", (*FORMATS, "yaml"))
+def conjugate(given: Given, output: Output) -> None:
+    """The symplectic conjugate tableau of a method: gark tableau --conjugate.
+
+    With --format yaml it is a method file that loads again; conjugated again it gives the original
+    blocks exactly. Where the nodes have no simple radicals that file says `conjugate: true` instead
+    of entries. Entries of a file with free parameters are rational functions of these.
+    """
+    given.which = given.which or "conjugate"
+    tableau(given, output)
+
+
+def write_tableau(
+    method: GarkMethod, output: Output, digits: int | None = None, is_document: bool = False
+) -> None:
+    """Write a tableau as text, JSON or LaTeX.
+
+    Args:
+        method: any.
+        output: where to, and in which format.
+        digits: the digits of all entries; None for exact entries where the nodes have simple
+            radicals.
+        is_document: whether LaTeX gets a preamble.
+
+    Raises:
+        UsageProblem: no preamble belongs to the format.
+    """
+    from garkcli.page import tableau_latex
+    from garkcli.page.plain import printable
+    from garkcli.report.tableau import REPORT, of_method
+
+    check_document(is_document, output.format)
+    shown = of_method(method, digits)
+    if output.format == "latex":
+        name = printable(method.name)
+        text = tableau_latex.render(method.tableau, shown.readable, name, is_document)
+        output.write(text)
+    else:
+        output.tell(REPORT, shown)
+
+
+def _method_file(method: GarkMethod, digits: int | None) -> str:
+    """A method as a method file.
+
+    Raises:
+        UsageProblem: none spells it out.
+    """
+    from garkcli.methodfile.writer import write_rounded, write_tableau_file
+    from garkcli.tableau.pointwise import in_points
+
+    _refuse_partitioned(method.tableau)
+    if digits is not None:
+        from garkcli.report.tableau import of_method
+
+        entries = of_method(method, digits).entries
+        return write_rounded(method.tableau, entries, method.name, method.further)
+    exact = in_points(method.tableau)
+    if exact is None:
+        raise UsageProblem(
+            "the nodes have no simple radicals, so the tableau cannot be spelled out exactly",
+            f"--digits {DEFAULT_DIGITS} writes decimals",
+            code="no-radicals",
+        )
+    return write_tableau_file(exact, method.name, method.tolerance, further=method.further)
+
+
+def _derived_file(made: GarkMethod, output: Output) -> str:
+    """The method file of a conjugate or a pair.
+
+    Raises:
+        UsageProblem: the nodes of a pair have no simple radicals.
+    """
+    from garkcli.methodfile.conjugated import write_conjugate_of
+    from garkcli.methodfile.writer import can_spell_out, write_tableau_file
+    from garkcli.tableau.pointwise import in_points
+
+    is_pair = made.derivation == "pair"
+    exact = in_points(made.tableau)
+    if exact is not None and (is_pair or can_spell_out(exact)):
+        return write_tableau_file(exact, made.name, made.tolerance)
+    if is_pair:
+        raise UsageProblem(
+            "the nodes have no simple radicals, so the pair cannot be spelled out exactly",
+            "gark check reports on the pair; --format json gives decimals",
+            code="no-radicals",
+        )
+    output.note("the conjugate is described by the key conjugate: true, exactly, not spelled out")
+    base: Any = made.base
+    return write_conjugate_of(base, made.name)
+
+
+def _refuse_partitioned(tableau: Tableau) -> None:
+    """Refuse what a method file has no form for.
+
+    Raises:
+        UsageProblem: it is partitioned, and no pair (q, p).
+    """
+    from garkcli.methodfile.writer import can_spell_out
+
+    if not can_spell_out(tableau):
+        raise UsageProblem(
+            "a method file spells out a GARK tableau or one pair (q, p), not this partitioned one",
+            "--format json has all of its blocks",
+            code="cannot-convert",
+        )
+
+
+def read_family(
+    error: HasFreeParameters, settings: Mapping[str, str], needs: Mapping[str, object]
+) -> tuple[FamilyFile, EveryFamily]:
+    """The family of a file, from the refusal to read it as a method.
+
+    Args:
+        error: the refusal.
+        settings: values of other parameters.
+        needs: options that need numbers, with their values; falsy ones were not given.
+
+    Raises:
+        UsageProblem: it is not said for every value, or one of the options was given.
+    """
+    from garkcli.check.every_family import every_family
+    from garkcli.methodfile.family import family_of
+
+    file = family_of(error, settings)
+    try:
+        found = every_family(file)
+    except MethodError as refusal:
+        raise UsageProblem(refusal.message, refusal.help, code=refusal.code) from None
+    name = found.family.parameters[0]
+    for option, value in needs.items():
+        if value:
+            message = f"{option} needs numbers, and {name} is free"
+            raise UsageProblem(message, f"choose a value: --set {name}=1/2", code="free-parameters")
+    return file, found
+
+
+def _write_family(error: HasFreeParameters, given: Given, output: Output) -> None:
+    """Write the tableau of a family, its entries rational functions of the parameters.
+
+    Raises:
+        UsageProblem: the nodes have no simple radicals, or numbers are asked for.
+    """
+    from garkcli.tableau.garkmethod import GarkMethod, derived_name
+    from garkcli.tableau.meant import derived, printed
+
+    file, family = read_family(error, given.settings, {"--digits": given.digits})
+    shown = family.printed(printed(derived(family.tableau, given.which)))
+    cure = f"--set {file.parameters[0]}=1/2"
+    if shown is None:
+        raise UsageProblem(
+            "the nodes have no simple radicals beside free parameters",
+            f"choose a value: {cure}",
+            code="no-radicals",
+        )
+    if file.further:
+        output.note(
+            f"the embedded weights and the dense output are left out; with values there are: {cure}"
+        )
+    name = derived_name(given.which, file.name) if given.which else file.name
+    if output.format == "yaml":
+        output.write(_family_text(shown, name, family))
+        return
+    method = GarkMethod(tableau=shown, name=name, derivation=given.which or "")
+    write_tableau(method, output, None, given.document)
+
+
+def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
+    """A method file with the same free parameters."""
+    from garkcli.methodfile.writer import write_tableau_file
+
+    _refuse_partitioned(tableau)
+
+    def text(number: object) -> str:
+        return str(number).replace("^", "**")
+
+    free = []
+    for parameter in family.family.parameters:
+        ends = family.family.ranges[parameter]
+        if None in ends:
+            free.append(f"{parameter}: free")
+        else:
+            low, high = ends
+            free.append(f"{parameter}: {{free: true, range: [{low}, {high}]}}")
+    return write_tableau_file(tableau, name, text=text, parameters=free)
+
+
+@declared("reduce", ("yaml", *FORMATS))
+def reduce(given: Given, output: Output) -> None:
+    """The smallest method that does the same, as a method file.
+
+    Stages that have no influence on the step are left out, and stages that are equal on every
+    problem become one. Where nothing is to be reduced the file is written as it is, and a note
+    says so. Claims are left behind: the orders stay, B, C and D may not.
+    """
+    from garkcli.api.properties import reduced
+    from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import called
+    from garkcli.methodfile.writer import can_spell_out, write_method
+
+    method = load(given.file, given.settings)
+    file = called(given.file)
+    made = reduced(method)
+    if made is None:
+        raise UsageProblem(
+            f"{file}: the nodes have no simple radicals, so equal stages are not looked for",
+            "spell the method out",
+            code="no-radicals",
+        )
+    if made is method:
+        output.note(f"{file}: nothing to reduce")
+    else:
+        before, after = _stages(method.tableau), _stages(made.tableau)
+        output.note(f"{file}: stages {before} become {after}")
+    if output.format != "yaml":
+        write_tableau(made, output)
+    elif made is method:
+        output.write(method.text)
+    elif can_spell_out(made.tableau):
+        output.write(write_method(made.tableau, made.name, made.tolerance, made.further))
+    else:
+        raise UsageProblem(
+            f"{file}: a method of this structure cannot be spelled out in a file",
+            "--format json has the entries of the smaller method",
+            code="cannot-convert",
+        )
+
+
+def _stages(tableau: Tableau) -> str:
+    return ", ".join(str(space.stages) for space in tableau.spaces)
+
+
+@declared("convert", ("yaml", *FORMATS))
+def convert(given: Given, output: Output) -> None:
+    """The same method in another form, as a method file.
+
+    Name, reference, tolerance, embedded weights and dense output stay; so do the claims that hold
+    of the result, and a note names those that do not. The pair is another method: its file claims
+    of it what FILE claims of the pair.
+    """
+    from garkcli.conversion.convert import convert
+    from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import called
+
+    made = convert(load(given.file, given.settings), **given.of("convert"))
+    file = called(given.file)
+    if made.left_out:
+        output.note(f"{file}: claims that are left out: {', '.join(made.left_out)}")
+    if made.loses_further:
+        output.note(f"{file}: embedded and dense weights are left out")
+    if output.format == "yaml":
+        output.write(made.method.text)
+    else:
+        write_tableau(made.method, output)
+
+
+@declared("diff", FORMATS)
+def diff(given: Given, output: Output) -> int:
+    """How two methods differ: in entries, orders, conditions and properties; and whether they are
+    the same method with its stages numbered otherwise, or in another form.
+
+    Exit code 0 where the steps and the further weights are the same: with stages or colours
+    renumbered, stages without influence left out, or within the rounding that both files admit; 1
+    where they are not; 3 where that is not decided.
+    """
+    from garkcli.comparison.comparison import compare
+    from garkcli.methodfile.naming import called
+    from garkcli.report.diff import REPORT, Compared
+
+    first, second = _loaded((given.first, given.second), given.settings)
+    found = compare(first, second)
+    output.tell(REPORT, Compared(found, (called(given.first), called(given.second))))
+    if given.strict and found.relation in {"same", "within-rounding"}:
+        return 1
+    return EXIT_CODES[found.relation]
+
+
+def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodFile]:
+    """Methods, each with the values of its own parameters.
+
+    Raises:
+        UsageProblem: a value is for a parameter of none of them.
+    """
+    from garkcli.methodfile.carried import parameter_names
+    from garkcli.methodfile.load import loads, read_method_text
+
+    methods = []
+    known: set[str] = set()
+    for path in files:
+        text, source = read_method_text(path)
+        names = parameter_names(text, source)
+        known.update(names)
+        own = {name: x for name, x in settings.items() if name in names}
+        methods.append(loads(text, source, own))
+    for name in settings:
+        if name not in known:
+            message = f"--set {name}: neither file has such a parameter"
+            raise UsageProblem(message, did_you_mean(name, sorted(known)), code="option-value")
+    return methods

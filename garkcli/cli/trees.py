@@ -1,0 +1,408 @@
+"""``gark trees`` and ``gark conditions``: trees with their numbers and pictures, conditions with
+their values, and the free trees of symplectic methods in place of either.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from itertools import islice, tee
+from typing import TYPE_CHECKING, cast
+
+from garkcli.cli.options import Given, Output, declared
+from garkcli.cli.streams import is_terminal, say
+from garkcli.doing import counting, hush
+from garkcli.errors import HasFreeParameters, UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.order.conditions import Condition
+    from garkcli.report.conditions_data import ConditionRow, Valued
+    from garkcli.report.symplectic_subject import Subject
+    from garkcli.report.trees import Query, TreeRow
+    from garkcli.trees.symplectic import Kind
+    from garkcli.trees.tree import Tree
+
+MANY = 1_000_000
+"""So many lines are asked for twice."""
+MAX_PICTURES = 2000
+"""Most trees on one sheet of pictures."""
+BLOCK_SIZE = 1 << 14
+"""So many trees are made at a time."""
+
+
+@declared("trees", ["text", "json", "ndjson", "csv", "latex"])
+def trees(given: Given, output: Output) -> None:
+    """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
+
+    A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
+    With
+    --symplectic the rooted trees that differ in the place of their root are one row: their
+    conditions are equivalent for symplectic methods.
+    """
+    kind = _kind_asked(given, output.format)
+    if kind is not None:
+        _free_trees(kind, given, output)
+        return
+    from garkcli.report import trees as report
+    from garkcli.trees.notation import parse_tree
+
+    colours = given.colours or 1
+    used = _colours(given.colours_used, colours)
+    if given.root is not None and given.root > colours:
+        message = f"there is no colour {given.root}"
+        raise UsageProblem(message, f"--colours {colours} numbers them from 1", code="no-such-tree")
+    if given.tree is not None:
+        _single(given, output)
+        return
+    orders = _orders(given)
+    query = report.Query(colours, orders[-1], given.upto, given.root, used)
+    if given.count:
+        if used:
+            raise UsageProblem(
+                "--count knows no --colours-used", "leave one of them out", code="options-clash"
+            )
+        with _any_digits():
+            counts = counts_of(query)
+            output.write(report.render_counts(query, counts, output.format, output.paint))
+    elif given.svg is not None:
+        listed = (parse_tree(row.tree) for row in rows_of(query, orders))
+        _draw_sheet(given.svg, listed, colours > 1, output)
+    else:
+        totals = None if used else counts_of(query)
+        lines = None
+        if totals is not None:
+            lines = sum(sum(report.kept(query, by_root)) for _, by_root in totals)
+        _refuse_millions(lines, given.yes)
+        rows = counting("trees", rows_of(query, orders), lines)
+        output.write(
+            report.render(query, rows, totals, output.format, output.paint, given.document)
+        )
+
+
+def _kind_asked(given: Given, format: str) -> Kind | None:
+    """The kind of symplectic methods; None where all trees are meant.
+
+    Raises:
+        UsageProblem: options of ``--symplectic`` without it, or members in a LaTeX table.
+    """
+    if given.members and format == "latex":
+        message = "--members do not fit into a LaTeX table"
+        raise UsageProblem(message, "choose another --format", code="options-clash")
+    if given.symplectic:
+        return cast("Kind", given.kind or "pair")
+    if given.kind is not None or given.members:
+        option = "--members" if given.kind is None else "--kind"
+        raise UsageProblem(f"{option} is about free trees", "add --symplectic", code="option-alone")
+    return None
+
+
+def _orders(given: Given) -> range:
+    """The orders asked for.
+
+    Raises:
+        UsageProblem: none is.
+    """
+    if given.order is None:
+        raise UsageProblem(
+            "which order?", "give --order n, or --tree for one tree", code="option-alone"
+        )
+    return range(1 if given.upto else given.order, given.order + 1)
+
+
+def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
+    """For each order the number of trees by root colour."""
+    from garkcli.trees.count import Admissible, count_by_root, counts_upto
+
+    if not query.upto:
+        return [(query.order, count_by_root(query.colours, query.order))]
+    admissible = Admissible.of(query.colours)
+    return list(enumerate(counts_upto(admissible, query.order), start=1))
+
+
+def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
+    """A row for each tree of these orders."""
+    from garkcli.report.trees import TreeRow
+    from garkcli.trees.blocks import select
+
+    root = None if query.root is None else query.root - 1
+    colours, used = query.colours, query.used
+    for n in orders:
+        for block in select(colours, n, root=root, using=used, block_size=BLOCK_SIZE):
+            columns = block.columns
+            yield from map(
+                TreeRow,
+                block.notation(colours=colours > 1),
+                columns.root.tolist(),
+                [n] * len(block),
+                columns.sigma.tolist(),
+                columns.gamma.tolist(),
+            )
+
+
+def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Output) -> None:
+    """Draw trees into a file, and say so.
+
+    Raises:
+        UsageProblem: they are too many for a sheet.
+    """
+    from garkcli.page.writing import write_whole
+    from garkcli.trees.drawing import draw_svg_sheet
+    from garkcli.trees.notation import format_tree
+
+    drawn = list(islice(listed, MAX_PICTURES + 1))
+    if len(drawn) > MAX_PICTURES:
+        message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
+        raise UsageProblem(message, "draw one order or one root", code="too-many")
+    labels = [format_tree(tree, has_colours) for tree in drawn]
+    write_whole(path, [draw_svg_sheet(drawn, labels)])
+    output.note(f"wrote {path}")
+
+
+def _refuse_millions(lines: int | None, yes: bool) -> None:
+    """Ask on a terminal whether so many lines are meant, and refuse them without one.
+
+    Raises:
+        UsageProblem: they are not meant, or nobody was asked.
+    """
+    if yes or lines is None or lines <= MANY:
+        return
+    if is_terminal(sys.stdin) and is_terminal(sys.stderr):
+        say(f"{lines} trees: list them all? [y/N]")
+        hush()
+        if sys.stdin.readline().strip().lower() in {"y", "yes"}:
+            return
+    raise UsageProblem(
+        f"{lines} trees", "--yes lists them, --count counts them", code="option-value"
+    )
+
+
+def _free_trees(kind: Kind, given: Given, output: Output) -> None:
+    """A row for each class of equivalent conditions of symplectic methods."""
+    from garkcli.report import symplectic as report
+    from garkcli.report.symplectic_subject import subject_of_kind
+
+    if any(x is not None for x in (given.root, given.colours_used, given.tree)):
+        cure = "leave out --root, --colours-used and --tree"
+        raise UsageProblem("free trees have no root", cure, code="options-clash")
+    subject = subject_of_kind(kind, given.colours, _orders(given))
+    format, paint = output.format, output.paint
+    if given.count:
+        with _any_digits():
+            output.write(report.render_class_counts(subject, format, paint))
+    elif given.svg is not None:
+        listed = (found.representative for found in subject.classes())
+        _draw_sheet(given.svg, listed, subject.has_colours, output)
+    else:
+        lines = subject.independent
+        _refuse_millions(lines, given.yes)
+        classes = counting("trees", subject.classes(), lines)
+        output.write(
+            report.render_classes(subject, classes, format, paint, given.members, given.document)
+        )
+
+
+def _single(given: Given, output: Output) -> None:
+    """One tree, given in bracket text."""
+    from garkcli.report import trees as report
+    from garkcli.trees.notation import NotationError, format_tree, parse_tree
+
+    try:
+        tree = parse_tree(given.tree)
+    except NotationError as error:
+        message = f"--tree, column {error.offset + 1}: {error.message}"
+        raise UsageProblem(message, error.help, code="no-such-tree") from None
+    colours = 1 + max(tree.colours)
+    if given.svg is not None:
+        _draw_sheet(given.svg, [tree], colours > 1, output)
+        return
+    written = format_tree(tree, colours > 1)
+    row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
+    counts = [(tree.order, tuple(int(l == tree.root) for l in range(colours)))]
+    query = report.Query(colours, tree.order, False, tree.root + 1)
+    output.write(report.render(query, [row], counts, output.format, output.paint, given.document))
+
+
+@contextmanager
+def _any_digits() -> Iterator[None]:
+    """Whole numbers are written with any number of digits: Python's limit is for texts from
+    strangers.
+    """
+    limit = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)
+    try:
+        yield
+    finally:
+        sys.set_int_max_str_digits(limit)
+
+
+def _colours(text: str | None, colours: int) -> tuple[int, ...]:
+    """The colours of --colours-used, counted from 0."""
+    if text is None:
+        return ()
+    used = set()
+    for word in text.split(","):
+        number = word.strip()
+        is_number = number.isascii() and number.isdigit()
+        if not is_number or not 1 <= int(number[:6]) <= colours:
+            wanted = f"colours are numbers from 1 to {colours}"
+            raise UsageProblem(f"--colours-used {text}: {wanted}", "write 1,2", code="option-value")
+        used.add(int(number) - 1)
+    return tuple(sorted(used))
+
+
+@declared("conditions", ["text", "json", "csv", "markdown", "latex"])
+def conditions(given: Given, output: Output) -> None:
+    """The order-condition table.
+
+    Without FILE the conditions that every method has to meet: a row for each tree shape, to hold
+    for all colours (text and latex), or a row for each coloured tree (json and csv). With FILE
+    every condition of that method with its exact value, the required value and the residual;
+    identical conditions are listed once. Values of a file with free parameters are rational
+    functions of these.
+
+    With --symplectic one condition of each class of those that are equivalent for symplectic
+    methods; with FILE for its symplectic pair, unless it is symplectic itself.
+    """
+    from garkcli.report import conditions as report
+
+    kind = _kind_asked(given, output.format)
+    _check(given, kind)
+    orders = range(given.order if given.only else 1, given.order + 1)
+    valued = None if given.file is None else _valued(given)
+    subject = None
+    if kind is not None:
+        subject = _subject(kind, given, orders, valued)
+        if valued is not None and subject.method is not None:
+            valued = replace(valued, method=subject.method)
+        rows = _independent(subject, given.members, valued)
+    elif valued is not None:
+        rows = _with_values(valued, orders)
+    else:
+        rows = _table(given, orders, output.format)
+    rows = counting("conditions", _arranged(rows, given.sort, given.digits))
+    pieces = report.render(
+        rows, output.format, output.paint, output.width, given.document, subject, valued
+    )
+    output.write(pieces)
+
+
+def _check(given: Given, kind: Kind | None) -> None:
+    """Refuse options that do not go together.
+
+    Raises:
+        UsageProblem: two of them do not.
+    """
+    if given.file is None:
+        of_values: Mapping[str, object] = {
+            "--conjugate or --pair": given.which,
+            "--failing": given.failing,
+            "--digits": given.digits,
+            "--sort": given.sort != "tree",
+        }
+        for option, value in of_values.items():
+            if value:
+                message = f"{option}: values are those of a method"
+                raise UsageProblem(message, "give a FILE", code="option-alone")
+    elif given.colours is not None or given.coloured is not None:
+        cure = "leave out --colours, --coloured, --shapes"
+        raise UsageProblem("the colours are those of FILE", cure, code="options-clash")
+    if kind is not None and given.coloured is not None:
+        cure = "leave out --coloured and --shapes"
+        raise UsageProblem("free trees have colours", cure, code="options-clash")
+    if given.settings and given.file is None:
+        raise UsageProblem(
+            "--set is for the parameters of FILE", "name a file", code="option-alone"
+        )
+
+
+def _valued(given: Given) -> Valued:
+    """The method whose values are told; of a file with free parameters these are rational
+    functions of them.
+    """
+    from garkcli.methodfile.load import load
+    from garkcli.report.conditions_data import Valued
+    from garkcli.tableau.meant import derived
+
+    which = given.which or ""
+    parameters: tuple[str, ...] = ()
+    try:
+        known_as = load(given.file, given.settings).meant
+    except HasFreeParameters as error:
+        from garkcli.cli.tableaux import read_family
+
+        needs = {"--digits": given.digits, "--sort worst": given.sort == "worst"}
+        _, family = read_family(error, given.settings, needs)
+        known_as, parameters = family.tableau, family.family.parameters
+    return Valued(derived(known_as, which), given.failing, parameters, which)
+
+
+def _subject(kind: Kind, given: Given, orders: range, valued: Valued | None) -> Subject:
+    """What the conditions are independent for: a kind of methods, or the one of a file."""
+    from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
+
+    if valued is None:
+        return subject_of_kind(kind, given.colours, orders)
+    if given.kind is not None:
+        cure = "leave out --kind; --pair asks for the pair"
+        raise UsageProblem("the kind is that of FILE", cure, code="options-clash")
+    return subject_of_method(valued.method, orders)
+
+
+def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
+    """A row for each class, with its value where there is a method."""
+    from garkcli.order.conditions import conditions
+    from garkcli.report.conditions_data import ConditionRow
+
+    classes, again = tee(subject.classes())
+    listed = (found.representative for found in again)
+    values: Iterator[tuple[Tree, Condition | None]] = ((tree, None) for tree in listed)
+    if valued is not None:
+        values = ((x.tree, x) for x in conditions(valued.method, listed))
+    for found, (tree, condition) in zip(classes, values, strict=True):
+        shown = found.members if members else ()
+        yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
+
+
+def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
+    """A row for each condition of a method."""
+    from garkcli.order.conditions import all_conditions
+    from garkcli.report.conditions_data import ConditionRow
+
+    for n in orders:
+        for condition in all_conditions(valued.method, n):
+            yield ConditionRow(condition.tree, False, condition)
+
+
+def _table(given: Given, orders: range, format: str) -> Iterator[ConditionRow]:
+    """A row for each tree: of each shape for people, of each colouring for programs that say how
+    many colours there are.
+    """
+    from garkcli.report.conditions_data import ConditionRow
+    from garkcli.trees.blocks import iter_blocks
+
+    coloured = given.coloured
+    if coloured is None:
+        coloured = format in {"json", "csv"} and given.colours is not None
+    colours = (given.colours or 1) if coloured else 1
+    for n in orders:
+        for block in iter_blocks(colours, n, block_size=BLOCK_SIZE):
+            for tree in block.trees():
+                yield ConditionRow(tree, is_shape=not coloured)
+
+
+def _arranged(
+    rows: Iterator[ConditionRow], sort: str, digits: int | None
+) -> Iterator[ConditionRow]:
+    """The rows as they are to be shown: the worst first, in decimals."""
+    if sort == "worst":
+        rows = iter(sorted(rows, key=_badness, reverse=True))
+    for row in rows:
+        yield row if digits is None else replace(row, digits=digits)
+
+
+def _badness(row: ConditionRow) -> float:
+    from garkcli.exact.display import to_float
+
+    return 0.0 if row.condition is None else abs(to_float(row.condition.residual))
