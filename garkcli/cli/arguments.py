@@ -265,7 +265,7 @@ def ratio(option: str, text: str) -> fmpq:
     number = rational(option, text)
     if number <= 0:
         raise UsageProblem(
-            f"{option} {text}: radii are positive", "the axes are always there", code="option-value"
+            f"--ratio {text}: radii are positive", "the axes are always there", code="option-value"
         )
     return number
 

@@ -110,8 +110,10 @@ def _nothing(
     from garkcli.bridges.readers.registry import all_readers
 
     for result in results:
-        name = f"{result.table.name} is no method" if result.table.name else "no method"
-        message = f"{result.table.source}:{result.table.line}: {name}: {result.trouble}"
+        place, name = f"{result.table.source}:{result.table.line}", result.table.name
+        message = f"{place}: no method: {result.trouble}"
+        if name:
+            message = f"{place}: {name} is no method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read", code="cannot-import")
     for table in left_out:
         return UsageProblem(_other(table), _take_it(table), code="cannot-import")

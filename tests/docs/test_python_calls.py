@@ -79,7 +79,7 @@ def test_every_argument_is_one() -> None:
         assert function in garkcli.__all__
         parameter = parameter_of(option.of)
         assert option.help or told(option.of), (command, option)
-        if (option.settings or {}).get("is_flag"):
+        if option.is_flag and "/" not in option.written:
             assert parameter.default is False, option
 
 
