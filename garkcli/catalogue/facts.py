@@ -164,23 +164,18 @@ def shape(method: MethodFile) -> Entry:
 
 
 def _orders(analysis: Analysis) -> Entry:
+    embedded = analysis.embedded
     return {
         "order": analysis.order.order,
-        "embedded_order": _embedded_order(analysis),
+        "embedded_order": _order(None if embedded is None else embedded.order),
         "conjugate_order": _order(analysis.conjugate_order),
         "pair_order": _order(analysis.pair_order),
         "nonautonomous_order": _order(analysis.nonautonomous_order),
     }
 
 
-def _embedded_order(analysis: Analysis) -> int | None:
-    """The order of the embedded weights."""
-    found = analysis.embedded
-    return None if found is None else found.order.order
-
-
-def _order(found: AnyOrder | None) -> int | None:
-    return None if found is None else found.order
+def _order(order: AnyOrder | None) -> int | None:
+    return None if order is None else order.order
 
 
 def _error_constant(analysis: Analysis) -> str | None:

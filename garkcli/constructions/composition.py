@@ -144,13 +144,10 @@ class _Composition:
         self.substeps = substeps
         first = substeps[0].tableau
         self.colours = first.colours
-        of_colours = [self._spaces_of(l) for l in range(first.size)]
+        tableaus = [substep.tableau for substep in substeps]
+        of_colours = [tuple(x.colours[l].space for x in tableaus) for l in range(first.size)]
         self.places = list(dict.fromkeys(of_colours))
         self.space_of = [self.places.index(place) for place in of_colours]
-
-    def _spaces_of(self, l: int) -> tuple[int, ...]:
-        """The stage space of a colour in each method."""
-        return tuple(x.tableau.colours[l].space for x in self.substeps)
 
     def tableau(self) -> Tableau:
         """The tableau, stage by stage."""

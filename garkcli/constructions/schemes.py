@@ -82,10 +82,6 @@ def _suzuki(order: int) -> tuple[str, ...]:
     return outer, outer, f"-{root}/(4 - {root})", outer, outer
 
 
-def _with_adjoint(_: int, __: int) -> Parts:
-    return ("1/2", False), ("1/2", True)
-
-
 _BETA = (
     "(14 - sqrt(19))/108",
     "(-23 - 20*sqrt(19))/270",
@@ -172,7 +168,7 @@ SCHEMES: Mapping[str, Scheme] = {
             "strang",
             "2",
             "the method and its adjoint, half of the step each",
-            _with_adjoint,
+            lambda _, __: (("1/2", False), ("1/2", True)),
             reference="G. Strang, SIAM J. Numer. Anal. 5 (1968)",
         ),
         Scheme(
@@ -270,10 +266,6 @@ class Splitting:
     reference: str = ""
 
 
-def _lie(terms: int) -> tuple[FlowText, ...]:
-    return tuple((l, "1") for l in range(terms))
-
-
 def _strang_flows(terms: int) -> tuple[FlowText, ...]:
     there = [(l, "1/2") for l in range(terms - 1)]
     return (*there, (terms - 1, "1"), *reversed(there))
@@ -326,7 +318,9 @@ _S10 = (
 SPLITTINGS = {
     splitting.name: splitting
     for splitting in (
-        Splitting("lie", "1", "each part once", _lie),
+        Splitting(
+            "lie", "1", "each part once", lambda terms: tuple((l, "1") for l in range(terms))
+        ),
         Splitting(
             "strang",
             "2",

@@ -240,11 +240,8 @@ def _block(
 def each_its_own(sheet: Sheet) -> Sheet:
     """The method with stages of its own for every colour."""
     old = sheet.tableau
-    return regrouped(sheet, [_places(old, colour.space) for colour in old.colours], range(old.size))
-
-
-def _places(tableau: Tableau, space: int) -> list[Place]:
-    return [(space, i) for i in range(tableau.spaces[space].stages)]
+    spaces = [[(x.space, i) for i in range(len(x.b))] for x in old.colours]
+    return regrouped(sheet, spaces, range(old.size))
 
 
 def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> Sheet:

@@ -44,7 +44,7 @@ class Multivariate:
         (((1, 1), 2), ((0, 1), 3))
         """
         kept = [(exponents, a) for exponents, a in terms.items() if a]
-        kept.sort(key=_rank, reverse=True)
+        kept.sort(key=lambda term: (sum(term[0]), term[0]), reverse=True)
         return cls(variables, tuple(kept))
 
     @property
@@ -98,12 +98,6 @@ class Multivariate:
             k = sum(exponents)
             coefficients[k] = coefficients[k] + single(direction)
         return Polynomial(coefficients)
-
-
-def _rank(term: tuple[Exponents, Number]) -> tuple[int, Exponents]:
-    """Where a term stands: by its total degree, then by its exponents."""
-    exponents, _ = term
-    return sum(exponents), exponents
 
 
 def lattice(axes: int, degree: int) -> Iterator[Exponents]:

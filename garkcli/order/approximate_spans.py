@@ -79,9 +79,9 @@ class ApproximateSpans(OrderByOrder[_Hull]):
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
         self.enclosure = enclosure
         self.grain = grain
-        self._absolute: dict[Edge, arb_mat] = {}
-        for key, A in enclosure.A.items():
-            self._absolute[key] = _absolute_matrix(A)
+        self._absolute: dict[Edge, arb_mat] = {
+            key: arb_mat([_absolute(row) for row in A.tolist()]) for key, A in enclosure.A.items()
+        }
         super().__init__(tableau, [_unit(s) for s in enclosure.stages])
 
     def sizes(self, order: int) -> HullSizes:
@@ -238,11 +238,6 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
 
 def _absolute(row: Sequence[arb]) -> Entries:
     return [abs(x) for x in row]
-
-
-def _absolute_matrix(A: arb_mat) -> arb_mat:
-    """|A|, entry by entry."""
-    return arb_mat([_absolute(row) for row in A.tolist()])
 
 
 def _image(A: arb_mat, vector: Sequence[arb]) -> Entries:

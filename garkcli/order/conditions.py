@@ -88,15 +88,11 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     """
     tableau = printed(method)
     vectors = TreeVectors(tableau)
-    allowed = _exactly if isinstance(method, Tableau) else _effects(method)
+    allowed = None if isinstance(method, Tableau) else _effects(method)
     for tree in trees:
         value = dot(tableau.colours[tree.root].b, vectors.of(tree))
         is_met = value == fmpq(1, tree.density)
-        yield Condition(tree, value, ZERO if is_met else allowed(tree))
-
-
-def _exactly(_: Tree) -> fmpq:
-    return ZERO
+        yield Condition(tree, value, ZERO if is_met or allowed is None else allowed(tree))
 
 
 def _effects(rounded: RoundedTableau) -> Callable[[Tree], fmpq]:

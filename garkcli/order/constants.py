@@ -192,13 +192,7 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
 
 
 def _floats(row: Iterable[Cell]) -> list[float]:
-    return [_float(x) for x in row]
-
-
-def _float(x: Cell) -> float:
-    if isinstance(x, arb):
-        return float(x)
-    return to_float(x)
+    return [float(x) if isinstance(x, arb) else to_float(x) for x in row]
 
 
 def _mixes(table: TreeTable) -> Mask:

@@ -79,7 +79,8 @@ def dense_order(
     functionals = [Functional(dense.coefficients(k), k) for k in range(1, dense.degree + 1)]
     # the next power has no coefficients, and its order should have one
     beyond = dense.degree + 1
-    functionals.append(Functional(_zeros(printed(method)), beyond))
+    zeros = tuple((ZERO,) * len(colour.b) for colour in printed(method).colours)
+    functionals.append(Functional(zeros, beyond))
     orders = range(1, min(limit, beyond) + 1)
     tolerance = tolerance_of(method)
     try:
@@ -91,10 +92,6 @@ def dense_order(
         return DenseOrder(limit, None, False, tolerance)
     witness = DenseWitness(failure.number + 1, failure.witness)
     return DenseOrder(failure.witness.tree.order - 1, witness, False, tolerance)
-
-
-def _zeros(tableau: Tableau) -> Weights:
-    return tuple((ZERO,) * len(colour.b) for colour in tableau.colours)
 
 
 def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector, dot
 from garkcli.order.certificate import StageSpans, Witness, witness_of
 from garkcli.order.constants import ErrorConstants, estimate_constants
@@ -194,7 +194,7 @@ def estimator(
         pairs = list(zip(colour.b, row, strict=True))
         rows.append(tuple(b - other for b, other in pairs))
         terms.append(tuple(fmpq(bool(b) + bool(other)) for b, other in pairs))
-    sums = tuple(_sum(row) for row in rows)
+    sums = tuple(sum(row, start=ZERO) for row in rows)
     if not any(x for row in rows for x in row):
         return Estimator(sums, None, None, is_zero=True)
     difference = with_weights(tableau, tuple(rows))
@@ -206,10 +206,6 @@ def estimator(
     if order is not None:
         constants = estimate_constants(difference, order, is_rounded=method is not tableau)
     return Estimator(sums, order, constants, is_zero=False)
-
-
-def _sum(row: Vector) -> Number:
-    return sum(row, start=ZERO)
 
 
 def _leading(

@@ -114,7 +114,7 @@ def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
     """What is zero where a tableau is symplectic; 1 where a block has none on the other side."""
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
-            if _share_stages(one, other):
+            if one.space == other.space and {one.part, other.part} == {"q", "p"}:
                 yield from (x - y for x, y in zip(one.b, other.b, strict=True))
             if not are_opposite(one, other):
                 continue
@@ -122,11 +122,6 @@ def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
                 yield ONE
             elif tableau.block(l, m) is not None:
                 yield from chain.from_iterable(symplectic_defect(tableau, l, m))
-
-
-def _share_stages(one: Colour, other: Colour) -> bool:
-    """Whether a velocity and a force are evaluated at the same stages."""
-    return one.space == other.space and {one.part, other.part} == {"q", "p"}
 
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:

@@ -106,15 +106,14 @@ def entries(tableau: Tableau, digits: int = 17) -> Entries:
     exact = in_points(tableau)
     if exact is None:
         return numeric_entries(tableau, digits)
-    return _listed(exact, digits)
-
-
-def _listed(tableau: Tableau, digits: int) -> Entries:
-    colours = range(tableau.size)
-    c = tuple(colour.c for colour in tableau.colours)
-    A = [tuple(tableau.block(l, m) for m in colours) for l in colours]
-    b = tuple(colour.b for colour in tableau.colours)
-    return Entries(c, tuple(A), b, is_exact=True, digits=digits)
+    colours = range(exact.size)
+    return Entries(
+        c=tuple(colour.c for colour in exact.colours),
+        A=tuple(tuple(exact.block(l, m) for m in colours) for l in colours),
+        b=tuple(colour.b for colour in exact.colours),
+        is_exact=True,
+        digits=digits,
+    )
 
 
 def method_in_points(method: Method, nodes: Vector) -> Method:

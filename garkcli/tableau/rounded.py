@@ -37,9 +37,6 @@ GUARD_OF_ENTRIES = 32
 
 DIGITS_OF_A_BIT = 0.302
 """Decimal digits of a bit, log10(2) rounded up."""
-_Blocks: TypeAlias = dict[Edge, arb_mat]
-_Enclosed: TypeAlias = tuple[_Blocks, list[arb_mat]]
-"""A and b, see ``Enclosure``."""
 
 
 @dataclass(frozen=True)
@@ -67,10 +64,10 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     known to ``MAX_DIGITS`` digits at most.
     """
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
-    is_spelled_out = all(isinstance(space, PointSpace) for space in tableau.spaces)
     with ctx.workprec(bits + GUARD_OF_ENTRIES):
-        if is_spelled_out:
-            A, b = _spelled_out(tableau, digits)
+        if all(isinstance(space, PointSpace) for space in tableau.spaces):
+            A = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
+            b = [_balls([colour.b], digits).transpose() for colour in tableau.colours]
         else:
             A, b = _at_nodes(tableau, min(digits, MAX_DIGITS))
     return Enclosure(bits, tuple(space.stages for space in tableau.spaces), A, tuple(b))
@@ -88,18 +85,12 @@ def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
         return [[cast("arb", x) for x in row] for row in entries.c]
 
 
-def _spelled_out(tableau: Tableau, digits: int) -> _Enclosed:
-    """A and b of coefficients that are given one by one."""
-    A: _Blocks = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
-    return A, [_balls([colour.b], digits).transpose() for colour in tableau.colours]
-
-
-def _at_nodes(tableau: Tableau, digits: int) -> _Enclosed:
+def _at_nodes(tableau: Tableau, digits: int) -> tuple[dict[Edge, arb_mat], list[arb_mat]]:
     """A and b where stages of families are among them: coordinates become values at nodes."""
     entries = numeric_entries(tableau, digits)
     # Colours that share a stage space have the same rows, so any of them will do.
     colour_of: dict[int, int] = {colour.space: l for l, colour in enumerate(tableau.colours)}
-    A: _Blocks = {}
+    A: dict[Edge, arb_mat] = {}
     for k, m in tableau.blocks:
         row = entries.A[colour_of[k]]
         block = row[m] or ()

@@ -243,7 +243,7 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
         found = f"{len(captions)} captions for {count} trees"
         raise ValueError(f"{found}; give each tree one")
     placed = [layout(u) for u in trees]
-    lines = [[_numbers(u)] for u in trees]
+    lines = [[f"σ = {u.symmetry}, γ = {u.density}"] for u in trees]
     for k, caption in enumerate(captions or ()):
         lines[k].insert(0, caption)
     columns = max(1, min(columns, count))
@@ -258,11 +258,6 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
         body += _svg_caption(lines[k], middle, base)
     head = _svg_head(sum(widths), MARGIN + sum(heights) + len(heights) * foot - ROW_GAP)
     return "\n".join([*head, *body, "</svg>", ""])
-
-
-def _numbers(tree: Tree) -> str:
-    """The last line of a caption."""
-    return f"σ = {tree.symmetry}, γ = {tree.density}"
 
 
 def _grid(
