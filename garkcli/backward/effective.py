@@ -142,8 +142,7 @@ def _solve(
     extended = []
     for i, row in enumerate(matrix.tolist()):
         left = [fmpq(x) for x in row]
-        right = [side[i] for side in sides]
-        extended.append(left + right)
+        extended.append(left + [side[i] for side in sides])
     reduced, _ = fmpq_mat(extended).rref()
     behind = range(columns, columns + len(sides))
     solution: list[Number] = [ZERO] * columns

@@ -94,8 +94,7 @@ class Meter:
         return table
 
     def _have_settled(self, table: Sequence[Sequence[Row]]) -> bool:
-        columns = zip(*table, strict=True)
-        return all(slopes_have_settled(rows) for rows in columns)
+        return all(slopes_have_settled(rows) for rows in zip(*table, strict=True))
 
     def errors(self, count: int) -> list[arb]:
         """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
@@ -123,7 +122,8 @@ class Meter:
             rounding = arb(10) ** (_LOST - self.digits)
             noise = sum(sizes, arb(1)) * rounding * count
             means = [(x / count).sqrt() for x in squares]
-            return [_enclosed(x, noise) for x in means]
+            # with what rounding can have done to them
+            return [arb(x.mid(), noise.mid()) for x in means]
 
     def _truncations(self, values: Sequence[arb], h: fmpq) -> list[arb]:
         """H̃ up to each of the powers."""
@@ -146,11 +146,6 @@ def slopes_have_settled(rows: Sequence[Row]) -> bool:
     return are_enough and are_above_noise(rows) and has_settled(rows)
 
 
-def _enclosed(error: arb, noise: arb) -> arb:
-    """An error with what rounding can have done to it."""
-    return arb(error.mid(), noise.mid())
-
-
 def _places(x: arb) -> int:
     """How many zeros a small positive number has behind the point, about.
 
@@ -159,8 +154,7 @@ def _places(x: arb) -> int:
     """
     mantissa, exponent = x.mid().man_exp()
     bits = mantissa.bit_length() + int(exponent)
-    places = round(-bits * log10(2))
-    return max(0, places)
+    return max(0, round(-bits * log10(2)))
 
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]

@@ -159,8 +159,7 @@ class _Cutter:
             rest = self.numbers[root, tuple(others)]
             found[rest, branch] += alike
             for cut in self.known[branch]:
-                kept = tuple(sorted((*others, cut.rest)))
-                rest = self.numbers[root, kept]
+                rest = self.numbers[root, tuple(sorted((*others, cut.rest)))]
                 found[rest, cut.branch] += alike * cut.times
         cuts = []
         for (rest, below_edge), times in found.items():

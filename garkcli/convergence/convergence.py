@@ -31,9 +31,9 @@ from garkcli.problems.builtin import GENERIC, GENERIC_RHS, hamiltonian
 from garkcli.problems.generic import generic_rhs
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.problems.problem import Problem, merge_terms
-from garkcli.stepping.fields import with_joined_terms
+from garkcli.stepping.fields import visible_tableau, visible_trees, with_clock, with_joined_terms
 from garkcli.stepping.integrator import bind
-from garkcli.stepping.linear import whole_steps
+from garkcli.stepping.linear import MAX_STEPS, whole_steps
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
@@ -65,8 +65,7 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
     # the first of those that are equal
     most = max(counts, key=lambda name: counts[name])
     if counts[most] == 0:
-        sides = in_common(GENERIC_RHS, tableaux, seed)
-        if any(map(_fits, tableaux, sides)):
+        if any(map(_fits, tableaux, in_common(GENERIC_RHS, tableaux, seed))):
             return GENERIC_RHS
         raise UsageProblem(
             "no problem with random coefficients is of the form that the structure is for",
@@ -85,16 +84,15 @@ def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem
     terms = [terms_of(with_joined_terms(tableau)) for tableau in tableaux]
     most = max(terms)
     if name == GENERIC_RHS:
-        found = [_linear_terms(x) for x, n in zip(tableaux, terms, strict=True) if n == most]
-        widest: Problem = generic_rhs(most, seed, frozenset.union(*found))
+        linear = [
+            frozenset(x.term for x in tableau.colours if x.is_linear)
+            for tableau, n in zip(tableaux, terms, strict=True)
+            if n == most
+        ]
+        widest: Problem = generic_rhs(most, seed, frozenset.union(*linear))
     else:
         widest = hamiltonian(name, most, seed)
     return [merge_terms(widest, count) for count in terms]
-
-
-def _linear_terms(tableau: Tableau) -> frozenset[int]:
-    """The terms whose colours are linear."""
-    return frozenset(x.term for x in tableau.colours if x.is_linear)
 
 
 def _fits(tableau: Tableau, problem: Problem) -> bool:
@@ -142,8 +140,13 @@ def converge(
     >>> round(result.observed_order, 1), result.verdict
     (4.0, 'agree')
     """
-    problem, t_end = _problem_and_time(tableau, problem, t_end, steps)
-    timed = _with_time(tableau, problem)
+    if problem is None:
+        (problem,) = in_common(seeing_problem([tableau]), [tableau], 1)
+    t_end = usual_time(problem) if t_end is None else t_end
+    if steps is not None:
+        check_steps(problem, t_end, steps)
+    # nodes need not be row sums: the order is that with time as a colour
+    timed = tableau if isinstance(problem, Oscillator) else with_clock(tableau, problem)
     if order is None or timed is not tableau:
         order = order_of(timed, tolerance)
     solver = _solver(tableau, problem, t_end, tolerance, order)
@@ -153,48 +156,25 @@ def converge(
     observed = observed_order(fitted) if stiff is None else stiff_order(fitted)
     is_exact = tolerance is None
     short_time, short_order = None, None
-    if is_exact and _is_off(solver, observed):
+    is_off = observed is not None and abs(observed - solver.visible.order) > CLOSE
+    if is_exact and is_off:
         longest = min(t_end, usual_time(problem))
         short_time, short_order = _over_short_times(solver, longest)
     return Convergence(
         solver.problem,
         t_end,
-        _with_times(solver, rows) if is_timed else tuple(rows),
+        tuple(map(solver.timed, rows)) if is_timed else tuple(rows),
         plateau,
         observed,
         order,
         solver.visible,
         short_time,
         short_order,
-        is_exact or _has_settled(fitted),
+        is_exact or (len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)),
         steps is not None,
         stiff,
         all(row.error.is_zero() for row in rows) and solver.rests(),
     )
-
-
-def _problem_and_time(
-    tableau: Tableau,
-    problem: Oscillator | Problem | None,
-    t_end: fmpq | None,
-    steps: Sequence[fmpq] | None,
-) -> tuple[Oscillator | Problem, fmpq]:
-    """What was asked for, or the defaults; given steps are checked before any work is done."""
-    problem = problem or _seeing_every_tree(tableau)
-    t_end = usual_time(problem) if t_end is None else t_end
-    if steps is not None:
-        check_steps(problem, t_end, steps)
-    return problem, t_end
-
-
-def _with_times(solver: Solver, rows: Sequence[Row]) -> tuple[Row, ...]:
-    """The rows with the time of their steps in floats."""
-    return tuple(solver.timed(row) for row in rows)
-
-
-def _has_settled(rows: Sequence[Row]) -> bool:
-    """Whether there are as many rows as a slope takes, and it has stopped changing."""
-    return len(rows) >= ladder.ROWS and ladder.has_settled(rows)
 
 
 def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple[list[Row], int]:
@@ -208,27 +188,6 @@ def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple
     return rows, ladder.plateau(rows, order, solver.rounding())
 
 
-def _seeing_every_tree(tableau: Tableau) -> Problem:
-    """The problem with random coefficients for one method."""
-    name = seeing_problem([tableau])
-    (problem,) = in_common(name, [tableau], 1)
-    return problem
-
-
-def _with_time(tableau: Tableau, problem: Oscillator | Problem) -> Tableau:
-    """The tableau whose order is the one on problems like this: with time as a colour where there
-    is time, because nodes need not be row sums.
-
-    Raises:
-        UsageProblem: its stages have no times.
-    """
-    if isinstance(problem, Oscillator):
-        return tableau
-    from garkcli.stepping.fields import with_clock
-
-    return with_clock(tableau, problem)
-
-
 def _stiffness(
     solver: Solver, tableau: Tableau, rows: Sequence[Row], tolerance: fmpq | None
 ) -> Stiffness | None:
@@ -236,9 +195,8 @@ def _stiffness(
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
-    found = simplifying(meant(tableau, tolerance))
-    is_stable = ladder.is_part(rows[-1], solver.size())
-    return Stiffness(resolution, found.stage_order, is_stable)
+    stage_order = simplifying(meant(tableau, tolerance)).stage_order
+    return Stiffness(resolution, stage_order, ladder.is_part(rows[-1], solver.size()))
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:
@@ -249,8 +207,6 @@ def usual_time(problem: Oscillator | Problem) -> fmpq:
 def most_steps(problem: Oscillator | Problem) -> int:
     """Of one row."""
     if isinstance(problem, Oscillator):
-        from garkcli.stepping.linear import MAX_STEPS
-
         return MAX_STEPS
     from garkcli.convergence import stepped_solver
 
@@ -288,8 +244,6 @@ def _solver(
 
         return linear_solver(tableau, problem, t_end, tolerance, predicted)
     from garkcli.convergence.stepped_solver import SteppedSolver
-    from garkcli.stepping.fields import visible_tableau, visible_trees
-    from garkcli.stepping.integrator import bind
 
     bound = bind(tableau, problem)
     seen = visible_tableau(bound.tableau, bound.fields)
@@ -299,6 +253,7 @@ def _solver(
 
 
 def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
+    """The errors of some step sizes; of one alone where it has none."""
     rows: list[Row] = []
     for h in sorted(set(steps), reverse=True):
         before = rows[-1] if rows else None
@@ -307,13 +262,6 @@ def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
             return [row]
         rows.append(row)
     return rows
-
-
-def _is_off(solver: Solver, observed: float | None) -> bool:
-    """Whether an order is observed that is not the one to be seen."""
-    if observed is None:
-        return False
-    return abs(observed - solver.visible.order) > CLOSE
 
 
 def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
@@ -325,7 +273,9 @@ def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
     short, order = usual, None
     for decades in solver.decades:
         short = usual / fmpq(10) ** decades
-        order = _order_over(solver.over(short))
+        over = solver.over(short)
+        rows = _given_rows(over, [over.t_end / n for n in _SHORT_STEPS])
+        order = None if rows[-1].error.is_zero() else observed_order(rows)
         if order is None:
             break
         is_whole = abs(order - round(order)) <= CLOSE
@@ -333,15 +283,3 @@ def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
         if is_whole and not may_fall:
             break
     return short, order
-
-
-def _order_over(solver: Solver) -> float | None:
-    """The order up to the final time; None where the problem or the method has no error there."""
-    rows: list[Row] = []
-    for n in _SHORT_STEPS:
-        before = rows[-1] if rows else None
-        row = solver.row(solver.t_end / n, before)
-        if row.error.is_zero():
-            return None
-        rows.append(row)
-    return observed_order(rows)

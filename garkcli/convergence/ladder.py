@@ -208,7 +208,8 @@ def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
     flat = 0  # the first flat row
     while flat < len(rows):
         row = rows[flat]
-        if _is_flat(row, order) and row.error < limit:
+        is_flat = row.slope is not None and row.slope < order - _FLAT
+        if is_flat and row.error < limit:
             break
         flat += 1
     if flat == len(rows):
@@ -219,7 +220,3 @@ def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
     while spoilt < flat and not rows[spoilt].error < level:
         spoilt += 1
     return len(rows) - spoilt
-
-
-def _is_flat(row: Row, order: int) -> bool:
-    return row.slope is not None and row.slope < order - _FLAT

@@ -259,8 +259,7 @@ class _Runs:
         s = self.stages
         with ctx.workprec(self.integrator.bits):
             size = magnitude(y, self.problem)
-            pairs = zip(y, before, strict=True)
-            change = max((abs(a - b) for a, b in pairs), key=float)
+            change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
             goal = arb(10) ** -self.digits * size
             ratio = arb(fewer) / steps
             left = change * max(ratio**s, arb(_CREDIT))

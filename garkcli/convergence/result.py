@@ -271,8 +271,7 @@ def observed_order(rows: Sequence[Row]) -> float | None:
         for row in last:
             ratio = arb(row.h / last[0].h)
             log_h = arb(row.h).log()
-            terms = [arb(1), log_h, ratio, ratio * ratio]
-            equations.append(terms[: len(last)])
+            equations.append([arb(1), log_h, ratio, ratio * ratio][: len(last)])
         logarithms = [[row.error.mid().log()] for row in last]
         unknowns = arb_mat(equations).solve(arb_mat(logarithms))
         return float(unknowns[1, 0])

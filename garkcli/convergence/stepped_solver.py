@@ -129,8 +129,7 @@ class SteppedSolver:
         while True:
             state = run(self._integrator(digits), h, steps, f"h = {h}")
             error = self._distance(state.y, digits)
-            shown = arb(10) ** (_SPARE - 1 - digits) * self._amplified(h)
-            if error > self.size() * shown:
+            if error > self.size() * (arb(10) ** (_SPARE - 1 - digits) * self._amplified(h)):
                 break
             if self._shows_no_error(error, digits):
                 error = arb(0)
@@ -247,8 +246,7 @@ class SteppedSolver:
             possible = [_with_radius(arb(x), round_off) for x in y]
             now = measure(*possible)
             then = measure(*map(arb, self.problem.initial))
-            pairs = zip(now, then, strict=True)
-            changes = [arb(a) - arb(b) for a, b in pairs]
+            changes = [arb(a) - arb(b) for a, b in zip(now, then, strict=True)]
         errors = [absolute(change) for change in changes]
         if isinstance(self.problem, Hamiltonian):
             return errors[0], errors[1:]

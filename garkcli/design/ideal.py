@@ -131,8 +131,7 @@ class Ideal:
         terms = polynomial.to_dict()
         denominator = integral_scale(polynomial)
         tail = (0,) if self.nonzero else ()
-        whole = {(*e, *tail): (a * denominator).p for e, a in terms.items()}
-        return self._context.from_dict(whole)
+        return self._context.from_dict({(*e, *tail): (a * denominator).p for e, a in terms.items()})
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
         """The ideal with further polynomials.
@@ -141,8 +140,7 @@ class Ideal:
             NotDecided: the time for its basis is not enough.
         """
         check_time()
-        new = [self._integral(polynomial) for polynomial in polynomials]
-        return self._with_generators(new)
+        return self._with_generators([self._integral(polynomial) for polynomial in polynomials])
 
     def _with_generators(self, new: list[fmpz_mpoly]) -> Ideal:
         if is_small([*self.basis, *new]):
@@ -150,8 +148,7 @@ class Ideal:
         new = [p for p in new if p]
         if not new or self.is_everything:
             return self
-        found = groebner_basis([*self.basis, *new], self._context)
-        return self._with_basis(found, self.is_proved)
+        return self._with_basis(groebner_basis([*self.basis, *new], self._context), self.is_proved)
 
     def with_zeros_in_turn(
         self, polynomials: Iterable[fmpq_mpoly], generators: Iterable[fmpq_mpoly]
@@ -203,8 +200,7 @@ class Ideal:
             NotDecided: msolve is not there, or its answer is not in time.
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
-        found = unproved_basis([*self.basis, *new], self._context)
-        return self._with_basis(found, is_proved=False)
+        return self._with_basis(unproved_basis([*self.basis, *new], self._context), is_proved=False)
 
     def contains(self, polynomial: fmpq_mpoly) -> bool:
         """Whether a polynomial vanishes wherever the ideal does, with multiplicity."""

@@ -54,8 +54,7 @@ def basis_by_msolve(
         NotDecided: the time is over before it begins.
     """
     check_time()
-    given = [p for p in generators if p]
-    answer = _answer(program, _question(given, context), seconds_left())
+    answer = _answer(program, _question([p for p in generators if p], context), seconds_left())
     if answer is None:
         return None
     return _read(answer, context)

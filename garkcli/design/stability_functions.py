@@ -51,8 +51,7 @@ class FamilyFunction:
         """|Q(iy)|² − |P(iy)|² as a polynomial in x = y²."""
         P = _squared(self.numerator)
         Q = _squared(self.denominator)
-        pairs = zip_longest(Q, P, fillvalue=ZERO)
-        return _trimmed([q - p for q, p in pairs])
+        return _trimmed([q - p for q, p in zip_longest(Q, P, fillvalue=ZERO)])
 
 
 def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction, ...]:
@@ -143,8 +142,7 @@ def _squared(p: Coefficients) -> Coefficients:
             if is_odd:
                 continue
             is_negative = (j - k) // 2 % 2
-            product = -a * b if is_negative else a * b
-            squared[power] = squared[power] + product
+            squared[power] = squared[power] + (-a * b if is_negative else a * b)
     return tuple(squared)
 
 

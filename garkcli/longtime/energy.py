@@ -77,8 +77,7 @@ def _slope(errors: Floats, angle: float | None) -> float:
     """The slope per step, by normal equations, whose columns are nearly orthogonal."""
     import numpy as np
 
-    sizes = np.abs(errors)
-    largest = float(sizes.max())
+    largest = float(np.abs(errors).max())
     last = len(errors) - 1
     if last < 1 or largest == 0:
         return 0.0
@@ -95,8 +94,7 @@ def _slope(errors: Floats, angle: float | None) -> float:
         part = chunk / largest
         n = np.arange(start, start + len(part), dtype=np.float64)
         level = np.ones_like(n)
-        line = n / last - 0.5
-        columns = [level, line]
+        columns = [level, n / last - 0.5]
         if angle is not None:
             phase = angle * n
             columns.append(np.cos(phase))
@@ -279,8 +277,7 @@ def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
 def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | None:
     """The same with balls of ``bits`` bits; None where these are too few."""
     with ctx.workprec(bits):
-        step = _scaled(R, omega, bits)
-        forms, block = _forms(step, isqrt(count) + 1)
+        forms, block = _forms(_scaled(R, omega, bits), isqrt(count) + 1)
         blocks = -(-(count + 1) // len(forms))  # rounded up
         starts, energies = _starts(block, arb(omega), blocks)
         entries = [x for form in forms for x in form]
@@ -352,8 +349,7 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     """2θ in [0, 2π), twice the argument of the eigenvalues of R; None when they are real."""
     import numpy as np
 
-    entries = _scaled(R, omega, 128).entries()
-    a, b, c, d = map(float, entries)
+    a, b, c, d = map(float, _scaled(R, omega, 128).entries())
     # the eigenvalues are those of λ² − (a + d) λ + (ad − bc)
     real = (a + d) / 2
     apart = (a - d) / 2

@@ -308,8 +308,7 @@ class _Judge:
     def _size(self, k: int) -> float:
         """Of the summands of an invariant at the start; 1 where all are zero."""
         start = self.record.states[0]
-        sizes = self.record.measure.sizes(start)
-        return float(sizes[k]) or 1.0
+        return float(self.record.measure.sizes(start)[k]) or 1.0
 
     def _longer(self, trend: Trend | None, doubt: Doubt | None) -> fmpq | None:
         """A time that would decide; None if that is too many steps, or no time would."""

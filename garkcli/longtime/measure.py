@@ -78,8 +78,7 @@ class Measure:
 
         if not self._bits:
             first: Floats = np.array(self._first)
-            values = [self._values_of(y) for y in states]
-            return np.array(values, dtype=np.float64) - first
+            return np.array([self._values_of(y) for y in states], dtype=np.float64) - first
         with ctx.workprec(self._bits):
             rows = []
             for y in states:
@@ -105,8 +104,7 @@ class Measure:
         )
 
     def _differences(self, y: Sequence[Any]) -> list[Any]:
-        pairs = zip(self._values_of(y), self._first, strict=True)
-        return [x - first for x, first in pairs]
+        return [x - first for x, first in zip(self._values_of(y), self._first, strict=True)]
 
     def _values_of(self, y: Sequence[Any]) -> list[Any]:
         try:

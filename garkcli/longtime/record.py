@@ -78,8 +78,7 @@ class Excursions:
         if not self._turned.size:
             self._shape_for(d)
         moves = np.diff(states, axis=0)
-        ends = np.abs(states[1:])
-        is_move = np.abs(moves) > _MOVES * ends
+        is_move = np.abs(moves) > _MOVES * np.abs(states[1:])
         directions = np.sign(moves) * is_move
         products = directions[1:] * directions[:-1]
         turned = products < 0
@@ -163,8 +162,7 @@ class Record:
         if count >= points:
             spans = max((points - 2) // (2 * signals), 1)
             self._span = ceil((count + 1) / spans)
-        parts = range(_PARTS + 1)
-        self._wanted = {count * part // _PARTS for part in parts}
+        self._wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
         self._numbers: list[int] = []
         self._errors: list[Floats] = []
         self._start: Floats = np.zeros(0)
@@ -242,8 +240,7 @@ class Record:
         for number in self._wanted:
             if start <= number <= self.done:
                 self.states[number] = tuple(states[number - start])
-        inside = states[:count]
-        self._watch(np.array(inside, dtype=np.float64))
+        self._watch(np.array(states[:count], dtype=np.float64))
 
     def lose(self, start: int, errors: Floats) -> None:
         """Note which invariants have no value from some step on; what comes after it is nan too.
@@ -305,8 +302,7 @@ def extremes(errors: Floats, points: int) -> Integers:
 
     if len(errors) <= points:
         return np.arange(len(errors))
-    numbers = np.arange(len(errors))
-    spans = np.array_split(numbers, points // 2)
+    spans = np.array_split(np.arange(len(errors)), points // 2)
     chosen: set[int] = set()
     for span in spans:
         values = errors[span]

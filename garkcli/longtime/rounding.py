@@ -169,5 +169,4 @@ def _sum_of_sizes(rows: Iterable[Iterable[Any]]) -> float:
 
 def _size(x: Any) -> float:
     """|x| of an exact number or an enclosed one."""
-    value = float(x) if isinstance(x, arb) else to_float(x)
-    return abs(value)
+    return abs(float(x) if isinstance(x, arb) else to_float(x))

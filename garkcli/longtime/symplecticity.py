@@ -106,8 +106,7 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
         coarse = _jacobian(method, step, y, 2 * delta)
         entries = list(chain.from_iterable(M))
         coarse_entries = chain.from_iterable(coarse)
-        pairs = zip(entries, coarse_entries, strict=True)
-        change = max(abs(a - b) for a, b in pairs)
+        change = max(abs(a - b) for a, b in zip(entries, coarse_entries, strict=True))
         largest = max(map(abs, entries))
         sizes = [abs(arb(x)) for x in y]
         size = sum(sizes, arb(1))
@@ -115,8 +114,7 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
         last_digit = arb(10) ** (_DECADES - method.digits)
         solved = last_digit * size
         # each entry of MᵀJM is a sum of as many products as M has rows
-        terms = _SAFETY * len(M)
-        error = terms * largest * (change + solved)
+        error = _SAFETY * len(M) * largest * (change + solved)
         deviation = _deviation(M)
         return Defect(time, float(deviation), float(error))
 
@@ -134,8 +132,7 @@ def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> 
     for i in range(len(y)):
         after = moved(i, delta)
         before = moved(i, -delta)
-        pairs = zip(after, before, strict=True)
-        slopes = [(a - b) / (2 * delta) for a, b in pairs]
+        slopes = [(a - b) / (2 * delta) for a, b in zip(after, before, strict=True)]
         columns.append([slope.mid() for slope in slopes])
     return [list(row) for row in zip(*columns, strict=True)]
 

@@ -146,12 +146,10 @@ class Sums:
             self._starts[k] = part[0]
         x = part - self._starts[k]
         steps = np.arange(start, end)
-        place = steps / self.count
-        s = (place - a) / (b - a)
+        s = (steps / self.count - a) / (b - a)
         u = s - 0.5
         # the weight w(s) of ``trend``, scaled to 1 in the middle
-        product = s * (1.0 - s)
-        exponent = 4.0 - 1.0 / product
+        exponent = 4.0 - 1.0 / (s * (1.0 - s))
         w = np.exp(exponent)
         wu = w * u
         rows = np.stack([w, wu])

@@ -108,8 +108,7 @@ class _Figure:
             for (a, c), (b, d) in pairwise(points):
                 if a <= x <= b:
                     width = (b - a) or 1.0
-                    part = (x - a) / width
-                    found.append(c + (d - c) * part)
+                    found.append(c + (d - c) * ((x - a) / width))
         return found
 
 

@@ -111,8 +111,7 @@ def _crossing(padded: Floats, edge: _Edge) -> Point:
     i, j, is_upward = edge
     next_node = (i + 1, j) if is_upward else (i, j + 1)
     here = float(padded[i, j])
-    there = float(padded[next_node])
-    part = here / (here - there)
+    part = here / (here - float(padded[next_node]))
     x = j - 1.0
     y = i - 1.0
     if is_upward:

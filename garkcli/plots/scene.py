@@ -44,7 +44,7 @@ def linear_marks(low: float, high: float, most: int) -> list[Mark]:
     marks = []
     for k in range(first, last + 1):
         at = k * step
-        marks.append(Mark(at, _number(at)))
+        marks.append(Mark(at, f"{at:.6g}".replace("-", "−")))
     return marks
 
 
@@ -54,10 +54,6 @@ def _round_step(least: float) -> float:
     enough = least * (1 - 1e-9)
     steps = (step * power for step in _STEPS)
     return next((step for step in steps if step >= enough), 10 * power)
-
-
-def _number(x: float) -> str:
-    return f"{x:.6g}".replace("-", "−")
 
 
 def logarithmic_marks(low: float, high: float, most: int) -> list[Mark]:

@@ -108,8 +108,7 @@ def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | N
         if tableau.colours[m].space == k:
             for row in block:
                 is_unseen = is_unseen.gcd(_divided(M, row))
-    both = sees_nothing.gcd(is_unseen)
-    gone = sees_nothing * is_unseen / both
+    gone = sees_nothing * is_unseen / sees_nothing.gcd(is_unseen)
     dropped = set()
     _, factors = gone.factor()
     for factor, _ in factors:
@@ -153,17 +152,14 @@ def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int
             rows = [_residues(row, p) for row in block]
             M = _modulo(spaces[owner].M, p)
             if owner == centre:
-                others = M // nmod_poly([-r, 1], p)
-                coefficients = [int(a) for a in others.coeffs()]
+                coefficients = [int(a) for a in (M // nmod_poly([-r, 1], p)).coeffs()]
                 entries = [
                     sum(a * b for a, b in zip(row, coefficients, strict=False)) % p for row in rows
                 ]
-                column = nmod_poly(entries, p)
-                seers[k] = seers[k].gcd(column)
+                seers[k] = seers[k].gcd(nmod_poly(entries, p))
             if k == centre:
                 sights = _at(rows, r, p)
-                values = nmod_poly(sights[::-1], p)
-                of_node = (values * M).right_shift(M.degree())
+                of_node = (nmod_poly(sights[::-1], p) * M).right_shift(M.degree())
                 seen[owner] = seen[owner].gcd(of_node)
     except ZeroDivisionError:  # p divides a denominator
         return False
@@ -205,7 +201,6 @@ def _at(rows: Sequence[Sequence[int]], r: int, p: int) -> list[int]:
     total = [0] * len(rows[0])
     power = 1
     for row in rows:
-        pairs = zip(total, row, strict=True)
-        total = [(t + power * a) % p for t, a in pairs]
+        total = [(t + power * a) % p for t, a in zip(total, row, strict=True)]
         power = power * r % p
     return total

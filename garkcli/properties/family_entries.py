@@ -38,8 +38,7 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
         return not vanishes_at(entry, row_node)
     if row_node.exact is not None:
         powers = [row_node.exact**n for n in range(here.stages)]
-        values = apply_left(powers, block)
-        entry = _divided(there.modulus, values)
+        entry = _divided(there.modulus, apply_left(powers, block))
         return not vanishes_at(entry, column_node)
     return None
 

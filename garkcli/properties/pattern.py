@@ -216,8 +216,7 @@ def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     """The shape of the stages of a graph."""
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
     alone = [found[0] for found in graph.systems if len(found) == 1 and graph.is_loop(found[0])]
-    count = sum(map(len, together)) + len(alone)
-    implicit = count if graph.is_certain else None
+    implicit = sum(map(len, together)) + len(alone) if graph.is_certain else None
     kind: Kind | None = None
     if together:
         kind = "fully implicit"

@@ -59,8 +59,7 @@ def _at_points(tableau: Tableau) -> Tableau | None:
 
 
 def _once(tableau: Tableau) -> Tableau:
-    kept = _that_matter(tableau)
-    smaller = _without(tableau, kept)
+    smaller = _without(tableau, _that_matter(tableau))
     return merged(_with_idle_stages_zero(smaller))
 
 
@@ -179,8 +178,7 @@ def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
                 return True
             continue
         apart = 2 * len(block[0]) * tolerance
-        pairs = combinations(sums, 2)
-        if all(is_nonzero(x - y, apart) for x, y in pairs):
+        if all(is_nonzero(x - y, apart) for x, y in combinations(sums, 2)):
             return True
     return False
 
@@ -227,8 +225,7 @@ def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = kept[tableau.colours[m].space]
-        rows = [_chosen(block[i], columns) for i in kept[k]]
-        blocks[k, m] = tuple(rows)
+        blocks[k, m] = tuple(_chosen(block[i], columns) for i in kept[k])
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
@@ -256,8 +253,7 @@ def merged(tableau: Tableau) -> Tableau:
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = classes[tableau.colours[m].space]
-        rows = [_summed(block[i], columns) for i in firsts[k]]
-        blocks[k, m] = tuple(rows)
+        blocks[k, m] = tuple(_summed(block[i], columns) for i in firsts[k])
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
@@ -281,8 +277,7 @@ def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
     while True:
         finer = [_split(tableau, k, classes) for k in numbers]
         sizes_before = [len(found) for found in classes]
-        sizes = [len(found) for found in finer]
-        if sizes == sizes_before:
+        if [len(found) for found in finer] == sizes_before:
             return finer
         classes = finer
 
@@ -310,8 +305,7 @@ def _sight(tableau: Tableau, k: int, i: int, classes: list[list[list[int]]]) -> 
     for m, colour in enumerate(tableau.colours):
         block = tableau.blocks.get((k, m))
         if block is not None:
-            sums = _summed(block[i], classes[colour.space])
-            sight.append(sums)
+            sight.append(_summed(block[i], classes[colour.space]))
     return sight
 
 

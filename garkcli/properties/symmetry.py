@@ -160,8 +160,7 @@ def _keys(tableau: Tableau, k: int, space: StageSpace) -> list[tuple[Vector, Vec
         colours = [x for x in tableau.colours if x.space == k]
         weights = [colour.b[i] for colour in colours]
         own = (*sums, *weights)
-        image = (*turned, *weights)
-        keys.append((own, image))
+        keys.append((own, (*turned, *weights)))
     return keys
 
 

@@ -211,8 +211,7 @@ def _without_pivot(rows: list[list[arb]], remaining: list[int]) -> bool | None:
     """The same where no diagonal entry is known to be positive."""
     for i, j in combinations(remaining, 2):
         diagonal = rows[i][i] * rows[j][j]
-        others = rows[i][j] * rows[j][i]
-        if diagonal - others < 0:
+        if diagonal < rows[i][j] * rows[j][i]:
             return False
     for i in remaining:
         if not all(rows[i][j].is_zero() for j in remaining):

@@ -98,8 +98,7 @@ def poles_are_right(Q: Sequence[arb]) -> bool | None:
         column.append(lower[0])
         factor = upper[0] / lower[0]
         below = _padded(lower[1:], len(upper) - 1)
-        pairs = zip(upper[1:], below, strict=True)
-        upper, lower = lower, [x - factor * y for x, y in pairs]
+        upper, lower = lower, [x - factor * y for x, y in zip(upper[1:], below, strict=True)]
     if all(x > 0 for x in column) or all(x < 0 for x in column):
         return True
     if any(x.contains(0) for x in column):

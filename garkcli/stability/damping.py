@@ -121,8 +121,7 @@ class ImexPair:
     @cached_property
     def has_fixed_poles(self) -> bool:
         """Whether the poles in z_I do not depend on z_E."""
-        terms = self.R.denominator.terms
-        powers = [exponents[self.explicit] for exponents, _ in terms]
+        powers = [exponents[self.explicit] for exponents, _ in self.R.denominator.terms]
         return not any(powers)
 
     @cached_property
@@ -198,8 +197,7 @@ class ImexPair:
             return None
         critical += E[:1]  # where it is zero, a root passes through 0
         start = zero
-        ends = [*roots_between(critical, zero, None), None]
-        for end in ends:
+        for end in [*roots_between(critical, zero, None), None]:
             x = between(start, end)
             a, b = ZERO, x
             if is_in_squares:
@@ -318,11 +316,10 @@ class _Enclosed:
 
 def _in_balls(p: Multivariate) -> list[_Terms]:
     digits = int(BITS / BITS_A_DIGIT)
-    found = []
-    for coefficient in p.by_last():
-        terms = [(j, k, to_ball(x, digits)) for (j, k), x in coefficient.terms]
-        found.append(terms)
-    return found
+    return [
+        [(j, k, to_ball(x, digits)) for (j, k), x in coefficient.terms]
+        for coefficient in p.by_last()
+    ]
 
 
 def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
@@ -340,5 +337,4 @@ def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
 def _at(p: Multivariate, a: fmpq, b: fmpq) -> Polynomial:
     """A polynomial in (a, b, y) as one in y."""
     point = (a, b)
-    coefficients = [coefficient(point) for coefficient in p.by_last()]
-    return Polynomial(coefficients)
+    return Polynomial([coefficient(point) for coefficient in p.by_last()])

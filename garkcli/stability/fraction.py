@@ -104,8 +104,7 @@ def _on_line(tableau: Tableau, point: Exponents) -> StepFunction:
     shares = [ONE, *map(fmpq, point)]
     # colours with share 0 are kept: numerators and denominators of all lines are those of one pair
     fields = [((share,),) for share in shares]
-    kept = [((ONE,),) for _ in shares]
-    return unreduced(stage_system(tableau, fields, kept))
+    return unreduced(stage_system(tableau, fields, [((ONE,),) for _ in shares]))
 
 
 def _in_lowest_terms(P: Multivariate, Q: Multivariate) -> Fraction:
@@ -126,8 +125,7 @@ def _in_lowest_terms(P: Multivariate, Q: Multivariate) -> Fraction:
 
 def _direction(point: Sequence[int], offset: int) -> list[Number]:
     """(1, o + i_2, …, o + i_N)."""
-    others = [fmpq(offset + i) for i in point]
-    return [ONE, *others]
+    return [ONE, *(fmpq(offset + i) for i in point)]
 
 
 def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None:

@@ -45,8 +45,7 @@ def critical_polynomials(
     at_points = [p[degree] for p in members]
     leading = interpolated(points, at_points)
     for k in range(degree):
-        values = [_with_derivative(p, degree, k) for p in members]
-        double = interpolated(points, values)
+        double = interpolated(points, [_with_derivative(p, degree, k) for p in members])
         if double:
             return [leading, double]
     raise AssertionError("a polynomial has fewer distinct roots than none")
@@ -107,8 +106,7 @@ def largest_sector(R: StabilityFunction) -> Sector | None:
     edge = RealRoot.rational(ONE)
     from_axis = [RealRoot.rational(ZERO), *critical]
     for root in reversed(from_axis):
-        inside = between(root, edge)
-        if not _is_bounded_at(R, inside):
+        if not _is_bounded_at(R, between(root, edge)):
             return Sector(edge)
         edge = root
     return Sector(edge)
@@ -126,8 +124,7 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
     points = [fmpq(k, count + 1) for k in range(1, count + 1)]
     critical = critical_polynomials(lambda c: _on_ray(R, c), points)
     zero = RealRoot.rational(ZERO)
-    one = RealRoot.rational(ONE)
-    return roots_between(critical, zero, one)
+    return roots_between(critical, zero, RealRoot.rational(ONE))
 
 
 def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:

@@ -192,11 +192,8 @@ def _entries(
         for i, x in enumerate(state):
             series[i].append(x)
         state = apply(minus_whole, state)
-    numerators = []
-    for terms in series:
-        product = denominator * Polynomial(terms)
-        numerators.append(Polynomial(product.coefficients[: n + 1]))
-    return numerators
+    products = (denominator * Polynomial(terms) for terms in series)
+    return [Polynomial(product.coefficients[: n + 1]) for product in products]
 
 
 def _first_failure(p: Polynomial) -> RealRoot | None:

@@ -47,7 +47,8 @@ def unreduced(system: StageSystem) -> StepFunction:
         for j in range(d):
             constant = ONE if i == j else ZERO
             powers = Polynomial([constant, *series[j][i]])
-            entries.append(_numerator(denominator, powers, n))
+            # the first terms of D · M_ij are all there are
+            entries.append(Polynomial((denominator * powers).coefficients[: n + 1]))
         numerators.append(tuple(entries))
     return StepFunction(denominator, tuple(numerators))
 
@@ -63,13 +64,6 @@ def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number
     return found
 
 
-def _numerator(denominator: Polynomial, series: Polynomial, degree: int) -> Polynomial:
-    """The first terms of D · M_ij, which are all there are."""
-    product = denominator * series
-    lowest = product.coefficients[: degree + 1]
-    return Polynomial(lowest)
-
-
 def _reduced(step: StepFunction) -> StepFunction:
     common = step.denominator
     for row in step.numerators:
@@ -77,8 +71,5 @@ def _reduced(step: StepFunction) -> StepFunction:
             common = gcd(common, p)
     lowest = step.denominator // common
     scale = ONE / lowest[0]
-    numerators = []
-    for row in step.numerators:
-        entries = [p // common * scale for p in row]
-        numerators.append(tuple(entries))
+    numerators = [tuple(p // common * scale for p in row) for row in step.numerators]
     return StepFunction(lowest * scale, tuple(numerators))

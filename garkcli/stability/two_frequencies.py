@@ -308,7 +308,10 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
             "give --slow A for single ones, which are decided in number fields too",
             code="no-radicals",
         )
-    D, a, b, c, d = (_in_plane(p) for p in plane)
+    # with a for y and x for t
+    D, a, b, c, d = (
+        PLANE.from_dict({e: c for e, c in p.terms if isinstance(c, fmpq)}) for p in plane
+    )
     # between the roots of these one x decides
     critical = projected(curves([D, b, c, *eigenvalue_conditions(D, a, b, c, d)]), [low, high])
     undecided: list[RealRoot] = []
@@ -348,12 +351,6 @@ def eigenvalue_conditions(
     area = a * d - b * c
     both = whole + area
     return [whole - area, both - trace, both + trace]
-
-
-def _in_plane(p: Multivariate) -> fmpq_mpoly:
-    """The same polynomial with a for y and x for t."""
-    terms = {exponents: c for exponents, c in p.terms if isinstance(c, fmpq)}
-    return PLANE.from_dict(terms)
 
 
 def _with_slow(p: Multivariate, a: Number) -> Polynomial:

@@ -66,8 +66,7 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
     fields = [((w,),) for w in shares]
     system = stage_system(tableau, fields)
     summands = _summands(tableau, shares)
-    rows = zip(system.W, summands.W, strict=True)
-    W = [_widened(row, counts, tolerance) for row, counts in rows]
+    W = [_widened(row, counts, tolerance) for row, counts in zip(system.W, summands.W, strict=True)]
     Q = _reciprocal(summands.W, arb_mat(W) if W else arb_mat(0, 0))
     b = _widened(system.B[0], summands.B[0], tolerance)
     product = Q * arb_poly(_series(W, b, [to_ball(x) for (x,) in system.E]))

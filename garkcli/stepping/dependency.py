@@ -88,8 +88,7 @@ class DependencyGraph:
                 continue
             stages = [x for x in component if isinstance(x, Stage)]
             cut = self._cut(stages)
-            known = [x for x in component if x not in cut]
-            rest = _within(known, after)
+            rest = _within([x for x in component if x not in cut], after)
             order: list[Vertex] = []
             for single in components(rest):
                 order += single

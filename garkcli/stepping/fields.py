@@ -230,7 +230,8 @@ def visible_trees(fields: Fields) -> str:
         return "a linear problem sees only the unbranched trees"
     if _is_linear_but_for_time(fields):
         return "linear but for t: of the branches at a vertex all but one are time"
-    if _is_separable(fields):
+    # velocities depend on momenta alone, and forces on positions
+    if all(group not in field.depends for (_, group), field in fields.items()):
         velocities = [x for (_, group), x in fields.items() if group == "q"]
         if all(field.is_linear for field in velocities):
             return (
@@ -259,11 +260,6 @@ def _is_linear_but_for_time(fields: Fields) -> bool:
             if not all(map(is_constant, entries)):
                 return False
     return True
-
-
-def _is_separable(fields: Fields) -> bool:
-    """Whether velocities depend on momenta alone, and forces on positions."""
-    return all(group not in field.depends for (_, group), field in fields.items())
 
 
 def _branching(fields: Fields) -> str:

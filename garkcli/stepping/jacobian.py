@@ -77,8 +77,7 @@ class ChainRule:
             for evaluation in self._graph.sums[stage]:
                 column = self._place.get(evaluation)
                 if column is not None:
-                    place = self._weights[stage, evaluation]
-                    found.append((row, column, place))
+                    found.append((row, column, self._weights[stage, evaluation]))
         return found
 
     def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
@@ -92,8 +91,7 @@ class ChainRule:
 
         d = self.d
         n = d * len(self.unknowns)
-        entries = np.array(derivatives)
-        matrices = entries.reshape(-1, d, d)
+        matrices = np.array(derivatives).reshape(-1, d, d)
         fields = dict(zip(self.arguments, matrices, strict=True))
         stages: dict[Stage, Floats] = {}
         for i, stage in enumerate(self.unknowns):
@@ -111,10 +109,8 @@ class ChainRule:
                         field = fields[x, stage]
                         total = total + field @ stages[stage]
                 of_fields[self._place[x]] = total
-        image = _combined(len(self.unknowns), self._image, w, of_fields)
-        J = image.reshape(n, n)
-        unit = np.eye(n)
-        inverse = np.linalg.inv(unit - J)
+        J = _combined(len(self.unknowns), self._image, w, of_fields).reshape(n, n)
+        inverse = np.linalg.inv(np.eye(n) - J)
         return np.asarray(inverse, dtype=np.float64)
 
 
@@ -168,8 +164,7 @@ class JacobianWriter:
         """Write (I − J)⁻¹ as a call of ``ChainRule``, from the derivatives of the fields."""
         stages = self._stages
         # all weights first: their places are what the chain rule knows them by
-        places = self._places_of_weights()
-        chain = ChainRule(block, stages.graph, stages.d, places)
+        chain = ChainRule(block, stages.graph, stages.d, self._places_of_weights())
         self.chains[index] = chain
         entries: list[str] = []
         for evaluation in chain.evaluations:

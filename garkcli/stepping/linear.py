@@ -122,8 +122,7 @@ def _over_rationals(rows: Matrix, field: NumberField | None) -> fmpq_mat:
         for power in powers:
             column: list[fmpq] = []
             for x in entries:
-                product = x * power
-                column += coordinates(product, d)
+                column += coordinates(x * power, d)
             columns.append(column)
     return fmpq_mat(columns).transpose()
 
@@ -133,8 +132,7 @@ def _columns(rows: Matrix, field: NumberField | None) -> fmpq_mat:
     d = field.degree if field else 1
     flat = []
     for entries in rows:
-        columns = [coordinates(x, d) for x in entries]
-        of_entries = zip(*columns, strict=True)
+        of_entries = zip(*(coordinates(x, d) for x in entries), strict=True)
         flat += [list(row) for row in of_entries]
     return fmpq_mat(flat)
 
@@ -173,8 +171,7 @@ def deviations(step: LinearStep) -> Iterator[arb]:
         for i in (0, 1):
             for j in (0, 1):
                 scaled = units[i][j] * difference[i][j] / power
-                size = abs(to_ball(scaled))
-                largest = largest.max(size)
+                largest = largest.max(abs(to_ball(scaled)))
         yield largest
 
 

@@ -89,8 +89,7 @@ class _ProgramWriter:
     def program(self) -> Program:
         """Write everything."""
         self._write_step()
-        lines = self._around(self.body.texts)
-        text = "\n".join(lines) + "\n"
+        text = "\n".join(self._around(self.body.texts)) + "\n"
         # the numbers and what they lost; of each unknown what was missed, and how that changed
         size = 2 * self.layout.total + 2 * (self.d * len(self.unknowns))
         evaluations = len(self.graph.evaluations) + len(self.newton.frozen)
@@ -114,8 +113,7 @@ class _ProgramWriter:
         for stage, i in product(self.unknowns, range(self.d)):
             components.append(self.stages.component(stage, i))
         missed = [f"m{c}" for c in components]
-        changed = [f"n{c}" for c in components]
-        state = ", ".join((*y, *lost, *missed, *changed))
+        state = ", ".join((*y, *lost, *missed, *(f"n{c}" for c in components)))
         counts = names("n", len(self.implicit))
         numbers = ", ".join(counts)
         weights = list(self.stages.weights.values())

@@ -164,8 +164,7 @@ class StageWriter:
         """The name of w = h a, or of h b for no stage; equal numbers have one name."""
         text = self.graph.coefficients[stage, evaluation]
         if text not in self.weights:
-            place = len(self.first)
-            self.weights[text] = f"w{place}"
+            self.weights[text] = f"w{len(self.first)}"
             self.first.append((stage, evaluation))
         return self.weights[text]
 

@@ -253,8 +253,7 @@ def columns() -> Mapping[str, Column]:
     found = {column.name: column for column in _PLAIN}
     for key in KEYS:
         text = f"gark check --explain {key}"
-        value = partial(_property, key)
-        found[key] = Column(key, value, text, key not in _LESS_IS_BETTER)
+        found[key] = Column(key, partial(_property, key), text, key not in _LESS_IS_BETTER)
     return found
 
 

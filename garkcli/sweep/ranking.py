@@ -42,8 +42,7 @@ def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     """
 
     def place(row: Row) -> tuple[object, ...]:
-        key = str(row["key"])
-        return (*_badness(row, by), key)
+        return (*_badness(row, by), str(row["key"]))
 
     return sorted(rows, key=place)
 
@@ -52,7 +51,7 @@ def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     """The rows with all values that no other row surpasses: at least as good in every column and
     better in one.
     """
-    complete = [row for row in rows if _has_values(row, by)]
+    complete = [row for row in rows if all(row.get(name) is not None for name in by)]
     front: list[Row] = []
     points: list[_Point] = []
     # whatever surpasses a row comes before it in lexicographic order
@@ -65,14 +64,9 @@ def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     return front
 
 
-def _has_values(row: Row, by: Sequence[str]) -> bool:
-    return all(row.get(name) is not None for name in by)
-
-
 def _surpasses(other: _Point, point: _Point) -> bool:
     """Whether one point is as good in every column and better in one."""
-    pairs = zip(other, point, strict=True)
-    is_as_good = all(a <= b for a, b in pairs)
+    is_as_good = all(a <= b for a, b in zip(other, point, strict=True))
     return is_as_good and other != point
 
 

@@ -35,8 +35,7 @@ def first_find(point: Point) -> Method | None:
 def method_found(point: Point, found: Method) -> Tableau:
     """The method of an exact find, read again from the text of its file."""
     claim = f"order: {found.order}"
-    text = with_values(_asked(point).family, found.values, "", claim)
-    return loads(text, point.key).tableau
+    return loads(with_values(_asked(point).family, found.values, "", claim), point.key).tableau
 
 
 def _asked(point: Point) -> FileSearch:

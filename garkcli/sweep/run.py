@@ -22,8 +22,7 @@ Result: TypeAlias = tuple[str, float]
 def rows_of(criteria: Criteria, points: Sequence[Point]) -> Result:
     """The rows of some methods."""
     begin = process_time()
-    text = lines([row_of(criteria, point) for point in points])
-    return text, process_time() - begin
+    return lines([row_of(criteria, point) for point in points]), process_time() - begin
 
 
 def lines(rows: Sequence[Row]) -> str:

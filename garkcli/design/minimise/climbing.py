@@ -59,8 +59,7 @@ def climbed(rank: Rank, coordinates: int) -> Point | None:
     values = [_rational(x) for x in GRID[coordinates]]
     starts = [x for x in product(values, repeat=coordinates) if known(x)]
     starts.sort(key=known, reverse=True)
-    ends = [_climbed(known, x) for x in starts[:BEST]]
-    best = max(ends, key=known, default=None)
+    best = max((_climbed(known, x) for x in starts[:BEST]), key=known, default=None)
     return None if best is None else _shortened(known, best)
 
 
@@ -95,8 +94,7 @@ def _climbed(known: Rank, point: Point) -> Point:
     step = fmpq(1, 8)
     for _ in range(HALVINGS):
         for _ in range(MOVES):
-            others = [x for x in _neighbours(point, step) if known(x)]
-            best = max(others, key=known, default=point)
+            best = max([x for x in _neighbours(point, step) if known(x)], key=known, default=point)
             if not known(best) > known(point):
                 break
             point = best
@@ -110,8 +108,7 @@ def _neighbours(point: Point, step: fmpq) -> Iterator[Point]:
     """The points around a point, with one or two coordinates changed."""
     size = len(point)
     for signs in product((-1, 0, 1), repeat=size):
-        changed = size - signs.count(0)
-        if changed in {1, 2}:
+        if size - signs.count(0) in {1, 2}:
             moved = zip(point, signs, strict=True)
             yield tuple(x + k * step for x, k in moved)
 

@@ -191,8 +191,7 @@ class Comparison(ABC):
         if not all(value_of(p, part.ring, values) for p in part.nonzero):
             return None
         origin = RealRoot.rational(fmpq(0))
-        here = Solution(fmpq_poly([0, 1]), None, values, 1, (origin,))
-        solution = self.whole(part, here)
+        solution = self.whole(part, Solution(fmpq_poly([0, 1]), None, values, 1, (origin,)))
         if not is_admissible(self.design.family, solution, origin):
             return None
         return solution

@@ -215,8 +215,7 @@ class _Line:
             return fibre.roots, fibre.gaps
         # at infinity the coefficients of the highest powers of t
         roots = [y for y in _roots(map(_highest, self.curves)) if y > ORIGIN]
-        ends = [ORIGIN, *roots, None]
-        return roots, [between(a, b) for a, b in pairwise(ends)]
+        return roots, [between(a, b) for a, b in pairwise([ORIGIN, *roots, None])]
 
 
 def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[HighAt, ...]]:
@@ -269,8 +268,7 @@ def _roots(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
 
 def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot | None]]:
     """The open intervals between points."""
-    ends = [None, *points, None]
-    return list(pairwise(ends))
+    return list(pairwise([None, *points, None]))
 
 
 def _length(one: HighAt) -> tuple[bool, int]:

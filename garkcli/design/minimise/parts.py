@@ -234,8 +234,7 @@ class _Splitting:
             yield self._part(zeros, nonzero, values, left)
             return
         if linear.cost[0]:
-            both = [linear.A, linear.B]
-            yield from self.parts([*zeros, *both], nonzero, values, left)
+            yield from self.parts([*zeros, linear.A, linear.B], nonzero, values, left)
             nonzero = [*nonzero, *factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
@@ -303,8 +302,7 @@ class _Splitting:
             return cast("Mixed", over / under)
 
         def numerator_at(p: fmpq_mpoly) -> fmpq_mpoly:
-            known = cast("Mapping[str, Number]", instead)
-            return fraction(value_of(p, ring, known), ring)[0]
+            return fraction(value_of(p, ring, cast("Mapping[str, Number]", instead)), ring)[0]
 
         smaller = [p for p in map(numerator_at, zeros) if p]
         others = [numerator_at(p) for p in nonzero]

@@ -125,8 +125,7 @@ class Smallest(Comparison):
     def _formula(self, part: Part) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """The objective as a function of the coordinates of a part."""
         quotient = self.objective.formula(self.tableau(part), self.step.order, part.ring)
-        lowest = part.ring.quotient(quotient.numerator, quotient.denominator)
-        return fraction(lowest, part.ring)
+        return fraction(part.ring.quotient(quotient.numerator, quotient.denominator), part.ring)
 
     def over_line(self, part: Part) -> None:
         """All candidates of a part with one free coordinate."""

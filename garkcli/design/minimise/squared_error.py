@@ -259,8 +259,7 @@ class _Sums(OrderByOrder[Tensor]):
             for forest in self._all_forests(colour.space, order - 1, order - 1, most):
                 v = _applied(block, forest.value.v)
                 w = forest.value.w * D
-                value = Pair(v, w * fmpq(1, order))
-                yield _Branch(value, forest.symmetry)
+                yield _Branch(Pair(v, w * fmpq(1, order)), forest.symmetry)
 
     def _all_forests(self, k: int, order: int, largest: int, most: int) -> Iterator[_Branch]:
         """Every forest of an order: trees of the largest order first, and of these each number."""
@@ -295,8 +294,7 @@ def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> 
 def _joined(algebra: TensorAlgebra, a: _Branch, b: _Branch) -> _Branch:
     """Two forests without a common tree as one."""
     v = algebra.product(a.value.v, b.value.v)
-    value = Pair(v, a.value.w * b.value.w)
-    return _Branch(value, a.symmetry * b.symmetry)
+    return _Branch(Pair(v, a.value.w * b.value.w), a.symmetry * b.symmetry)
 
 
 def _applied(block: Square, v: Sequence[Entry]) -> Row:

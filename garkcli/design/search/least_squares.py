@@ -129,8 +129,7 @@ class _Run:
     def keep(self, stays: Array) -> None:
         """Forget the other starts."""
         for name in ("x", "residuals", "jacobians"):
-            kept = self.np.ascontiguousarray(getattr(self, name)[..., stays])
-            setattr(self, name, kept)
+            setattr(self, name, self.np.ascontiguousarray(getattr(self, name)[..., stays]))
         for name in ("squares", "largest", "damping", "age", "mark"):
             setattr(self, name, getattr(self, name)[stays])
 

@@ -201,8 +201,7 @@ Task: TypeAlias = Batch | Solution
 def do(search: Search, task: Task) -> Timed:
     """Do a piece of a search, with the time that it takes."""
     before = process_time()
-    result = task.result(search)
-    return Timed(result, process_time() - before)
+    return Timed(task.result(search), process_time() - before)
 
 
 MOST = 5

@@ -242,8 +242,7 @@ class Search:
         """
         import numpy as np
 
-        column = np.array(point)[:, None]
-        fixed = fixed_nearby(self.conditions, self._preferences[0], column)
+        fixed = fixed_nearby(self.conditions, self._preferences[0], np.array(point)[:, None])
         x = polished(Fixings(self.conditions, fixed), point, BITS)
         if x is None:
             return None
@@ -276,8 +275,7 @@ class Search:
         order = order_of(self.family, self.whose, solution)
         if order is None or order.order < self.order:
             return None
-        found = Found(solution, order, (0,))
-        return Find(start, "exact", order.order, found, {})
+        return Find(start, "exact", order.order, Found(solution, order, (0,)), {})
 
 
 def _degree(find: Find) -> int:

@@ -78,8 +78,7 @@ def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
         form = form_within(tableau, tolerance)
         if _has_negative_minor(form):
             return Reason("a minor of M is negative")
-        rows = [colour.b for colour in tableau.colours]
-        weights = map(to_ball, chain.from_iterable(rows))
+        weights = map(to_ball, chain.from_iterable(colour.b for colour in tableau.colours))
         if all(b > tolerance for b in weights) and _is_definite(form):
             return NO_REASON
         return None
