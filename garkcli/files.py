@@ -124,6 +124,5 @@ def is_elsewhere(path: str) -> bool:
     A path below the folder we are in says that the file is there, any other that it is in the
     folder that is named.
     """
-    here = os.path.join(os.path.abspath(os.curdir), "")
-    is_here = os.path.abspath(path).startswith(here)
+    is_here = os.path.abspath(path).startswith(os.path.join(os.path.abspath(os.curdir), ""))
     return leads_away(path, os.curdir if is_here else os.path.dirname(path))

@@ -63,9 +63,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> GarkFile | None:
     """A method file that is asked for."""
-    if not file_path.name.endswith(SUFFIX):
-        return None
-    if not _is_wanted(file_path, parent):
+    if not file_path.name.endswith(SUFFIX) or not _is_wanted(file_path, parent):
         return None
     return GarkFile.from_parent(parent, path=file_path)
 
@@ -114,8 +112,7 @@ class GarkFile(pytest.File):
             return [(READABLE, TOP)]
         if reader.numbers.free:
             return [(EVERY_VALUE, TOP)]
-        found = [(x.key, _place(x)) for x in description.claims]
-        return found or [(READABLE, TOP)]
+        return [(x.key, _place(x)) for x in description.claims] or [(READABLE, TOP)]
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -167,8 +164,7 @@ class GarkItem(pytest.Item):
     def _is_about(self, finding: Finding) -> bool:
         """Whether a finding is not about another claim."""
         is_whole = self.place == TOP
-        here = (finding.line, finding.column)
-        return is_whole or finding.rule != "claim" or here == self.place
+        return is_whole or finding.rule != "claim" or (finding.line, finding.column) == self.place
 
     def _text(self, finding: Finding, outcome: Outcome) -> str:
         """A finding with the line it is about, and the cure."""
@@ -178,8 +174,7 @@ class GarkItem(pytest.Item):
         lines = [f"{place}:{finding.line}:{finding.column}: {finding.message}"]
         source = outcome.text.splitlines()
         if 0 < finding.line <= len(source):
-            text = source[finding.line - 1]
-            lines += excerpt(text, finding.line, finding.column)
+            lines += excerpt(source[finding.line - 1], finding.line, finding.column)
         if finding.help:
             lines.append(f"      help: {finding.help}")
         return "\n".join(lines)

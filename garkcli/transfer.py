@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import TypeAlias
 
 from flint import fmpq
@@ -145,10 +146,7 @@ SUMMARIES: Mapping[str, str] = {name: entry.summary for name, entry in _ENTRIES.
 def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> Matrix:
     """Σ τ_k A_k^{l,m} over the rules; consistent where the weights τ_k sum to 1, eq. (lincomb)."""
     blocks = [scale(weight, rule(l, m)) for weight, rule in terms]
-    total = blocks[0]
-    for block in blocks[1:]:
-        total = add(total, block)
-    return total
+    return reduce(add, blocks)
 
 
 def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
@@ -174,5 +172,4 @@ def symplectic_blocks(
     """
     l, m = methods[other], methods[base]
     block = rule(l, m)
-    opposite = conjugate_block(block, m.space, m.b, l.space, l.b)
-    return {(other, base): block, (base, other): opposite}
+    return {(other, base): block, (base, other): conjugate_block(block, m.space, m.b, l.space, l.b)}

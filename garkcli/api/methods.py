@@ -127,7 +127,7 @@ def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
     """
     method, near = with_tolerance(method, tolerance)
     if near is None:
-        return conjugation.is_symplectic(method.tableau)
+        return conditions.is_symplectic(method.tableau)
     return deciding.analyse(method.tableau, 1, near).symplectic
 
 

@@ -13,11 +13,11 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
 from garkcli.order.conditions import elementary_weight
+from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
-from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 from garkcli.upward import Shown

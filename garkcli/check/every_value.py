@@ -17,9 +17,9 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
 from garkcli.methodfile.family import FamilyFile, loads_family
-from garkcli.order.simplifying import simplifying
+from garkcli.order.simplifying import is_symplectic, simplifying
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tableau.conjugate import is_symplectic, symplectic_defects
+from garkcli.tableau.conjugate import symplectic_defects
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import pair, with_time
 from garkcli.tableau.tableau import Tableau

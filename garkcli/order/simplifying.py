@@ -124,6 +124,10 @@ def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
 def is_symplectic(method: AnyTableau) -> bool:
     """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs:
     exactly, or as far as rounding lets it be.
+
+    For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the
+    conjugates of its position blocks, with the same weights where positions and momenta share
+    stages. No weight is divided by.
     """
     defects = defects_of(method)
     with defects.precision():

@@ -9,7 +9,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
-from garkcli.order.approximate_spans import ApproximateSpans
+from garkcli.order.approximate_spans import ApproximateSpans, HullSizes
 from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import count_conditions, coupling_graph
@@ -212,7 +212,7 @@ def suggest_wider(
     )
 
 
-def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, Sizes]]:
+def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, Sizes | HullSizes]]:
     """The sizes of one order after the other, where the trees are many by spans."""
     # six bits for each power of e by which residuals are small
     smallness = -int(first.log().floor().unique_fmpz() or 0)
@@ -227,8 +227,7 @@ def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, S
         if few:
             yield order, trees.sizes(order)
         else:
-            hulls = spans.sizes(order)
-            yield order, Sizes(hulls.bound, hulls.reached)
+            yield order, spans.sizes(order)
 
 
 def enough(tableau: Tableau, order: int, rounding: arb) -> int:

@@ -19,13 +19,13 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial_text import ball_decimal, root_decimal
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.order.constants import ErrorConstants, error_constants
-from garkcli.order.simplifying import Simplifying, simplifying
+from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.properties.subject import Subject
 from garkcli.stability.oscillator import PhaseError, oscillator_stability
-from garkcli.tableau.conjugate import conjugate, is_symplectic
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 

@@ -100,16 +100,6 @@ def are_opposite(one: Colour, other: Colour) -> bool:
     return {one.part, other.part} in ({"q", "p"}, {"y"})
 
 
-def is_symplectic(tableau: Tableau) -> bool:
-    """Whether b_i b_j = b_i a_{ij} + b_j a_{ji} between all colours that the symplectic form pairs.
-
-    For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the
-    conjugates of its position blocks, with the same weights where positions and momenta share
-    stages. No weight is divided by.
-    """
-    return not any(symplectic_defects(tableau))
-
-
 def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
     """What is zero where a tableau is symplectic; 1 where a block has none on the other side."""
     for l, one in enumerate(tableau.colours):

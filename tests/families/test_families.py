@@ -11,8 +11,8 @@ from garkcli.errors import UnknownFamily
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, diagonal_method
 from garkcli.order.certificate import find_order
-from garkcli.order.simplifying import simplifying
-from garkcli.tableau.conjugate import conjugate, is_symplectic
+from garkcli.order.simplifying import is_symplectic, simplifying
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau

@@ -11,9 +11,9 @@ from garkcli.families.registry import FAMILIES, diagonal_method
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
+from garkcli.order.simplifying import is_symplectic
 from garkcli.properties.symmetry import is_symmetric
 from garkcli.stability.ssp import ssp_coefficient
-from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau
 from tests.oracles.series import series_order

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from garkcli.exact.matrix import Matrix
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
-from garkcli.order.simplifying import consistent_blocks, simplifying
-from garkcli.tableau.conjugate import conjugate, is_symplectic
+from garkcli.order.simplifying import consistent_blocks, is_symplectic, simplifying
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, symplectic_pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation, interpolation

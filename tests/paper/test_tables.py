@@ -9,7 +9,8 @@ from flint import fmpq
 
 from garkcli.exact.matrix import Matrix
 from garkcli.order.certificate import find_order
-from garkcli.tableau.conjugate import conjugate, is_symplectic
+from garkcli.order.simplifying import is_symplectic
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import pair, separable_prk, symplectic_pair
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.matrix import dot, identity, transpose
 from garkcli.order.certificate import find_order
-from garkcli.order.simplifying import simplifying
-from garkcli.tableau.conjugate import conjugate, conjugate_block, is_symplectic
+from garkcli.order.simplifying import is_symplectic, simplifying
+from garkcli.tableau.conjugate import conjugate, conjugate_block
 from garkcli.tableau.forms import additive, gark, pair, separable_prk, spelled_out, symplectic_pair
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace

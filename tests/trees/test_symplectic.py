@@ -15,7 +15,8 @@ from flint import fmpq
 from garkcli.exact.matrix import Matrix, add, scale
 from garkcli.families.registry import diagonal_method
 from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
-from garkcli.tableau.conjugate import conjugate, is_symplectic
+from garkcli.order.simplifying import is_symplectic
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
