@@ -14,7 +14,7 @@ from garkcli.check.proof import MethodProof
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.claims_writer import write_claims
+from garkcli.methodfile.carried import write_claims
 from garkcli.methodfile.expectations import CLAIMS, highest_order
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.stability.summary import Stability, stability, stability_of_rounded

@@ -14,7 +14,7 @@ from garkcli.doing import doing
 from garkcli.errors import MethodError, printable
 from garkcli.exact.field import ZERO
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.infinitesimal import coupling_of
+from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod, derived_name

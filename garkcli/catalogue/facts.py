@@ -14,12 +14,11 @@ from garkcli.check.check_file import check_file
 from garkcli.comparison.comparison import form_of
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal, to_text
-from garkcli.methodfile.file_kind import METHOD_FILE
-from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.reading import read_text
+from garkcli.methodfile.nodes import one_line
+from garkcli.methodfile.reading import SUFFIX, read_text
 from garkcli.methodfile.shelves import key_of
-from garkcli.methodfile.words import one_line
+from garkcli.methodfile.source import METHOD_FILE
 from garkcli.order.constants import error_constants
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find

@@ -5,8 +5,7 @@ from __future__ import annotations
 from garkcli.check.agreement import agrees, claim_of, claimed_text
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.expectations import AtLeast
-from garkcli.methodfile.measures import Measure
+from garkcli.methodfile.expectations import AtLeast, Measure
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.subject import Subject
 

@@ -164,7 +164,7 @@ def claims(given: Given, output: Output) -> None:
     is no longer what it was.
     """
     from garkcli.api.calls import refuse_unknown, true_claims_of
-    from garkcli.methodfile.claims_writer import write_claims
+    from garkcli.methodfile.carried import write_claims
     from garkcli.methodfile.expectations import CLAIMS
     from garkcli.page.writing import write_whole
     from garkcli.report.claims import REPORT, Claims, yaml_text

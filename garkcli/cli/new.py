@@ -88,9 +88,9 @@ def of_tableau_text(name: str, text: str) -> str:
     Raises:
         MethodError: it is no tableau, or no text.
     """
-    from garkcli.methodfile.file_kind import METHOD_FILE
     from garkcli.methodfile.pasted import read_pasted
     from garkcli.methodfile.reading import read_text
+    from garkcli.methodfile.source import METHOD_FILE
     from garkcli.methodfile.template import of_tableau
 
     if text == "-":

@@ -124,7 +124,7 @@ def _derived_file(made: GarkMethod, output: Output) -> str:
     Raises:
         UsageProblem: the nodes of a pair have no simple radicals.
     """
-    from garkcli.methodfile.conjugated import write_conjugate_of
+    from garkcli.methodfile.carried import write_conjugate_of
     from garkcli.methodfile.writer import can_spell_out, write_tableau_file
     from garkcli.tableau.pointwise import in_points
 

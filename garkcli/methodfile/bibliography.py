@@ -11,8 +11,8 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import MAX_WORD
 from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, mapping, word
+from garkcli.methodfile.nodes import one_line, shortened
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.words import one_line, shortened
 from garkcli.reference import WORKS, Reference
 
 _BETWEEN_PEOPLE = re.compile(r",\s+and\s+|,\s*|\s+and\s+|\s*&\s*")

@@ -1,13 +1,19 @@
-"""What a method file says besides the coefficients, for files that are made from it."""
+"""Files made from the text of another: what it says besides its coefficients, as that of the
+conjugate, with other claims.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
 
 import yaml
-from yaml.nodes import MappingNode, Node, ScalarNode
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.description import BESIDE
+from garkcli.methodfile.nodes import extent
 from garkcli.methodfile.source import Source
 
 _WIDTH = 110
@@ -74,3 +80,166 @@ def _lines(entries: list[tuple[Node, Node]]) -> str:
         return ""
     text = yaml.serialize(_mapping(entries), allow_unicode=True, width=_WIDTH)
     return str(text)
+
+
+_DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
+
+
+def write_conjugate_of(method: MethodFile, name: str) -> str:
+    """The file of ``method`` with ``conjugate: true`` added, or taken away where it stands.
+
+    Exact for every method: nothing is spelled out. Claims and description are left behind, as they
+    are about the other method, and so are weights that only the method itself has.
+    """
+    root = Source(method.source, method.text).compose()
+    if root is None:
+        raise ValueError("the text of a method file")
+    title: tuple[Node, Node] = (_scalar("name"), _scalar(name))
+    entries = [title]
+    for key, value in root.value:
+        if key.value not in _DROPPED:
+            kept = _without_further(value)
+            entries.append((key, kept))
+    if not method.is_conjugate:
+        true = ScalarNode("tag:yaml.org,2002:bool", "true")
+        entries.append((_scalar("conjugate"), true))
+    mapping = MappingNode(root.tag, entries, flow_style=False)
+    return str(yaml.serialize(mapping, allow_unicode=True, width=110))
+
+
+def _without_further(node: Node) -> Node:
+    """The node without embedded weights and dense output in the mappings of it."""
+    if isinstance(node, SequenceNode):
+        items = [_without_further(item) for item in node.value]
+        return SequenceNode(node.tag, items, flow_style=node.flow_style)
+    if not isinstance(node, MappingNode):
+        return node
+    kept = []
+    for key, value in node.value:
+        if key.value not in BESIDE:
+            kept.append((key, _without_further(value)))
+    return MappingNode(node.tag, kept, flow_style=node.flow_style)
+
+
+def _scalar(text: str) -> ScalarNode:
+    return ScalarNode("tag:yaml.org,2002:str", text)
+
+
+INDENT = "  "
+Edit: TypeAlias = tuple[int, int, str]
+"""From where to where in a text what else is to stand."""
+
+
+def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
+    r"""The text of a method file with other claims.
+
+    A claim that stands there has its value replaced, and one that has no truth is left as it is;
+    new ones follow the last. Comments, blanks and everything else stay.
+
+    Args:
+        source: what the file is called.
+        text: of the file, which can be read.
+        claims: values as they are written in YAML, by key.
+
+    Raises:
+        MethodFileError: the file is one line of braces, where nothing can be added below.
+
+    >>> print(write_claims("a file", "A: [[0]]\nb: [1]", {"order": "1"}))
+    A: [[0]]
+    b: [1]
+    expect:
+      order: 1
+    <BLANKLINE>
+    """
+    root = Source(source, text).compose()
+    assert isinstance(root, MappingNode)
+    expect = _expect(root)
+    if expect is None or not expect.value:
+        return _with_block(source, text, root, expect, claims)
+    edits = [*_replacements(text, expect, claims), *_additions(text, expect, claims)]
+    # from the last to the first: places before an edit stay where they are
+    for start, end, new in sorted(edits, reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def _expect(root: MappingNode) -> MappingNode | None:
+    for key, value in root.value:
+        if key.value == "expect" and isinstance(value, MappingNode):
+            return value
+    return None
+
+
+def _with_block(
+    source: str, text: str, root: MappingNode, empty: Node | None, claims: Mapping[str, str]
+) -> str:
+    """A file without claims: they stand at its end."""
+    if root.flow_style or empty is not None:
+        fault = Fault(
+            "the claims have no place in this file",
+            "write keys below one another, without braces, and no expect: {}",
+            code="no-place-for-claims",
+        )
+        raise MethodFileError(source, [fault], text)
+    if not claims:
+        return text
+    # below the last key and comment, before ... of YAML, as far in as the keys are
+    end = root.end_mark.index
+    before, after = text[:end], text[end:]
+    line_end = _line_end(text)
+    margin = " " * root.start_mark.column
+    lines = [f"{INDENT}{key}: {value}" for key, value in claims.items()]
+    block = [margin + line + line_end for line in ("expect:", *lines)]
+    if not before.endswith("\n"):
+        before += line_end
+    return before + "".join(block) + after
+
+
+def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
+    """Other values for claims that are there."""
+    for key, node in expect.value:
+        value = claims.get(key.value)
+        if value is None or _says(node, value):
+            continue
+        start, _ = extent(text, node, node)
+        yield start, _end(text, node), value
+
+
+def _additions(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
+    """Claims after the last one: behind it in braces, on lines of their own below it otherwise."""
+    there = {key.value for key, _ in expect.value}
+    new = [f"{key}: {x}" for key, x in claims.items() if key not in there]
+    first, _ = expect.value[0]
+    _, last = expect.value[-1]
+    end = _end(text, last)
+    if not new:
+        return
+    if expect.flow_style:
+        yield end, end, "".join(f", {x}" for x in new)
+        return
+    margin = _line_end(text) + " " * first.start_mark.column
+    place = text.find(_line_end(text), end)
+    if place < 0:
+        place = len(text)
+    yield place, place, "".join(margin + x for x in new)
+
+
+def _line_end(text: str) -> str:
+    """How the lines of a file end."""
+    return "\r\n" if "\r\n" in text else "\n"
+
+
+def _end(text: str, node: Node) -> int:
+    """Where a value ends; a list of lines ends with its last entry, whatever is said below it."""
+    while isinstance(node, SequenceNode) and node.value:
+        if node.flow_style:
+            break
+        node = node.value[-1]
+    _, end = extent(text, node, node)
+    return end
+
+
+def _says(node: Node, value: str) -> bool:
+    """Whether a value is written already, in quotes or without."""
+    plain = value.strip('"')
+    return isinstance(node, ScalarNode) and node.value == plain

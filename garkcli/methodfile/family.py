@@ -14,10 +14,9 @@ from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.methodfile.description import ClaimText, Description, Structure, left_behind
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
-from garkcli.methodfile.nodes import Extent, extent
+from garkcli.methodfile.nodes import Extent, extent, one_line
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
-from garkcli.methodfile.words import one_line
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
@@ -225,7 +224,7 @@ def _shape(reader: Reader) -> tuple[Extent, str] | None:
     """Where a shape stands in the file, and what it means."""
     if reader.shaped is None:
         return None
-    from garkcli.methodfile.shaped import spelled
+    from garkcli.methodfile.shapes import spelled
 
     text = spelled(reader.shaped.layout)
     if reader.shaped.form == "prk" and "structure" not in reader.keys:

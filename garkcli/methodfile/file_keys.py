@@ -17,8 +17,8 @@ from yaml.nodes import Node, SequenceNode
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
-from garkcli.methodfile.coefficients import DEFINITIONS, NUMBER
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
+from garkcli.methodfile.diagonal import FAMILY
 from garkcli.methodfile.expectations import EXPECT
 from garkcli.methodfile.further import DENSE
 from garkcli.methodfile.grammar import (
@@ -41,11 +41,10 @@ from garkcli.methodfile.grammar import (
     word,
 )
 from garkcli.methodfile.grammar import told as entries_of
-from garkcli.methodfile.members import FAMILY
-from garkcli.methodfile.parameters import PARAMETERS
+from garkcli.methodfile.nodes import shortened
+from garkcli.methodfile.parameters import DEFINITIONS, NUMBER, PARAMETERS
 from garkcli.methodfile.source import Home
 from garkcli.methodfile.spelled_out import BUTCHER, TABLEAU, TABLEAU_KEYS, rows_of
-from garkcli.methodfile.words import shortened
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files
@@ -152,7 +151,7 @@ KEYS = {
         ),
         Key(
             "adjoint: explicit-euler",
-            later("constructed.adjoint", "KIND"),
+            later("constructed.compose", "ADJOINT"),
             "The adjoint of a method: the inverse of its step with −h.",
             page=_MADE,
         ),
@@ -198,7 +197,7 @@ KEYS = {
         ),
         Key(
             "unknown: {stages: 3, shape: sdirk}",
-            later("shaped", "UNKNOWN"),
+            later("shapes", "UNKNOWN"),
             "A tableau of unknowns, by its stages and its shape, for gark design.",
             page="docs/design.md",
         ),

@@ -13,14 +13,14 @@ from garkcli.files import STDIN
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
 from garkcli.methodfile.description import Description, left_behind
 from garkcli.methodfile.finding import find_files
-from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.naming import is_both, read_argument
+from garkcli.methodfile.nodes import one_line
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
+from garkcli.methodfile.reading import SUFFIX
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
-from garkcli.methodfile.words import one_line
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Tableau
 

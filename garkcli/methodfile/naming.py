@@ -14,9 +14,9 @@ from itertools import chain
 
 from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
 from garkcli.files import STDIN
-from garkcli.methodfile.file_kind import METHOD_FILE
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.shelves import Shelf, Shelved, key_of, others, own_folders, package
+from garkcli.methodfile.source import METHOD_FILE
 
 PREFIX = "catalogue:"
 """What is before a name that is never a file; alone, or before a folder, it means all methods."""

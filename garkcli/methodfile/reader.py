@@ -6,23 +6,186 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node
+from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.methodfile.content import ContentReader
-from garkcli.methodfile.description import FORMS, ConstructionText, Description
-from garkcli.methodfile.file_keys import KEYS, elsewhere
+from garkcli.methodfile.description import (
+    CONSTRUCTIONS,
+    FORMS,
+    PLAIN,
+    ConstructionText,
+    Content,
+    Description,
+    Form,
+    Structure,
+    further_of,
+)
+from garkcli.methodfile.diagonal import DiagonalReader
+from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
 from garkcli.methodfile.grammar import FILE, entries_in
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_unknown_settings
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.spelled_out import SpelledOutReader
 
 if TYPE_CHECKING:
-    from garkcli.methodfile.constructed.parts import Opened
-    from garkcli.methodfile.shaped import Shaped
+    from garkcli.methodfile.constructed.parts import Open, Opened
+    from garkcli.methodfile.shapes import Shaped
+
+
+_EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
+
+
+class ContentReader:
+    """Reads the coefficients of one method of a file.
+
+    Args:
+        opened: what reads methods of the catalogue.
+
+    Attributes:
+        source: the file, where faults are noted.
+        numbers: its coefficients.
+        shaped: the tableau of its ``unknown``; None without that.
+        tolerance: the rounding of its coefficients; None where they are meant exactly.
+    """
+
+    def __init__(self, source: Source, numbers: Numbers, opened: Open) -> None:
+        self.source = source
+        self.numbers = numbers
+        self._open = opened
+        self.spelled_out = SpelledOutReader(source, numbers)
+        self.shaped: Shaped | None = None
+        self.tolerance: fmpq | None = None
+
+    def read(self, root: MappingNode, entries: Entries) -> Description | None:
+        """What the keys of a method say; None, with faults noted, where they make none."""
+        is_conjugate = bool(self._value("conjugate", entries))
+        form = self._form(root, entries)
+        if form is None:
+            return None
+        for rule in BESIDE_FORM:
+            rule.refuse(self.source, root, FILE, entries, form)
+        if form == "unknown":
+            self.shaped = self._shaped(root, entries)
+            if self.shaped is None:
+                return None
+            form = self.shaped.form
+        structure = self._structure(form, entries)
+        content = self._content(form, structure, entries)
+        if content is None:
+            return None
+        if is_conjugate:
+            self._refuse_beside_conjugate(content)
+        node = self._node_of(form, entries)
+        return Description(form, content, node, structure, is_conjugate)
+
+    def _node_of(self, form: Form, entries: Entries) -> Node:
+        """Where the coefficients stand."""
+        for key in (form, "unknown"):
+            if key in entries:
+                return entries[key]
+        return entries["b"]
+
+    def _shaped(self, root: MappingNode, entries: Entries) -> Shaped | None:
+        """``unknown`` of the file."""
+        from garkcli.methodfile.shapes import ShapeReader  # few files have it
+
+        content = entries["unknown"]
+        # the key as it stands there, misspelt perhaps
+        key = key_of(root, content)
+        return ShapeReader(self.source, self.numbers).read(key, content)
+
+    def _form(self, root: Node, entries: Entries) -> Form | Literal["unknown"] | None:
+        """Which form the coefficients have; A, b and c at the top are those of a tableau."""
+        given = FORM.given(entries)
+        begun = [home.key for key, home in elsewhere().items() if key in keys_of(root)]
+        # a key that belongs to a form was noted with its cure, which is where to begin
+        if given or {"transfer", *FORMS}.isdisjoint(begun):
+            before = len(self.source.faults)
+            FORM.refuse(self.source, root, FILE, entries)
+            if given and len(self.source.faults) == before:
+                return cast("Form", "tableau" if given[0] in PLAIN else given[0])  # or "unknown"
+        return None
+
+    def _structure(self, form: Form, entries: Entries) -> Structure:
+        """Which vector fields the problem has; noted where it does not go with the form."""
+        word = self._value("structure", entries)
+        is_of_flows = form == "splitting" and "of" not in keys_of(entries[form])
+        is_split = is_of_flows or (self.shaped is not None and form == "prk")
+        if "structure" not in entries:
+            return "separable" if is_split else "general"
+        cure = ""
+        if form == "splitting" and word != "general":
+            if not is_of_flows or word == "semi-separable":
+                cure = "a splitting without of is separable or nystrom"
+        elif self.shaped is not None and (word == "semi-separable" or form != "prk"):
+            cure = "leave it out"
+        if cure and word != "general":
+            message = f"structure does not go with {form}"
+            self.source.fault(entries["structure"], message, cure, code="not-together")
+        return cast("Structure", word or "general")
+
+    def _value(self, key: str, entries: Entries) -> Any:
+        """What stands under a key; None where nothing does, or a fault was noted."""
+        return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
+
+    def _constructed(self, form: Form, node: Node, structure: Structure) -> ConstructionText | None:
+        """A method made from others."""
+        from garkcli.methodfile.constructed.parts import PartReader
+
+        beside = self.tolerance, structure
+        parts = PartReader(self.source, self.numbers, self._inside, self._open, *beside)
+        found: ConstructionText | None = KEYS[form].kind.read(parts, node, form)
+        return found
+
+    def _inside(self, node: Node, where: str) -> Description | None:
+        """A method inside of a construction, which may be one itself."""
+        reader = ContentReader(self.source, self.numbers, self._open)
+        reader.tolerance = self.tolerance
+        if isinstance(node, MappingNode) and "family" in keys_of(node):
+            key = ScalarNode("tag:yaml.org,2002:str", "methods")
+            family: Entries = {"methods": node}
+            root = MappingNode("tag:yaml.org,2002:map", [(key, node)])
+            root.start_mark = node.start_mark
+            return reader.read(root, family)
+        keys = {key: KEYS[key] for key in KEYS_OF_METHOD}
+        entries = entries_in(self.source, node, where, keys, elsewhere, _EXAMPLE)
+        if not isinstance(node, MappingNode):
+            return None
+        return reader.read(node, entries)
+
+    def _refuse_beside_conjugate(self, content: Content) -> None:
+        """Note further weights where the method is the conjugate of what has them."""
+        for text in further_of(content):
+            if text.node is not None:
+                message = "conjugate: the symplectic conjugate has no "
+                message += "embedded weights and no dense output"
+                self.source.fault(text.node, message, "leave them out", code="not-together")
+                return
+
+    def _content(self, form: Form, structure: Structure, entries: Entries) -> Content | None:
+        if self.shaped is not None:
+            return self.shaped.content
+        if form not in entries:
+            return self.spelled_out.tableau_of(entries, entries.get("linear"))
+        node = entries[form]
+        if form == "methods":
+            reader = DiagonalReader(self.source, self.numbers)
+            return reader.read(node, structure, entries.get("transfer"))
+        if form == "tableau":
+            return self.spelled_out.tableau(node, entries.get("linear"))
+        # rare forms
+        if form in CONSTRUCTIONS:
+            return self._constructed(form, node, structure)
+        from garkcli.methodfile.ark_prk import ArkReader, PrkReader
+
+        if form == "ark":
+            return ArkReader(self.source, self.numbers).read(node)
+        return PrkReader(self.source, self.numbers).read(node, structure)
+
 
 _ABOUT = (
     *("gark", "name", "description", "aliases", "reference", "tolerance", "expect"),

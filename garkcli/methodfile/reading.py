@@ -1,15 +1,15 @@
-"""From a path to the text of a file, within limits."""
+"""From a path to the text of a file, within limits; the method files below a folder."""
 
 from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from itertools import islice
 
 from garkcli.errors import Fault, MethodFileError, nearest, printable
-from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, read_bytes
-from garkcli.methodfile.file_kind import FileKind
-from garkcli.methodfile.source import MAX_BYTES
+from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, leads_away, read_bytes
+from garkcli.methodfile.source import MAX_BYTES, FileKind
 
 MOST_COMPARED = 1_000
 """Files of a folder that a missing name is compared with."""
@@ -123,3 +123,45 @@ def decoded(name: str, data: bytes) -> str:
         raise MethodFileError(
             name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")]
         ) from None
+
+
+SUFFIX = ".gark.yaml"
+"""How method files end."""
+
+
+def no_one(text: str) -> None:
+    """Who is told where nobody asks."""
+    del text
+
+
+def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
+    """All method files below a folder, and the folders that cannot be read, in order.
+
+    Args:
+        folder: to look in; links to folders are not followed.
+        told: who is told of links that lead out of it, and are left out.
+    """
+    found: list[str] = []
+
+    def keep(error: OSError) -> None:
+        found.append(error.filename)
+
+    for place, _, names in os.walk(folder, onerror=keep):
+        methods = [name for name in names if name.endswith(SUFFIX)]
+        found += [os.path.join(place, name) for name in methods]
+    # slow to import, and of no use to a check of one file
+    from pathlib import Path
+
+    # as pathlib writes them: without ./ before
+    return within(sorted(str(Path(path)) for path in found), folder, told)
+
+
+def within(paths: list[str], folder: str, told: Callable[[str], None]) -> list[str]:
+    """Those of some paths that are no links out of a folder; who asks is told of the others."""
+    kept = []
+    for path in paths:
+        if os.path.lexists(path) and leads_away(path, folder):
+            told(f"{printable(path)} is left out: it is a link out of {printable(folder or '.')}")
+        else:
+            kept.append(path)
+    return kept

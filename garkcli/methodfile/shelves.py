@@ -16,9 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.bibliography import aliases_of
-from garkcli.methodfile.file_kind import METHOD_FILE
-from garkcli.methodfile.folders import SUFFIX, files_below
-from garkcli.methodfile.reading import decoded, read_text
+from garkcli.methodfile.reading import SUFFIX, decoded, files_below, read_text
+from garkcli.methodfile.source import METHOD_FILE
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable

@@ -11,10 +11,16 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import arb, fmpq
 from yaml.nodes import Node
 
-from garkcli.methodfile.formulas import Formulas, nearby
-from garkcli.methodfile.problem_text import STIFFNESS, ProblemText, Side
+from garkcli.methodfile.formulas import (
+    Formulas,
+    Term,
+    TermReader,
+    formulas_of_invariants,
+    named,
+    nearby,
+)
+from garkcli.methodfile.problem_keys import STIFFNESS, ProblemText, Side
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.termreader import Term, TermReader, formulas_of_invariants, named
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:

@@ -2,19 +2,112 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import ExpressionError, Fault, MethodFileError, did_you_mean, printable
-from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
-from garkcli.methodfile.composing import composed, folded_place, position
-from garkcli.methodfile.file_kind import METHOD_FILE, FileKind
-from garkcli.methodfile.foreign import cure_of_foreign
-from garkcli.methodfile.nodes import keys_of
-from garkcli.methodfile.words import meant_key, shortened
+from garkcli.errors import ExpressionError, Fault, MethodFileError, counted, did_you_mean, printable
+from garkcli.methodfile.composing import composed, cure_of_foreign, folded_place, position
+from garkcli.methodfile.nodes import keys_of, meant_key, shortened
+
+Place: TypeAlias = tuple[int, int]
+"""Line and column, from 1."""
+MAX_PLACES = 3
+"""Most further places that are named where one cause shows in many."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A fault as it was noted.
+
+    Attributes:
+        fault: what is told.
+        cause: what it has in common with others; empty for a fault on its own.
+        is_one: whether faults of this cause are told once, however few there are.
+    """
+
+    fault: Fault
+    cause: str = ""
+    is_one: bool = False
+
+
+def place_of(found: Found) -> Place:
+    """Line and column of a fault."""
+    return found.fault.line, found.fault.column
+
+
+def told_once(found: Sequence[Found]) -> list[Fault]:
+    """The faults in file order; those of one cause at their first place, which names the others."""
+    causes = Counter(one.cause for one in found)
+    first: dict[object, Fault] = {}
+    places: dict[object, list[Place]] = {}
+    for number, one in enumerate(found):
+        key: object = number
+        is_often = causes[one.cause] > MAX_PLACES
+        if one.cause and (one.is_one or is_often):
+            key = one.cause
+        first.setdefault(key, one.fault)
+        places.setdefault(key, []).append(place_of(one))
+    told: list[Fault] = []
+    for key, fault in first.items():
+        _, *others = dict.fromkeys(places[key])
+        message = fault.message + _elsewhere(others)
+        told.append(replace(fault, message=message))
+    return told
+
+
+def _elsewhere(others: Sequence[Place]) -> str:
+    """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
+    if not others:
+        return ""
+    named = others[:MAX_PLACES]
+    places = ", ".join(f"{line}:{column}" for line, column in named)
+    left = len(others) - MAX_PLACES
+    if left > 0:
+        return f" (also at {places} and in {counted(left, 'more place')})"
+    return f" (also at {places})"
+
+
+@dataclass(frozen=True)
+class FileKind:
+    """What a file is for.
+
+    Attributes:
+        name: what people call it.
+        keys: those that tell one from other files.
+        smallest: what the smallest one has.
+        start: how one begins.
+        page: where it is described.
+    """
+
+    name: str
+    keys: tuple[str, ...]
+    smallest: str
+    start: str
+    page: str
+
+
+METHOD_FILE = FileKind(
+    "method file",
+    (
+        *("gark", "methods", "tableau", "ark", "prk", "A", "b", "unknown"),
+        *("compose", "adjoint", "extrapolate", "splitting", "multirate"),
+    ),
+    "the smallest file has A and b, or methods",
+    "start with A: and b:, or with methods:",
+    "docs/method-file.md",
+)
+PROBLEM_FILE = FileKind(
+    "problem file",
+    ("variables", "hamiltonian", "lagrangian", "rhs"),
+    "the smallest file has variables, hamiltonian and initial",
+    "start with variables:",
+    "docs/problem-file.md",
+)
+
 
 MAX_BYTES = 1_000_000
 """Largest file that is read."""

@@ -10,7 +10,6 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.methodfile import further
-from garkcli.methodfile.coefficients import MATRIX, ROW
 from garkcli.methodfile.description import (
     MAX_COLOURS,
     ButcherText,
@@ -22,6 +21,7 @@ from garkcli.methodfile.further import DENSE, FurtherReader
 from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, defined, mapping
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Numbers, Row, Rows
+from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.source import Entries, Home, Source
 
 Weights: TypeAlias = tuple[Row, ...]

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, UndefinedValue
+from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.words import shortened
 
 
 def is_triangle(lengths: Sequence[int]) -> bool:

@@ -18,9 +18,7 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
-from garkcli.methodfile.coefficients import SIGNS
 from garkcli.methodfile.expectations import claims
-from garkcli.methodfile.file_kind import FileKind
 from garkcli.methodfile.grammar import (
     FILE,
     FLAG,
@@ -36,11 +34,20 @@ from garkcli.methodfile.grammar import (
     one_or_more,
     word,
 )
+from garkcli.methodfile.nodes import one_line, shortened, unquoted
+from garkcli.methodfile.parameters import SIGNS
 from garkcli.methodfile.reading import read_text
-from garkcli.methodfile.source import Source
-from garkcli.methodfile.sweep_methods import METHODS, NAME, TRANSFER, MethodsReader, span
-from garkcli.methodfile.sweep_text import STARTS, SearchText, SweepText
-from garkcli.methodfile.words import one_line, shortened, unquoted
+from garkcli.methodfile.source import FileKind, Source
+from garkcli.methodfile.sweep_methods import (
+    METHODS,
+    NAME,
+    STARTS,
+    TRANSFER,
+    MethodsReader,
+    SearchText,
+    SweepText,
+    span,
+)
 
 SWEEP_FILE = FileKind(
     "sweep file",

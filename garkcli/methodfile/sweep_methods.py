@@ -1,10 +1,13 @@
-"""Which methods a spec file names: families × stages × transfer rules, and method files."""
+"""What a spec file of a sweep says, and which methods it names: families × stages × transfer
+rules, and method files.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
 from itertools import chain, product
 from pathlib import Path
 from typing import Any
@@ -17,7 +20,6 @@ from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, recipe_of
-from garkcli.methodfile.coefficients import SIGNS
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.grammar import (
     Found,
@@ -32,11 +34,74 @@ from garkcli.methodfile.grammar import (
 )
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
+from garkcli.methodfile.nodes import shortened
+from garkcli.methodfile.parameters import SIGNS
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.sweep_text import SweepText, TemplateText
 from garkcli.methodfile.transfers import ALL_RULES
-from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
+
+STARTS = 20
+"""Starts of a seed, where nothing is said."""
+
+
+@dataclass(frozen=True)
+class TemplateText:
+    """A method file of a sweep, made or read.
+
+    Attributes:
+        name: what it is called.
+        text: of the file.
+        parameters: that are given values in it.
+        order: that is searched for by other unknowns of it; 0 where there are none.
+    """
+
+    name: str
+    text: str
+    parameters: tuple[str, ...]
+    order: int = 0
+
+
+@dataclass(frozen=True)
+class SearchText:
+    """How methods are searched for.
+
+    Attributes:
+        seeds: one row each.
+        starts: from which each of them looks.
+        order: that is wanted; 0 for the order that the file wants.
+    """
+
+    seeds: range
+    starts: int = STARTS
+    order: int = 0
+
+
+@dataclass
+class SweepText:
+    """What a spec file says.
+
+    Attributes:
+        name: of the sweep.
+        templates: the method files.
+        grids: the values of each parameter, as text.
+        free: parameters of ``methods`` that are left to the search.
+        search: how unknowns are searched for, if they are.
+        columns: the criteria.
+        conditions: column, relation and bound.
+        best: columns to sort by.
+        pareto: columns of the front.
+    """
+
+    name: str = ""
+    templates: list[TemplateText] = field(default_factory=list)
+    grids: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    free: tuple[str, ...] = ()
+    search: SearchText | None = None
+    columns: list[str] = field(default_factory=list)
+    conditions: list[tuple[str, str, bool | float]] = field(default_factory=list)
+    best: list[str] = field(default_factory=list)
+    pareto: list[str] = field(default_factory=list)
+
 
 _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")

@@ -11,9 +11,9 @@ from yaml.nodes import Node
 from garkcli.errors import ExpressionError
 from garkcli.exact.nodes import Expression
 from garkcli.methodfile.formulas import BITS, Formulas
-from garkcli.methodfile.problem_text import ProblemText
+from garkcli.methodfile.nodes import unquoted
+from garkcli.methodfile.problem_keys import ProblemText
 from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.words import unquoted
 from garkcli.problems.expr import Expr, Invariants, Place, Vector
 from garkcli.transfer import LOG10_2
 

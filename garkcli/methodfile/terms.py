@@ -14,10 +14,18 @@ from yaml.nodes import Node
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.methodfile.expansion import too_long
-from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
-from garkcli.methodfile.problem_text import ProblemText
+from garkcli.methodfile.formulas import (
+    BITS,
+    PLACES,
+    Formulas,
+    Term,
+    TermReader,
+    formulas_of_invariants,
+    named,
+    nearby,
+)
+from garkcli.methodfile.problem_keys import ProblemText
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.termreader import Term, TermReader, formulas_of_invariants, named
 from garkcli.problems.expr import Expr, Place, Vector
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ import re
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.methodfile.coefficients import NUMBER
 from garkcli.methodfile.description import (
     BlockText,
     BlockTexts,
@@ -16,10 +15,10 @@ from garkcli.methodfile.description import (
     block_name,
 )
 from garkcli.methodfile.grammar import Key, Kind, OfSchema, by_name, defined, mapping, word
-from garkcli.methodfile.nodes import key_nodes, keys_of
+from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
 from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.words import shortened
 from garkcli.transfer import PAIR_RULES, RULES, SUMMARIES
 
 

@@ -15,10 +15,9 @@ from garkcli.design.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
-from garkcli.methodfile.coefficients import NUMBER
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
 from garkcli.methodfile.numbers import Entry, Free, Numbers
-from garkcli.methodfile.parameters import RANGE
+from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau

@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeAlias, cast
 from garkcli.glossary.key import Files, Key
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.sweep_file import file_of, read_sweep, sweep_file_schema
-from garkcli.methodfile.sweep_text import SearchText, TemplateText
+from garkcli.methodfile.sweep_methods import SearchText, TemplateText
 from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
 
 Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from garkcli import loads
 from garkcli.check.check_file import check_file
-from garkcli.methodfile.claims_writer import write_claims
+from garkcli.methodfile.carried import write_claims
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.report.schemas import report_schema
 from tests.cli.harness import gark

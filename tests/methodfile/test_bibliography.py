@@ -10,7 +10,7 @@ import yaml
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.bibliography import REFERENCE
-from garkcli.methodfile.conjugated import write_conjugate_of
+from garkcli.methodfile.carried import write_conjugate_of
 from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.load import loads
 from garkcli.reference import Reference

@@ -12,7 +12,7 @@ from garkcli.errors import MethodFileError
 from garkcli.exact.display import to_text
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
-from garkcli.methodfile.conjugated import write_conjugate_of
+from garkcli.methodfile.carried import write_conjugate_of
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_rounded, write_tableau_file

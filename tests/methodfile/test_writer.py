@@ -14,7 +14,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
-from garkcli.methodfile.conjugated import write_conjugate_of
+from garkcli.methodfile.carried import write_conjugate_of
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import can_spell_out, write_tableau_file
 from garkcli.tableau.conjugate import conjugate

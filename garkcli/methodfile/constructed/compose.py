@@ -12,7 +12,6 @@ from garkcli.constructions.composition import Substep, adjoint, composed
 from garkcli.constructions.schemes import MAX_ORDER, OTHER_NAMES, SCHEMES, Scheme
 from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal
-from garkcli.methodfile.coefficients import NUMBER
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.grammar import (
@@ -23,14 +22,28 @@ from garkcli.methodfile.grammar import (
     Kind,
     Ways,
     count,
+    defined,
     either,
     list_of,
     mapping,
     word,
 )
 from garkcli.methodfile.numbers import Entry
+from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
+
+
+def _adjoint(at: PartReader, node: Node, where: str) -> ConstructionText | None:
+    """The method whose adjoint is meant; it may have stages without simple nodes."""
+    part = at.method(node, where, why="")
+    if part is None:
+        return None
+    return at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
+
+
+ADJOINT = Kind(defined("part").schema, _adjoint)
+
 
 _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
 _NAME_IT = "give of: METHOD, here or for all of them"

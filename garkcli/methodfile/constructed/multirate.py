@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 from yaml.nodes import Node, SequenceNode
@@ -22,7 +22,7 @@ from garkcli.constructions.multirate import (
 from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
-from garkcli.methodfile.coefficients import MATRIX, ROW
+from garkcli.methodfile.build import Builder, families_of, nodes_to_spell_out
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.grammar import (
@@ -38,10 +38,16 @@ from garkcli.methodfile.grammar import (
     mapping,
     word,
 )
+from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
+from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
+
 
 _FORM = "write for instance {mis: kutta, fast: rk4, steps: 4}"
 _FORM_OF_MRI = "write {c: [0, 1/2, 1], gamma: [[[1/2, 0], [0, 1/2]]]}"
@@ -290,3 +296,26 @@ def _is_nonzero(entry: Entry) -> bool:
 
 
 KIND = Kind(_KEYS.schema, _read, _KEYS.inside)
+
+
+def coupling_of(method: MethodFile) -> Coupling | None:
+    """What a file with ``multirate: {mis: …}`` or ``{mri: …}`` couples its slow stages by.
+
+    Returns:
+        None for other files, and where values were given for parameters of the file.
+    """
+    if method.form != "multirate":
+        return None
+    reader, description = described(method.text, method.source, NO_SETTINGS)
+    content = description.content
+    if not isinstance(content, ConstructionText):
+        return None
+    make = content.make
+    if not isinstance(make, Infinitesimal) or description.is_conjugate:
+        return None
+    families = families_of(description)
+    nodes = nodes_to_spell_out(description, families, reader.numbers)
+    values = Values(reader.numbers)
+    builder = Builder(reader.source, values, families, nodes)
+    is_the_same = make(builder.part, values) == method.tableau
+    return make.coupling(builder.part, values) if is_the_same else None

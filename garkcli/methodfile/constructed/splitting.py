@@ -10,7 +10,6 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 from garkcli.constructions.composition import drift_and_kick, split
 from garkcli.constructions.schemes import SPLITTINGS
 from garkcli.exact.expression import read_decimal
-from garkcli.methodfile.coefficients import NUMBER, ROW
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.grammar import (
@@ -27,6 +26,7 @@ from garkcli.methodfile.grammar import (
     word,
 )
 from garkcli.methodfile.numbers import Entry
+from garkcli.methodfile.parameters import NUMBER, ROW
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
 
