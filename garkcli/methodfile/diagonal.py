@@ -20,14 +20,21 @@ from garkcli.methodfile.description import (
     block_name,
     of_colour,
 )
-from garkcli.methodfile.further import names_beside
 from garkcli.methodfile.grammar import Key, Kind, OfSchema, Schema, count, entries_in, mapping, word
 from garkcli.methodfile.nodes import keys_of
-from garkcli.methodfile.numbers import Entry, Numbers, Row
+from garkcli.methodfile.numbers import Entry, Reading, Row
 from garkcli.methodfile.parameters import NUMBER
-from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.spelled_out import BUTCHER, SpelledOutReader, are_too_many
+from garkcli.methodfile.source import Entries
+from garkcli.methodfile.spelled_out import (
+    BUTCHER,
+    are_too_many,
+    butcher,
+    further_of_method,
+    names_beside,
+    refuse_partial,
+)
 
+_FORM = "write a list: [{family: gauss, stages: 2}, …]"
 _FORM_OF_MEMBER = "write for instance {family: gauss, stages: 2}"
 _BESIDE = [key for key in BUTCHER.inside() if key.name not in {"A", "b", "c"}]
 
@@ -72,202 +79,144 @@ FAMILY = mapping(
 _KEYS = {key.name: key for key in FAMILY.inside()}
 
 
-class FamilyReader:
-    """Reads the members of families of one file."""
-
-    def __init__(self, source: Source, numbers: Numbers) -> None:
-        self.source = source
-        self.numbers = numbers
-
-    def read(self, node: Node, where: str) -> tuple[FamilyText, Entries] | None:
-        """A member of a family, which exists, with its keys; None where a fault was noted."""
-        before = len(self.source.faults)
-        family = _family_named(node)
-        barred = set() if family is None else OPTIONS.keys() - set(family.keys)
-        keys = {name: key for name, key in _KEYS.items() if name not in barred}
-        entries = entries_in(self.source, node, where, keys, form=_FORM_OF_MEMBER)
-        if "family" not in entries or len(self.source.faults) > before:
-            return None
-        name = self.source.scalar(entries["family"], f"{where}, family")
-        if name is None:
-            return None
-        if family is None:
-            return self._member(node, name, entries, None, {})
-        size, options = self._chosen(entries, family, where)
-        if len(self.source.faults) > before:
-            return None
-        return self._member(node, name, entries, size, options)
-
-    def _chosen(
-        self, entries: Entries, family: Family, where: str
-    ) -> tuple[int | None, dict[str, Given]]:
-        """The size of a member and what else it is chosen by."""
-        size = None
-        if family.size in entries:
-            place = f"{where}, {family.size}"
-            node = entries[family.size]
-            size = self.source.whole(node, place, smallest=1)
-        options: dict[str, Given] = {}
-        for option in family.options:
-            if option.name in entries:
-                place = f"{where}, {option.name}"
-                value = _kind_of(option).read(self, entries[option.name], place)
-                if value is not None:
-                    is_entry = isinstance(value, Entry)
-                    options[option.name] = value.expression if is_entry else value
-        return size, options
-
-    def _member(
-        self, node: Node, name: str, entries: Entries, size: int | None, options: dict[str, Given]
-    ) -> tuple[FamilyText, Entries] | None:
-        try:
-            recipe = recipe_of(name, size, options)
-        except UnknownFamily as error:
-            place = entries["family"]
-            if name in FAMILIES:  # it lacks members of such a size
-                place = entries.get(FAMILIES[name].size, place)
-            self.source.fault(place, error.message, error.help, code=error.code)
-            return None
-        numbers = self._entries(recipe, node, name)
-        chosen = _text_of(entries, FAMILIES[name])
-        return FamilyText(node, name, chosen, recipe, numbers), entries
-
-    def _entries(self, recipe: Recipe, node: Node, name: str) -> Row:
-        """What a member is made of as coefficients of the file; those that stand there are so
-        already.
-        """
-        read = {id(entry.expression): entry for entry in self.numbers.entries}
-        row: list[Entry] = []
-        for i, expression in enumerate(recipe.numbers, start=1):
-            entry = read.get(id(expression))
-            if entry is None:
-                entry = Entry(expression, node, f"{name}, number {i}")
-                self.numbers.entries.append(entry)
-            row.append(entry)
-        return tuple(row)
-
-
-def _family_named(node: Node) -> Family | None:
-    """The family that a mapping names, where it names one."""
-    if not isinstance(node, MappingNode):
+def methods(
+    at: Reading, node: Node, structure: Structure, transfer: Node | None
+) -> MethodsText | None:
+    """The form ``methods``; None where it does not make a method."""
+    if keys_of(node) & {"A", "b", "family", "stages"}:
+        items = [node]  # one method needs no brackets around it
+    else:
+        items = at.source.items(node, "methods", _FORM)
+    if are_too_many(at, items, node):
         return None
-    for key, value in node.value:
-        is_name = isinstance(key, ScalarNode) and key.value == "family"
-        if is_name and isinstance(value, ScalarNode):
-            return FAMILIES.get(value.value)
-    return None
+    every = [_method(at, item, l) for l, item in enumerate(items, start=1)]
+    found = [x for x in every if x is not None]
+    if not items and isinstance(node, SequenceNode):
+        cure = "list at least one diagonal method"
+        at.source.fault(node, "methods is empty", cure, code="empty")
+    if structure != "general" and len(items) != 2:
+        message = f"structure: {structure} is for two colours, not {len(items)}"
+        at.source.fault(node, message, code="not-together")
+    rules = TransferText(None, {})
+    if transfer is not None:
+        from garkcli.methodfile.transfers import rules_of  # one method has none
+
+        rules = rules_of(at, transfer, len(items))
+    if not found or len(found) < len(items) or _is_too_large(at, found, node):
+        return None
+    names = [f"method {l}" for l in range(1, len(found) + 1)]
+    refuse_partial(at, [x.further for x in found], names, node)
+    return MethodsText(tuple(found), rules)
 
 
-def _text_of(entries: Entries, family: Family) -> tuple[tuple[str, str], ...]:
-    """What a member is chosen by, as it stands."""
-    texts = []
-    for key in family.keys:
-        node = entries.get(key)
-        if isinstance(node, ScalarNode):
-            texts.append((key, str(node.value)))
-    return tuple(texts)
+def _is_too_large(at: Reading, found: Sequence[FamilyText | ButcherText], node: Node) -> bool:
+    """Note blocks between the methods that together have too many entries to be made."""
+    stages = [x.stages if isinstance(x, FamilyText) else len(x.b) for x in found]
+    entries = sum(stages) ** 2 - sum(s * s for s in stages)
+    if entries > MAX_ENTRIES:
+        message = f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"
+        at.source.fault(node, message, "use fewer methods, or fewer stages", code="too-many")
+    return entries > MAX_ENTRIES
 
 
-_FORM = "write a list: [{family: gauss, stages: 2}, …]"
-
-
-class DiagonalReader:
-    """Reads the diagonal methods of one file."""
-
-    def __init__(self, source: Source, numbers: Numbers) -> None:
-        self.source = source
-        self.numbers = numbers
-        self._spelled_out = SpelledOutReader(source, numbers)
-
-    def read(self, node: Node, structure: Structure, transfer: Node | None) -> MethodsText | None:
-        """The form ``methods``; None where it does not make a method."""
-        source = self.source
-        if keys_of(node) & {"A", "b", "family", "stages"}:
-            items = [node]  # one method needs no brackets around it
-        else:
-            items = source.items(node, "methods", _FORM)
-        if are_too_many(source, items, node):
-            return None
-        methods: list[FamilyText | ButcherText] = []
-        for l, item in enumerate(items, start=1):
-            method = self._method(item, l)
-            if method is not None:
-                methods.append(method)
-        if not items and isinstance(node, SequenceNode):
-            cure = "list at least one diagonal method"
-            source.fault(node, "methods is empty", cure, code="empty")
-        if structure != "general" and len(items) != 2:
-            wanted = f"structure: {structure} is for two colours"
-            source.fault(node, f"{wanted}, not {len(items)}", code="not-together")
-        rules = self._rules(len(items), transfer)
-        if not methods or len(methods) < len(items):
-            return None
-        if self._is_too_large(methods, node):
-            return None
-        names = [f"method {l}" for l in range(1, len(methods) + 1)]
-        further = [method.further for method in methods]
-        self._spelled_out.further.refuse_partial(further, names, node)
-        return MethodsText(tuple(methods), rules)
-
-    def _rules(self, colours: int, transfer: Node | None) -> TransferText:
-        """How the blocks between the methods are made."""
-        if transfer is None:
-            return TransferText(None, {})
-        from garkcli.methodfile.transfers import TransferReader
-
-        reader = TransferReader(self.source, self.numbers)
-        return reader.read(transfer, colours)
-
-    def _is_too_large(self, methods: Sequence[FamilyText | ButcherText], node: Node) -> bool:
-        """Note blocks between the methods that together have too many entries to be made."""
-        stages = [_stages(method) for method in methods]
-        inside = sum(s * s for s in stages)
-        entries = sum(stages) ** 2 - inside
-        if entries <= MAX_ENTRIES:
-            return False
-        where = "in the blocks between the methods"
-        message = f"{entries} entries {where} (limit {MAX_ENTRIES})"
-        self.source.fault(node, message, "use fewer methods, or fewer stages", code="too-many")
-        return True
-
-    def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
-        """The method of colour ``l``, counted from 1."""
-        keys, where = keys_of(node), f"method {l}"
-        if isinstance(node, ScalarNode):
-            message = f"{where}: a mapping is expected here"
-            self.source.fault(node, message, _written_out(node), code="mapping-expected")
-            return None
-        # of anything but a mapping there are no keys
-        if "stages" in keys and not keys & {"family", "A", "b"}:
-            cure = "write for instance family: gauss"
-            self.source.fault(node, f"{where}: family missing", cure, code="missing-key")
-            return None
-        if "family" not in keys and isinstance(node, MappingNode):
-            k = l - 1
-            names = (block_name(k, k), of_colour("b", k), of_colour("c", k))
-            return self._spelled_out.butcher(node, where, names)
-        reader = FamilyReader(self.source, self.numbers)
-        found = reader.read(node, where)
-        if found is None:
-            return None
-        family, entries = found
-        called = names_beside(of_colour("b", l - 1))
-        further = self._spelled_out.further
-        beside = further.of_method(entries, family.stages, called)
-        return replace(family, further=beside)
-
-
-def _stages(method: FamilyText | ButcherText) -> int:
-    if isinstance(method, FamilyText):
-        return method.stages
-    return len(method.b)
+def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
+    """The method of colour ``l``, counted from 1."""
+    keys, where = keys_of(node), f"method {l}"
+    if isinstance(node, ScalarNode):
+        message = f"{where}: a mapping is expected here"
+        at.source.fault(node, message, _written_out(node), code="mapping-expected")
+        return None
+    # of anything but a mapping there are no keys
+    if "stages" in keys and not keys & {"family", "A", "b"}:
+        cure = "write for instance family: gauss"
+        at.source.fault(node, f"{where}: family missing", cure, code="missing-key")
+        return None
+    b = of_colour("b", l - 1)
+    if "family" not in keys and isinstance(node, MappingNode):
+        return butcher(at, node, where, (block_name(l - 1, l - 1), b, of_colour("c", l - 1)))
+    found = _family(at, node, where)
+    if found is None:
+        return None
+    family, entries = found
+    beside = further_of_method(at, entries, family.stages, names_beside(b))
+    return replace(family, further=beside)
 
 
 def _written_out(node: ScalarNode) -> str:
     """The cure for a method that is a mere word."""
-    word = nearest(str(node.value), FAMILIES) or "gauss"
-    family = FAMILIES[word]
+    name = nearest(str(node.value), FAMILIES) or "gauss"
+    family = FAMILIES[name]
     if family.is_single:
-        return f"write {{family: {word}}}"
+        return f"write {{family: {name}}}"
     size = max(2, family.smallest)
-    return f"write for instance {{family: {word}, {family.size}: {size}}}"
+    return f"write for instance {{family: {name}, {family.size}: {size}}}"
+
+
+def _family(at: Reading, node: Node, where: str) -> tuple[FamilyText, Entries] | None:
+    """A member of a family, which exists, with its keys; None where a fault was noted."""
+    before = len(at.source.faults)
+    family = _family_named(node)
+    barred = set() if family is None else OPTIONS.keys() - set(family.keys)
+    keys = {name: key for name, key in _KEYS.items() if name not in barred}
+    entries = entries_in(at.source, node, where, keys, form=_FORM_OF_MEMBER)
+    if "family" not in entries or len(at.source.faults) > before:
+        return None
+    name = at.source.scalar(entries["family"], f"{where}, family")
+    if name is None:
+        return None
+    size, options = (None, {}) if family is None else _chosen(at, entries, family, where)
+    if len(at.source.faults) > before:
+        return None
+    try:
+        recipe = recipe_of(name, size, options)
+    except UnknownFamily as error:
+        place = entries["family"]
+        if family is not None:  # it lacks members of such a size
+            place = entries.get(family.size, place)
+        at.source.fault(place, error.message, error.help, code=error.code)
+        return None
+    # what a member is chosen by, as it stands
+    nodes = ((key, entries.get(key)) for key in FAMILIES[name].keys)
+    chosen = tuple((key, str(x.value)) for key, x in nodes if isinstance(x, ScalarNode))
+    return FamilyText(node, name, chosen, recipe, _entries(at, recipe, node, name)), entries
+
+
+def _chosen(
+    at: Reading, entries: Entries, family: Family, where: str
+) -> tuple[int | None, dict[str, Given]]:
+    """The size of a member and what else it is chosen by."""
+    size = None
+    if family.size in entries:
+        size = at.source.whole(entries[family.size], f"{where}, {family.size}", smallest=1)
+    options: dict[str, Given] = {}
+    for option in family.options:
+        if option.name in entries:
+            place = f"{where}, {option.name}"
+            value = _kind_of(option).read(at, entries[option.name], place)
+            if value is not None:
+                options[option.name] = value.expression if isinstance(value, Entry) else value
+    return size, options
+
+
+def _entries(at: Reading, recipe: Recipe, node: Node, name: str) -> Row:
+    """What a member is made of as coefficients of the file; those that stand there are so
+    already.
+    """
+    read = {id(entry.expression): entry for entry in at.numbers.entries}
+    row: list[Entry] = []
+    for i, expression in enumerate(recipe.numbers, start=1):
+        entry = read.get(id(expression))
+        if entry is None:
+            entry = Entry(expression, node, f"{name}, number {i}")
+            at.numbers.entries.append(entry)
+        row.append(entry)
+    return tuple(row)
+
+
+def _family_named(node: Node) -> Family | None:
+    """The family that a mapping names, where it names one."""
+    for key, value in node.value if isinstance(node, MappingNode) else ():
+        is_name = isinstance(key, ScalarNode) and key.value == "family"
+        if is_name and isinstance(value, ScalarNode):
+            return FAMILIES.get(value.value)
+    return None

@@ -20,7 +20,6 @@ from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.diagonal import FAMILY
 from garkcli.methodfile.expectations import EXPECT
-from garkcli.methodfile.further import DENSE
 from garkcli.methodfile.grammar import (
     FLAG,
     TEXT,
@@ -44,7 +43,7 @@ from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.parameters import DEFINITIONS, NUMBER, PARAMETERS
 from garkcli.methodfile.source import Home
-from garkcli.methodfile.spelled_out import BUTCHER, TABLEAU, TABLEAU_KEYS, rows_of
+from garkcli.methodfile.spelled_out import BUTCHER, DENSE, TABLEAU, TABLEAU_KEYS, rows_of
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files

@@ -514,11 +514,16 @@ def defined(name: str, read: Read = as_it_is) -> Kind:
     return Kind(lambda: {"$ref": f"#/definitions/{name}"}, read)
 
 
+def declared(room: str, name: str) -> Any:
+    """What is declared in a file of this room, which is loaded for it."""
+    return getattr(import_module(f"garkcli.methodfile.{room}"), name)
+
+
 def later(room: str, name: str) -> Kind:
-    """What is declared in a room that is loaded when a file or a schema has it."""
+    """What is declared in a file that is loaded when it is read, or a schema has it."""
 
     def kind() -> Kind:
-        found: Kind = getattr(import_module(f"garkcli.methodfile.{room}"), name)
+        found: Kind = declared(room, name)
         return found
 
     return Kind(

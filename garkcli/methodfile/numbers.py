@@ -184,10 +184,14 @@ class Numbers:
             self.source.fault(node, message, "call the parameter something else", code="name-taken")
             return Literal(ZERO)
         self.places[name] = node
+        return self.unknown(name, node, where)
+
+    def unknown(self, name: str, node: Node, where: str) -> Expression:
+        """Define an unknown of a tableau: free, or with the value given for it."""
+        value: Expression = Name(name)
         if name in self.settings:
             value = self.given(name, node, where)
         else:
-            value = Name(name)
             self.free[name] = Free(node, where=where)
         self.define(name, value)
         return value
@@ -381,3 +385,16 @@ class Numbers:
                 self.entries.append(zero)
             whole.append(row + (zero,) * missing)
         return tuple(whole)
+
+
+class Reading:
+    """What reads a file, or a part of it.
+
+    Attributes:
+        numbers: the coefficients of the file.
+        source: the file, where faults are noted.
+    """
+
+    def __init__(self, numbers: Numbers) -> None:
+        self.numbers = numbers
+        self.source = numbers.source

@@ -22,14 +22,14 @@ from garkcli.methodfile.description import (
     Structure,
     further_of,
 )
-from garkcli.methodfile.diagonal import DiagonalReader
+from garkcli.methodfile.diagonal import methods
 from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
 from garkcli.methodfile.grammar import FILE, entries_in
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
-from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.numbers import Numbers, Reading
 from garkcli.methodfile.parameters import refuse_unknown_settings
 from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.spelled_out import SpelledOutReader
+from garkcli.methodfile.spelled_out import tableau, tableau_of
 
 if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open, Opened
@@ -39,24 +39,21 @@ if TYPE_CHECKING:
 _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
 
 
-class ContentReader:
+class ContentReader(Reading):
     """Reads the coefficients of one method of a file.
 
     Args:
+        numbers: of the file.
         opened: what reads methods of the catalogue.
 
     Attributes:
-        source: the file, where faults are noted.
-        numbers: its coefficients.
         shaped: the tableau of its ``unknown``; None without that.
         tolerance: the rounding of its coefficients; None where they are meant exactly.
     """
 
-    def __init__(self, source: Source, numbers: Numbers, opened: Open) -> None:
-        self.source = source
-        self.numbers = numbers
+    def __init__(self, numbers: Numbers, opened: Open) -> None:
+        super().__init__(numbers)
         self._open = opened
-        self.spelled_out = SpelledOutReader(source, numbers)
         self.shaped: Shaped | None = None
         self.tolerance: fmpq | None = None
 
@@ -69,7 +66,10 @@ class ContentReader:
         for rule in BESIDE_FORM:
             rule.refuse(self.source, root, FILE, entries, form)
         if form == "unknown":
-            self.shaped = self._shaped(root, entries)
+            from garkcli.methodfile.shapes import shaped  # few files have it
+
+            # the key as it stands there, misspelt perhaps
+            self.shaped = shaped(self, key_of(root, entries[form]), entries[form])
             if self.shaped is None:
                 return None
             form = self.shaped.form
@@ -77,26 +77,14 @@ class ContentReader:
         content = self._content(form, structure, entries)
         if content is None:
             return None
-        if is_conjugate:
-            self._refuse_beside_conjugate(content)
-        node = self._node_of(form, entries)
-        return Description(form, content, node, structure, is_conjugate)
-
-    def _node_of(self, form: Form, entries: Entries) -> Node:
-        """Where the coefficients stand."""
-        for key in (form, "unknown"):
-            if key in entries:
-                return entries[key]
-        return entries["b"]
-
-    def _shaped(self, root: MappingNode, entries: Entries) -> Shaped | None:
-        """``unknown`` of the file."""
-        from garkcli.methodfile.shapes import ShapeReader  # few files have it
-
-        content = entries["unknown"]
-        # the key as it stands there, misspelt perhaps
-        key = key_of(root, content)
-        return ShapeReader(self.source, self.numbers).read(key, content)
+        further = [text.node for text in further_of(content) if text.node is not None]
+        if is_conjugate and further:
+            message = (
+                "conjugate: the symplectic conjugate has no embedded weights and no dense output"
+            )
+            self.source.fault(further[0], message, "leave them out", code="not-together")
+        place = next(entries[key] for key in (form, "unknown", "b") if key in entries)
+        return Description(form, content, place, structure, is_conjugate)
 
     def _form(self, root: Node, entries: Entries) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
@@ -132,59 +120,40 @@ class ContentReader:
         """What stands under a key; None where nothing does, or a fault was noted."""
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
-    def _constructed(self, form: Form, node: Node, structure: Structure) -> ConstructionText | None:
-        """A method made from others."""
-        from garkcli.methodfile.constructed.parts import PartReader
-
-        beside = self.tolerance, structure
-        parts = PartReader(self.source, self.numbers, self._inside, self._open, *beside)
-        found: ConstructionText | None = KEYS[form].kind.read(parts, node, form)
-        return found
-
     def _inside(self, node: Node, where: str) -> Description | None:
         """A method inside of a construction, which may be one itself."""
-        reader = ContentReader(self.source, self.numbers, self._open)
+        reader = ContentReader(self.numbers, self._open)
         reader.tolerance = self.tolerance
         if isinstance(node, MappingNode) and "family" in keys_of(node):
             key = ScalarNode("tag:yaml.org,2002:str", "methods")
-            family: Entries = {"methods": node}
             root = MappingNode("tag:yaml.org,2002:map", [(key, node)])
             root.start_mark = node.start_mark
-            return reader.read(root, family)
+            return reader.read(root, {"methods": node})
         keys = {key: KEYS[key] for key in KEYS_OF_METHOD}
         entries = entries_in(self.source, node, where, keys, elsewhere, _EXAMPLE)
-        if not isinstance(node, MappingNode):
-            return None
-        return reader.read(node, entries)
-
-    def _refuse_beside_conjugate(self, content: Content) -> None:
-        """Note further weights where the method is the conjugate of what has them."""
-        for text in further_of(content):
-            if text.node is not None:
-                message = "conjugate: the symplectic conjugate has no "
-                message += "embedded weights and no dense output"
-                self.source.fault(text.node, message, "leave them out", code="not-together")
-                return
+        return reader.read(node, entries) if isinstance(node, MappingNode) else None
 
     def _content(self, form: Form, structure: Structure, entries: Entries) -> Content | None:
         if self.shaped is not None:
             return self.shaped.content
         if form not in entries:
-            return self.spelled_out.tableau_of(entries, entries.get("linear"))
+            return tableau_of(self, entries, entries.get("linear"))
         node = entries[form]
         if form == "methods":
-            reader = DiagonalReader(self.source, self.numbers)
-            return reader.read(node, structure, entries.get("transfer"))
+            return methods(self, node, structure, entries.get("transfer"))
         if form == "tableau":
-            return self.spelled_out.tableau(node, entries.get("linear"))
+            return tableau(self, node, entries.get("linear"))
         # rare forms
         if form in CONSTRUCTIONS:
-            return self._constructed(form, node, structure)
-        from garkcli.methodfile.ark_prk import ArkReader, PrkReader
+            from garkcli.methodfile.constructed.parts import PartReader
 
-        if form == "ark":
-            return ArkReader(self.source, self.numbers).read(node)
-        return PrkReader(self.source, self.numbers).read(node, structure)
+            inside = self._inside, self._open
+            parts = PartReader(self.numbers, *inside, self.tolerance, structure)
+            found: ConstructionText | None = KEYS[form].kind.read(parts, node, form)
+            return found
+        from garkcli.methodfile.ark_prk import ark, prk
+
+        return ark(self, node) if form == "ark" else prk(self, node, structure)
 
 
 _ABOUT = (
@@ -194,7 +163,7 @@ _ABOUT = (
 """The keys beside the coefficients, which are read before these."""
 
 
-class Reader:
+class Reader(Reading):
     """Reads one file.
 
     Args:
@@ -202,9 +171,7 @@ class Reader:
         inside: the methods of the catalogue for the sake of which it is read.
 
     Attributes:
-        source: the file, where faults are noted.
-        numbers: its coefficients.
-        content: what reads them.
+        content: what reads its coefficients.
         keys: at the top of the file.
         design: what stands under ``design``; None without that.
     """
@@ -212,9 +179,8 @@ class Reader:
     def __init__(
         self, source: Source, settings: Mapping[str, str], inside: tuple[str, ...] = ()
     ) -> None:
-        self.source = source
-        self.numbers = Numbers(source, settings=settings)
-        self.content = ContentReader(source, self.numbers, self._opened)
+        super().__init__(Numbers(source, settings=settings))
+        self.content = ContentReader(self.numbers, self._opened)
         self._inside = inside
         self.keys: frozenset[str] = frozenset()
         self.design: Node | None = None

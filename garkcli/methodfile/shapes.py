@@ -13,7 +13,6 @@ from typing import Any, Literal, TypeAlias
 from yaml.nodes import Node
 
 from garkcli.errors import MethodError, did_you_mean
-from garkcli.exact.nodes import Expression, Name
 from garkcli.methodfile.description import (
     NOTHING_FURTHER,
     ArkText,
@@ -25,8 +24,7 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.grammar import Found, Key, Kind, count, mapping, one_or_more, word
 from garkcli.methodfile.nodes import Extent, extent, shortened
-from garkcli.methodfile.numbers import Free, Numbers, Row, Rows
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.numbers import Reading, Row
 
 TextRow: TypeAlias = tuple[str, ...]
 Texts: TypeAlias = tuple[TextRow, ...]
@@ -389,102 +387,65 @@ class Shaped:
     place: Extent
 
 
-class ShapeReader:
-    """Reads ``unknown`` of one file."""
+def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
+    """The tableau of unknowns of ``unknown``; None, with faults noted, where there is none.
 
-    def __init__(self, source: Source, numbers: Numbers) -> None:
-        self.source = source
-        self.numbers = numbers
+    Args:
+        at: what reads the file.
+        key: the word ``unknown`` in the file.
+        node: its value.
+    """
+    found: Found | None = UNKNOWN.read(at, node, "unknown")
+    if found is None or not found.is_right:
+        return None
+    if found["stages"] > MAX_STAGES:
+        message = f"{found['stages']} stages of unknowns (limit {MAX_STAGES})"
+        at.source.fault(found.nodes["stages"], message, "use fewer stages", code="too-many")
+        return None
+    try:
+        layout = layout_of(found["stages"], found["shape"])
+    except MethodError as error:
+        at.source.fault(found.nodes["shape"], error.message, error.help, code=error.code)
+        return None
+    for name in layout.unknowns:
+        at.numbers.unknown(name, node, name)
+    place = extent(at.source.text, key, node)
+    return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
-    def read(self, key: Node, node: Node) -> Shaped | None:
-        """The tableau of unknowns; None, with faults noted, where there is none.
 
-        Args:
-            key: the word ``unknown`` in the file.
-            node: its value.
-        """
-        found: Found | None = UNKNOWN.read(self, node, "unknown")
-        if found is None or not found.is_right:
-            return None
-        if found["stages"] > MAX_STAGES:
-            message = f"{found['stages']} stages of unknowns (limit {MAX_STAGES})"
-            self.source.fault(found.nodes["stages"], message, "use fewer stages", code="too-many")
-            return None
-        try:
-            layout = layout_of(found["stages"], found["shape"])
-        except MethodError as error:
-            self.source.fault(found.nodes["shape"], error.message, error.help, code=error.code)
-            return None
-        for name in layout.unknowns:
-            self._define(name, node)
-        place = extent(self.source.text, key, node)
-        return Shaped(layout.kind, self._content(layout, node), layout, place)
+def _content(at: Reading, layout: Layout, node: Node) -> TableauText | ArkText | PrkText:
+    """The coefficients of a layout."""
 
-    def _define(self, name: str, node: Node) -> None:
-        """An unknown of the shape, or the value given for it."""
-        if name in self.numbers.settings:
-            value: Expression = self.numbers.given(name, node, name)
-        else:
-            value = Name(name)
-            self.numbers.free[name] = Free(node, where=name)
-        self.numbers.define(name, value)
+    def row(texts: TextRow, where: str) -> Row:
+        numbered = enumerate(texts, start=1)
+        return tuple(at.numbers.written(x, node, f"{where}, entry {j}") for j, x in numbered)
 
-    def _content(self, layout: Layout, node: Node) -> TableauText | ArkText | PrkText:
-        matrices: list[Rows] = []
-        for colour, texts in enumerate(layout.A):
-            where = of_colour("A", colour)
-            matrices.append(self._matrix(texts, node, where))
-        weights: list[Row] = []
-        for colour, row in enumerate(layout.b):
-            where = of_colour("b", colour)
-            weights.append(self._row(row, node, where))
-        A, b = matrices[0], weights[0]
-        if layout.kind == "prk":
-            q = ButcherText(node, "", A, b, None)
-            p = ButcherText(node, "", matrices[1], weights[1], None)
-            return PrkText(q, p)
-        if layout.kind == "ark":
-            shared = (b,) * len(matrices)
-            further = (NOTHING_FURTHER,) * len(matrices)
-            return ArkText(tuple(matrices), shared, None, further)
-        return TableauText(((A,),), (b,), (None,), (), (NOTHING_FURTHER,))
-
-    def _matrix(self, texts: Texts, node: Node, where: str) -> Rows:
-        rows = []
-        for i, row in enumerate(texts, start=1):
-            place = f"{where}, row {i}"
-            rows.append(self._row(row, node, place))
-        return tuple(rows)
-
-    def _row(self, texts: Sequence[str], node: Node, where: str) -> Row:
-        entries = []
-        for j, text in enumerate(texts, start=1):
-            place = f"{where}, entry {j}"
-            entries.append(self.numbers.written(text, node, place))
-        return tuple(entries)
+    matrices = []
+    for colour, texts in enumerate(layout.A):
+        numbered = enumerate(texts, start=1)
+        where = of_colour("A", colour)
+        matrices.append(tuple(row(x, f"{where}, row {i}") for i, x in numbered))
+    weights = [row(x, of_colour("b", colour)) for colour, x in enumerate(layout.b)]
+    if layout.kind == "prk":
+        parts = zip(matrices, weights, strict=True)
+        return PrkText(*(ButcherText(node, "", A, b, None) for A, b in parts))
+    further = (NOTHING_FURTHER,) * len(matrices)
+    if layout.kind == "ark":
+        return ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
+    return TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
 
 
 def spelled(layout: Layout) -> str:
     """The layout as keys of a method file."""
-    matrices = [_matrix_text(rows) for rows in layout.A]
-    weights = [_row_text(row) for row in layout.b]
-    A, b = matrices[0], weights[0]
+
+    def listed(texts: Iterable[str]) -> str:
+        return f"[{', '.join(texts)}]"
+
+    matrices = [listed(map(listed, rows)) for rows in layout.A]
+    weights = [listed(row) for row in layout.b]
     if layout.kind == "prk":
-        lines = ["prk:"]
-        for part, A, b in zip("qp", matrices, weights, strict=True):
-            lines.append(f"  {part}: {{A: {A}, b: {b}}}")
-        return "\n".join(lines)
+        parts = zip("qp", matrices, weights, strict=True)
+        return "\n".join(["prk:", *(f"  {part}: {{A: {A}, b: {b}}}" for part, A, b in parts)])
     if layout.kind == "ark":
-        inside = ", ".join(matrices)
-        return f"ark:\n  A: [{inside}]\n  b: {b}"
-    return f"A: {A}\nb: {b}"
-
-
-def _matrix_text(rows: Texts) -> str:
-    inside = ", ".join(map(_row_text, rows))
-    return f"[{inside}]"
-
-
-def _row_text(row: Sequence[str]) -> str:
-    inside = ", ".join(row)
-    return f"[{inside}]"
+        return f"ark:\n  A: {listed(matrices)}\n  b: {weights[0]}"
+    return f"A: {matrices[0]}\nb: {weights[0]}"

@@ -1,37 +1,63 @@
-"""YAML nodes to methods that are spelled out: Butcher tableaus and the form ``tableau``."""
+"""YAML nodes to methods that are spelled out: Butcher tableaus and the form ``tableau``; and to
+further weights, ``embedded`` and ``dense``, which stand beside b in every form.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Sized
 from dataclasses import replace
 from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
-from garkcli.methodfile import further
 from garkcli.methodfile.description import (
+    BESIDE,
     MAX_COLOURS,
+    NOTHING_FURTHER,
     ButcherText,
+    FurtherText,
     TableauText,
     block_name,
     of_colour,
 )
-from garkcli.methodfile.further import DENSE, FurtherReader
-from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, defined, mapping
+from garkcli.methodfile.grammar import (
+    TEXT,
+    Found,
+    Key,
+    Kind,
+    Schema,
+    count,
+    declared,
+    defined,
+    mapping,
+)
 from garkcli.methodfile.nodes import is_null
-from garkcli.methodfile.numbers import Numbers, Row, Rows
+from garkcli.methodfile.numbers import Reading, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
-from garkcli.methodfile.source import Entries, Home, Source
+from garkcli.methodfile.source import Entries, Home
 
 Weights: TypeAlias = tuple[Row, ...]
 """A row a colour."""
-NodeRows: TypeAlias = tuple[Row | None, ...]
-"""The same of nodes, None where they are left out."""
-BlockRow: TypeAlias = tuple[Rows | None, ...]
-"""The blocks A^{l,m} of one colour l, None for absent ones."""
 Names: TypeAlias = tuple[str, str, str]
 """What A, b and c are called in messages."""
+MAX_DEGREE = 60
+"""Largest degree of dense output; its order is no larger."""
+FORM_OF_DENSE = (
+    "write dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}, "
+    "a row a stage: the coefficients of θ, θ², …"
+)
+DENSE = mapping(
+    Key("degree: 2", count(1, MAX_DEGREE), "The degree of the polynomials in θ.", is_needed=True),
+    Key(
+        "weights: [[1, -1/2], [0, 1/2]]",
+        Kind(lambda: {"type": "array", "minItems": 1}),
+        "A row a stage with the coefficients of θ, θ², …; of several colours a block for each.",
+        is_needed=True,
+    ),
+    form=FORM_OF_DENSE,
+)
+"""What stands under ``dense``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
@@ -111,9 +137,8 @@ def with_coefficients(*keys: Key, form: str) -> Kind:
 
 def _elsewhere() -> Mapping[str, str | Home]:
     """What to do about keys that stand in a Butcher tableau and belong elsewhere."""
-    from garkcli.methodfile.file_keys import elsewhere  # which has this tableau in it
-
-    return {**elsewhere(), **_SAID_BY_B}
+    # declared where this tableau is a part of files
+    return {**declared("file_keys", "elsewhere")(), **_SAID_BY_B}
 
 
 TABLEAU = with_coefficients(
@@ -149,17 +174,39 @@ BUTCHER = with_coefficients(*BUTCHER_KEYS, form=EXAMPLE)
 """One diagonal method, or a part of a pair."""
 
 
-def entries_in(count: int) -> str:
+def entries_of(count: int) -> str:
     """``1 entry``, ``2 entries``."""
     return counted(count, "entry", "entries")
+
+
+def one_each(
+    at: Reading, node: Node, name: str, items: Sized, noun: str, each: str, wanted: int, cure: str
+) -> bool:
+    """Whether there are as many as wanted; noted where not: ``b has 2 rows for 3 colours``.
+
+    Args:
+        at: what reads the file.
+        node: where they stand.
+        name: what messages call what has them.
+        items: that it has.
+        noun: what these are, such as ``row``.
+        each: what one is wanted for, such as ``colour``.
+        wanted: how many of these there are.
+        cure: where there are others.
+    """
+    found = len(items)
+    if found != wanted:
+        has = entries_of(found) if noun == "entry" else counted(found, noun)
+        message = f"{name} has {has} for {counted(wanted, each)}"
+        at.source.fault(node, message, cure, code="wrong-size")
+    return found == wanted
 
 
 def depth_of_lists(node: Node) -> int:
     """How deep lists are nested; a value on its own is 0 deep."""
     if not isinstance(node, SequenceNode):
         return 0
-    inside = map(depth_of_lists, node.value)
-    return 1 + max(inside, default=0)
+    return 1 + max(map(depth_of_lists, node.value), default=0)
 
 
 def _holds_a_number(node: Node) -> bool:
@@ -169,226 +216,323 @@ def _holds_a_number(node: Node) -> bool:
     return not is_null(node)
 
 
-def are_too_many(source: Source, colours: Sequence[Node], node: Node) -> bool:
+def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
+    """What a list has, one a colour; None, with a fault noted, where these are too many."""
+    items = at.source.items(node, name)
+    if isinstance(node, SequenceNode) and not items:
+        at.source.fault(node, f"{name} is empty", "give one for each colour", code="empty")
+    return None if are_too_many(at, items, node) else items
+
+
+def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
     """Note more colours than any method has."""
-    count = len(colours)
-    if count <= MAX_COLOURS:
+    if len(colours) <= MAX_COLOURS:
         return False
-    message = f"{count} colours (limit {MAX_COLOURS})"
-    source.fault(node, message, "no method needs that many", code="too-many")
+    message = f"{len(colours)} colours (limit {MAX_COLOURS})"
+    at.source.fault(node, message, "no method needs that many", code="too-many")
     return True
 
 
-class SpelledOutReader:
-    """Reads matrices and rows of one file and holds their sizes against each other."""
+def butcher(at: Reading, node: Node, where: str, names: Names) -> ButcherText | None:
+    """A method spelled out; ``names`` are what its A, b and c are called in messages."""
+    entries: Found | None = _METHOD.read(at, node, where)
+    if entries is None or not {"A", "b"} <= entries.keys():
+        return None
+    found = _method(at, entries, names)
+    if found is None:
+        return None
+    beside = further_of_method(at, entries, len(found[1]), names_beside(names[1]))
+    return ButcherText(node, entries.get("name", ""), *found, beside)
 
-    def __init__(self, source: Source, numbers: Numbers) -> None:
-        self.source = source
-        self.numbers = numbers
-        self.further = FurtherReader(source, numbers)
 
-    def butcher(self, node: Node, where: str, names: Names) -> ButcherText | None:
-        """A method spelled out; ``names`` are what its A, b and c are called in messages."""
-        entries: Found | None = _METHOD.read(self, node, where)
-        if entries is None or not {"A", "b"} <= entries.keys():
-            return None
-        found = self._method(entries, names)
+def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
+    """A, b and c of a method of one colour; None where they do not make one."""
+    name_of_A, name_of_b, name_of_c = names
+    A = at.numbers.matrix(entries["A"], name_of_A)
+    b = at.numbers.row(entries["b"], name_of_b)
+    c = at.numbers.row(entries["c"], name_of_c) if "c" in entries else None
+    if not A or not b or c == ():
+        return None
+    stages, rows = len(b), len(A)
+    why = f"{name_of_b} has {entries_of(stages)}"
+    is_square = all(len(row) == rows for row in A)
+    if is_square and rows != stages and (c is None or len(c) == rows):
+        # A and c agree with each other, so the mistake is in b
+        message = f"{why}, {name_of_A} is {rows} by {rows}"
+        at.source.fault(entries["b"], message, "both have one a stage", code="wrong-size")
+        return None
+    A = at.numbers.fitted(A, entries["A"], name_of_A, (stages, stages), why)
+    if c is not None:
+        nodes_fit(at, entries["c"], name_of_c, c, stages)
+    return A, b, c
+
+
+def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
+    """Whether there is a node a stage; noted where not."""
+    cure = "give a node a stage, or leave c out"
+    return one_each(at, node, name, c, "entry", "stage", stages, cure)
+
+
+def tableau(at: Reading, node: Node, linear: Node | None) -> TableauText | None:
+    """The form ``tableau``; ``linear`` lists its linear colours."""
+    entries: Found | None = TABLEAU.read(at, node, "tableau")
+    if entries is None or not {"A", "b"} <= entries.keys():
+        return None
+    return tableau_of(at, entries, linear)
+
+
+def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> TableauText | None:
+    """A, b and c of one colour or of several, told apart by how deep A is nested."""
+    A, b = entries["A"], entries["b"]
+    depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
+    # [[null]] may be a row of blocks as well
+    is_one_matrix = depth <= 2 and _holds_a_number(A)
+    if is_one_matrix and is_one_row:
+        found = _method(at, entries, ("A", "b", "c"))
         if found is None:
             return None
-        letters = further.names_beside(names[1])
-        beside = self.further.of_method(entries, len(found[1]), letters)
-        return ButcherText(node, entries.get("name", ""), *found, beside)
+        beside = further_of_method(at, entries, len(found[1]))
+        colours = _linear(at, linear, 1)
+        return TableauText(((found[0],),), (found[1],), (found[2],), colours, (beside,))
+    if is_one_matrix:
+        cure = "write the second row as embedded: […], beside b"
+        if len(b.value) == 1:
+            cure = "write b as one row: b: [0, 1]"
+        elif all(isinstance(x, SequenceNode) and len(x.value) == 1 for x in b.value):
+            cure = "b is a column here: write it as one row, [0, 1]"
+        message = "A is one matrix, of one colour, and b a list of rows"
+        at.source.fault(b, message, cure, code="wrong-size")
+        return None
+    if depth == 3 and not is_one_row:
+        cure = f"matrices on shared stages are the form ark; {_LEVELS}"
+        at.source.fault(A, "A is a list of matrices", cure, code="list-expected")
+        return None
+    if depth > 3 and is_one_row and not isinstance(b, MappingNode):
+        message = "A has blocks, as of several colours, and b is one row"
+        at.source.fault(b, message, _LEVELS, code="wrong-size")
+        return None
+    return _blocks(at, entries, linear)
 
-    def _method(self, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
-        """A, b and c of a method of one colour; None where they do not make one."""
-        numbers = self.numbers
-        name_of_A, name_of_b, name_of_c = names
-        A = numbers.matrix(entries["A"], name_of_A)
-        b = numbers.row(entries["b"], name_of_b)
-        c = None
-        if "c" in entries:
-            c = numbers.row(entries["c"], name_of_c)
-        if not A or not b or c == ():
-            return None
-        stages, rows = len(b), len(A)
-        is_square = all(len(row) == rows for row in A)
-        c_agrees = c is None or len(c) == rows
-        if is_square and rows != stages and c_agrees:
-            # A and c agree with each other, so the mistake is in b
-            message = f"{name_of_b} has {entries_in(stages)}, "
-            message += f"{name_of_A} is {rows} by {rows}"
-            self.source.fault(entries["b"], message, "both have one a stage", code="wrong-size")
-            return None
-        shape = (stages, stages)
-        why = f"{name_of_b} has {entries_in(stages)}"
-        A = numbers.fitted(A, entries["A"], name_of_A, shape, why)
-        if c is not None and len(c) != stages:
-            wanted = counted(stages, "stage")
-            message = f"{name_of_c} has {entries_in(len(c))} for {wanted}"
-            cure = "give a node a stage, or leave c out"
-            self.source.fault(entries["c"], message, cure, code="wrong-size")
-        return A, b, c
 
-    def tableau(self, node: Node, linear: Node | None) -> TableauText | None:
-        """The form ``tableau``; ``linear`` lists its linear colours."""
-        entries: Found | None = TABLEAU.read(self, node, "tableau")
-        if entries is None or not {"A", "b"} <= entries.keys():
-            return None
-        return self.tableau_of(entries, linear)
+def _blocks(at: Reading, entries: Entries, linear: Node | None) -> TableauText | None:
+    """A tableau block by block."""
+    items = colours_in(at, entries["b"], "b")
+    if items is None:
+        return None
+    b = tuple(at.numbers.row(item, of_colour("b", l)) for l, item in enumerate(items))
+    rows = at.source.items(entries["A"], "A")
+    if not isinstance(entries["A"], SequenceNode):
+        return None  # said above
+    if len(rows) != len(b):
+        message = f"A has {counted(len(rows), 'row')} of blocks and b {len(b)} of weights"
+        at.source.fault(entries["A"], message, "both have one a colour", code="wrong-size")
+        return None
+    A = tuple(_block_row(at, l, row, b) for l, row in enumerate(rows))
+    c = _node_rows(at, entries.get("c"), b)
+    if not b or not all(b) or any(len(row) != len(b) for row in A):
+        return None
+    colours = _linear(at, linear, len(b))
+    beside = further_of_colours(at, entries, [len(row) for row in b])
+    return TableauText(A, b, c, colours, beside)
 
-    def tableau_of(self, entries: Entries, linear: Node | None) -> TableauText | None:
-        """A, b and c of one colour or of several, told apart by how deep A is nested."""
-        A, b = entries["A"], entries["b"]
-        depth, depth_of_weights = depth_of_lists(A), depth_of_lists(b)
-        is_one_row = depth_of_weights < 2
-        # [[null]] may be a row of blocks as well
-        is_one_matrix = depth <= 2 and _holds_a_number(A)
-        if is_one_matrix and is_one_row:
-            return self._one_colour(entries, linear)
-        if is_one_matrix:
-            message = "A is one matrix, of one colour, and b a list of rows"
-            cure = "write the second row as embedded: […], beside b"
-            if len(b.value) == 1:
-                cure = "write b as one row: b: [0, 1]"
-            elif all(isinstance(x, SequenceNode) and len(x.value) == 1 for x in b.value):
-                cure = "b is a column here: write it as one row, [0, 1]"
-            self.source.fault(b, message, cure, code="wrong-size")
-            return None
-        if depth == 3 and not is_one_row:
-            message = "A is a list of matrices"
-            cure = "matrices on shared stages are the form ark; " + _LEVELS
-            self.source.fault(A, message, cure, code="list-expected")
-            return None
-        if depth > 3 and is_one_row and not isinstance(b, MappingNode):
-            message = "A has blocks, as of several colours, and b is one row"
-            self.source.fault(b, message, _LEVELS, code="wrong-size")
-            return None
-        return self._blocks(entries, linear)
 
-    def _one_colour(self, entries: Entries, linear: Node | None) -> TableauText | None:
-        """A tableau of a single block."""
-        found = self._method(entries, ("A", "b", "c"))
-        if found is None:
-            return None
-        A, b, c = found
-        linear_colours = self._linear(linear, 1)
-        beside = self.further.of_method(entries, len(b))
-        return TableauText(((A,),), (b,), (c,), linear_colours, (beside,))
+def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
+    """The blocks A^{l,m} of one colour l, None for absent ones."""
+    where = f"row {l + 1} of blocks"
+    items = at.source.items(node, f"A, {where}")
+    cure = "write null for a block that does not exist"
+    one_each(at, node, where, items, "block", "colour", len(b), cure)
+    return tuple(_block(at, item, l, m, b) for m, item in enumerate(items[: len(b)]))
 
-    def _blocks(self, entries: Entries, linear: Node | None) -> TableauText | None:
-        """A tableau block by block."""
-        b = self._weights(entries["b"])
-        if b is None:
-            return None
-        colours = len(b)
-        rows = self.source.items(entries["A"], "A")
-        if not isinstance(entries["A"], SequenceNode):
-            return None  # said above
-        if len(rows) != colours:
-            found = counted(len(rows), "row")
-            message = f"A has {found} of blocks and b {colours} of weights"
-            self.source.fault(entries["A"], message, "both have one a colour", code="wrong-size")
-            return None
-        A: list[BlockRow] = []
-        for l, row in enumerate(rows):
-            A.append(self._block_row(l, row, b))
-        c = self._node_rows(entries.get("c"), b)
-        if not b or not all(b):
-            return None
-        if any(len(row) != colours for row in A):
-            return None
-        linear_colours = self._linear(linear, colours)
-        stages = [len(row) for row in b]
-        beside = self.further.of_colours(entries, stages)
-        return TableauText(tuple(A), b, c, linear_colours, beside)
 
-    def _weights(self, node: Node) -> Weights | None:
-        """The weights of each colour; None where there are too many colours."""
-        items = self.source.items(node, "b")
-        if are_too_many(self.source, items, node):
-            return None
-        if isinstance(node, SequenceNode) and not items:
-            cure = "give a row of weights a colour"
-            self.source.fault(node, "b is empty", cure, code="empty")
-        rows: list[Row] = []
-        for l, item in enumerate(items):
-            rows.append(self.numbers.row(item, of_colour("b", l)))
-        return tuple(rows)
+def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
+    """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
+    if is_null(node):
+        return None
+    where, (rows, columns) = block_name(l, m), (len(b[l]), len(b[m]))
+    block = at.numbers.matrix(node, where)
+    if not rows or not columns:
+        return block
+    why = f"{of_colour('b', l)} has {entries_of(rows)} and {of_colour('b', m)} has {columns}"
+    return at.numbers.fitted(block, node, where, (rows, columns), why)
 
-    def _block_row(self, l: int, node: Node, b: Weights) -> BlockRow:
-        """The blocks A^{l,m} of one colour l."""
-        colours = len(b)
-        where = f"row {l + 1} of blocks"
-        items = self.source.items(node, f"A, {where}")
-        if len(items) != colours:
-            found = counted(len(items), "block")
-            wanted = counted(colours, "colour")
-            message = f"{where} has {found} for {wanted}"
-            cure = "write null for a block that does not exist"
-            self.source.fault(node, message, cure, code="wrong-size")
-        blocks: list[Rows | None] = []
-        for m, item in enumerate(items[:colours]):
-            blocks.append(self._block(item, l, m, b))
-        return tuple(blocks)
 
-    def _block(self, node: Node, l: int, m: int, b: Weights) -> Rows | None:
-        """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
-        if is_null(node):
-            return None
-        where = block_name(l, m)
-        block = self.numbers.matrix(node, where)
-        shape = len(b[l]), len(b[m])
-        if 0 in shape:
-            return block
-        rows, columns = shape
-        why = f"{of_colour('b', l)} has {entries_in(rows)}"
-        why += f" and {of_colour('b', m)} has {columns}"
-        return self.numbers.fitted(block, node, where, shape, why)
-
-    def _node_rows(self, node: Node | None, b: Weights) -> NodeRows:
-        """The nodes of each colour, None where they are left out."""
-        colours = len(b)
-        if node is None:
-            return (None,) * colours
-        items = self.source.items(node, "c")
-        if len(items) != colours:
-            message = f"c has {counted(len(items), 'row')} and b {colours}"
-            self.source.fault(node, message, "give one of each a colour", code="wrong-size")
-            return (None,) * colours
-        rows: list[Row | None] = []
-        for l, item in enumerate(items):
-            rows.append(self._node_row(item, l, len(b[l])))
-        return tuple(rows)
-
-    def _node_row(self, node: Node, l: int, stages: int) -> Row | None:
-        """The nodes of one colour, as many as it has weights."""
-        if is_null(node):
-            return None
+def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, ...]:
+    """The nodes of each colour, as many as it has weights; None where they are left out."""
+    items = [] if node is None else at.source.items(node, "c")
+    cure = "give a row a colour, null where they are left out"
+    if node is None or not one_each(at, node, "c", items, "row", "colour", len(b), cure):
+        return (None,) * len(b)
+    found: list[Row | None] = []
+    for l, item in enumerate(items):
         where = of_colour("c", l)
-        row = self.numbers.row(node, where)
-        if row and stages and len(row) != stages:
-            found = entries_in(len(row))
-            weights = of_colour("b", l)
-            message = f"{where} has {found}, {weights} has {stages}"
-            self.source.fault(node, message, "both have one a stage", code="wrong-size")
-        return row
-
-    def _linear(self, node: Node | None, colours: int) -> tuple[int, ...]:
-        """The colours that are linear, numbered from 0."""
-        if node is None:
-            return ()
-        found: list[int] = []
-        for item in self.source.items(node, "linear"):
-            colour = self.source.whole(item, "linear", smallest=1)
-            if colour is None:
-                continue
-            if colour > colours:
-                message = f"linear: there is no colour {colour}"
-                self.source.fault(item, message, f"there {_are(colours)}", code="wrong-value")
-            else:
-                found.append(colour - 1)
-        return tuple(found)
+        row = None if is_null(item) else at.numbers.row(item, where)
+        if row and b[l]:
+            nodes_fit(at, item, where, row, len(b[l]))
+        found.append(row)
+    return tuple(found)
 
 
-def _are(colours: int) -> str:
-    return "is 1" if colours == 1 else f"are {colours}"
+def _linear(at: Reading, node: Node | None, colours: int) -> tuple[int, ...]:
+    """The colours that are linear, numbered from 0."""
+    found: list[int] = []
+    for item in () if node is None else at.source.items(node, "linear"):
+        colour = at.source.whole(item, "linear", smallest=1)
+        if colour is not None and colour > colours:
+            there = "there is 1" if colours == 1 else f"there are {colours}"
+            message = f"linear: there is no colour {colour}"
+            at.source.fault(item, message, there, code="wrong-value")
+        elif colour is not None:
+            found.append(colour - 1)
+    return tuple(found)
+
+
+def names_beside(name_of_b: str) -> tuple[str, str]:
+    """What messages call embedded weights and dense output beside weights of some name.
+
+    >>> names_beside("b^{2}"), names_beside("q.b")
+    (('embedded^{2}', 'dense^{2}'), ('q.embedded', 'q.dense'))
+    """
+    before, _, after = name_of_b.rpartition("b")
+    return f"{before}embedded{after}", f"{before}dense{after}"
+
+
+def further_of_method(
+    at: Reading, entries: Entries, stages: int, names: tuple[str, str] = BESIDE
+) -> FurtherText:
+    """The further weights of one colour.
+
+    Args:
+        at: what reads the file.
+        entries: what stands beside b.
+        stages: how many weights b has.
+        names: what ``embedded`` and ``dense`` are called in messages.
+    """
+    embedded = dense = None
+    if "embedded" in entries and not _is_of_several(at, entries["embedded"], names[0], 2):
+        embedded = _weights(at, entries["embedded"], names[0], stages)
+    degree, weights = _parts(at, entries, names[1])
+    where = f"{names[1]}, weights"
+    if weights is not None and not _is_of_several(at, weights, where, 3):
+        dense = _polynomials(at, weights, where, stages, degree)
+    return _further(entries, embedded, dense)
+
+
+def further_of_colours(
+    at: Reading, entries: Entries, stages: Sequence[int], is_shared: bool = False
+) -> tuple[FurtherText, ...]:
+    """The further weights of several colours in one place.
+
+    Args:
+        at: what reads the file.
+        entries: what stands beside b.
+        stages: how many weights each colour has.
+        is_shared: whether a single row, or block, may stand for every colour.
+    """
+    rows: dict[int, Row | None] = {}
+    blocks: dict[int, Rows | None] = {}
+    if "embedded" in entries:
+        for l, item, name in _a_colour(at, entries["embedded"], "embedded", stages, is_shared, 1):
+            rows[l] = _weights(at, item, name, stages[l])
+    degree, weights = _parts(at, entries, "dense")
+    if weights is not None:
+        for l, item, name in _a_colour(at, weights, "dense, weights", stages, is_shared, 2):
+            blocks[l] = _polynomials(at, item, name, stages[l], degree)
+    return tuple(_further(entries, rows.get(l), blocks.get(l)) for l in range(len(stages)))
+
+
+def _a_colour(
+    at: Reading, node: Node, where: str, stages: Sized, is_shared: bool, depth: int
+) -> Iterator[tuple[int, Node, str]]:
+    """What belongs to each colour, itself ``depth`` lists deep, and what messages call it."""
+    colours, is_one = len(stages), _depth(node) == depth
+    if is_shared and is_one:
+        yield from ((l, node, where) for l in range(colours))
+        return
+    noun = "row" if depth == 1 else "block"
+    cure = f"give a {noun} a colour, each with a {'weight' if depth == 1 else 'row'} a stage"
+    if is_shared:
+        cure += f", or a single shared {noun}"
+    items = at.source.items(node, where, cure)
+    if len(items) == colours and not is_one:
+        key, comma, part = where.partition(",")
+        yield from ((l, x, of_colour(key, l) + comma + part) for l, x in enumerate(items))
+    elif isinstance(node, SequenceNode):
+        found = f"one {noun}" if is_one else counted(len(items), noun)
+        message = f"{where} has {found} for {counted(colours, 'colour')}"
+        at.source.fault(node, message, cure, code="wrong-size")
+
+
+def _is_of_several(at: Reading, node: Node, where: str, depth: int) -> bool:
+    """Note what is written as for several colours, ``depth`` lists deep."""
+    if _depth(node) != depth:
+        return False
+    noun = "row" if depth == 2 else "block"
+    cure = f"write it as one {noun}, without the outer brackets"
+    if len(node.value) > 1:
+        cure = "a method has one of them; make another file for the other"
+    message = f"{where} has {counted(len(node.value), noun)} in a list, for one colour"
+    at.source.fault(node, message, cure, code="wrong-size")
+    return True
+
+
+def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
+    """A weight a stage."""
+    row = at.numbers.row(node, where)
+    if row and stages:
+        one_each(at, node, where, row, "entry", "stage", stages, "give a weight a stage, as in b")
+    return row or None
+
+
+def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]:
+    """The degree and the weights of dense output; None where there are none."""
+    found: Found | None = DENSE.read(at, entries["dense"], where) if "dense" in entries else None
+    if found is None or not {"degree", "weights"} <= found.keys():
+        return 0, None
+    return found["degree"], found["weights"]
+
+
+def _polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -> Rows | None:
+    """A row a stage, a coefficient a power of θ."""
+    rows = at.numbers.matrix(node, where)
+    if not rows or not stages:
+        return None
+    cure = "give a row a stage: the coefficients of θ, θ², …"
+    if not one_each(at, node, where, rows, "row", "stage", stages, cure):
+        return None
+    for i, row in enumerate(rows):
+        if len(row) != degree:
+            message = f"{where}, row {i + 1} has {entries_of(len(row))} for degree {degree}"
+            cure = "give the coefficients of θ, …, θ^degree, zeros too"
+            place = node.value[i] if isinstance(node, SequenceNode) else node
+            at.source.fault(place, message, cure, code="wrong-size")
+            return None
+    return rows
+
+
+def refuse_partial(
+    at: Reading, further: Sequence[FurtherText], names: Sequence[str], node: Node
+) -> None:
+    """Note further weights of some colours, where others have none."""
+    for key in BESIDE:
+        given = [getattr(text, key) is not None for text in further]
+        if any(given) and not all(given):
+            having, lacking = names[given.index(True)], names[given.index(False)]
+            message = f"{key}: {having} has it and {lacking} does not"
+            cure = "give it in each, the weights b again where they are meant"
+            at.source.fault(node, message, cure, code="missing-key")
+
+
+def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> FurtherText:
+    if embedded is None and dense is None:
+        return NOTHING_FURTHER
+    return FurtherText(embedded, dense, next(entries[key] for key in BESIDE if key in entries))
+
+
+def _depth(node: Node) -> int:
+    """How deep the lists are at their first items; a value on its own is 0 deep."""
+    depth = 0
+    while isinstance(node, SequenceNode) and node.value:
+        depth += 1
+        node = node.value[0]
+    return depth

@@ -16,9 +16,8 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.grammar import Key, Kind, OfSchema, by_name, defined, mapping, word
 from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
-from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.numbers import Reading
 from garkcli.methodfile.parameters import NUMBER
-from garkcli.methodfile.source import Source
 from garkcli.transfer import PAIR_RULES, RULES, SUMMARIES
 
 
@@ -69,86 +68,71 @@ def _block_of(key: str) -> tuple[int, int]:
     return l - 1, m - 1
 
 
-class TransferReader:
-    """Reads ``transfer``."""
+def rules_of(at: Reading, node: Node, colours: int) -> TransferText:
+    """``transfer``: the rules, and the blocks given one by one, of so many colours."""
+    if not keys_of(node) & {"default", "blocks"}:
+        # without quotes {1,2: rule} has the keys 1 and 2
+        for key in key_nodes(node).values():
+            if _BLOCK_OR_COLOUR.fullmatch(key.value):
+                message = "transfer: single blocks stand under blocks"
+                cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
+                at.source.fault(key, message, cure, code="given-twice")
+                return TransferText(None, {})
+        return TransferText(_rule(at, node, "transfer"), {})
+    entries = at.source.mapping(node, "transfer", ("default", "blocks"))
+    default, blocks = entries.get("default"), entries.get("blocks")
+    rule = None if default is None else _rule(at, default, "transfer, default")
+    return TransferText(rule, {} if blocks is None else _blocks(at, blocks, colours))
 
-    def __init__(self, source: Source, numbers: Numbers) -> None:
-        self.source = source
-        self.numbers = numbers
 
-    def read(self, node: Node, colours: int) -> TransferText:
-        """The rules, and the blocks given one by one, of so many colours."""
-        keys = keys_of(node)
-        if not keys & {"default", "blocks"}:
-            # without quotes {1,2: rule} has the keys 1 and 2
-            for key in key_nodes(node).values():
-                if _BLOCK_OR_COLOUR.fullmatch(key.value):
-                    message = "transfer: single blocks stand under blocks"
-                    cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
-                    self.source.fault(key, message, cure, code="given-twice")
-                    return TransferText(None, {})
-            return TransferText(self._rule(node, "transfer"), {})
-        entries = self.source.mapping(node, "transfer", ("default", "blocks"))
-        default = None
-        if "default" in entries:
-            default = self._rule(entries["default"], "transfer, default")
-        blocks: BlockTexts = {}
-        if "blocks" in entries:
-            blocks = self._blocks(entries["blocks"], colours)
-        return TransferText(default, blocks)
+def _blocks(at: Reading, node: Node, colours: int) -> BlockTexts:
+    """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
+    blocks: BlockTexts = {}
+    keys = key_nodes(node)
+    form = 'write for instance {"1,2": interpolation}'
+    for key, value in at.source.mapping(node, "transfer, blocks", (), form=form).items():
+        l, m = _block_of(key)
+        if l == m or max(l, m) >= colours:
+            shown = f"{shortened(key)} names no off-diagonal block of {colours} colours"
+            cure = 'write for instance "1,2" for the block A^{1,2}'
+            at.source.fault(keys[key], f"transfer, blocks: {shown}", cure, code="wrong-value")
+            continue
+        where = block_name(l, m)
+        if (l, m) in blocks:
+            message = f"transfer, blocks: {where} is given twice"
+            at.source.fault(keys[key], message, "keep one of them", code="doubled")
+        block = _block(at, value, where)
+        if block is not None:
+            blocks[l, m] = block
+    return blocks
 
-    def _blocks(self, node: Node, colours: int) -> BlockTexts:
-        """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
-        blocks: BlockTexts = {}
-        keys = key_nodes(node)
-        form = 'write for instance {"1,2": interpolation}'
-        entries = self.source.mapping(node, "transfer, blocks", (), form=form)
-        for key, value in entries.items():
-            l, m = _block_of(key)
-            if l == m or max(l, m) >= colours:
-                shown = shortened(key)
-                wanted = f"off-diagonal block of {colours} colours"
-                message = f"transfer, blocks: {shown} names no {wanted}"
-                cure = 'write for instance "1,2" for the block A^{1,2}'
-                self.source.fault(keys[key], message, cure, code="wrong-value")
-                continue
-            where = block_name(l, m)
-            if (l, m) in blocks:
-                message = f"transfer, blocks: {where} is given twice"
-                self.source.fault(keys[key], message, "keep one of them", code="doubled")
-            block = self._block(value, where)
-            if block is not None:
-                blocks[l, m] = block
-        return blocks
 
-    def _block(self, node: Node, where: str) -> BlockText | None:
-        """A block as a matrix or as a rule."""
-        if not isinstance(node, SequenceNode):
-            return self._rule(node, where)
-        rows = self.numbers.matrix(node, where)
-        self.numbers.rectangular(rows, node, where)
-        return MatrixText(node, rows) if rows else None
+def _block(at: Reading, node: Node, where: str) -> BlockText | None:
+    """A block as a matrix or as a rule."""
+    if not isinstance(node, SequenceNode):
+        return _rule(at, node, where)
+    rows = at.numbers.matrix(node, where)
+    at.numbers.rectangular(rows, node, where)
+    return MatrixText(node, rows) if rows else None
 
-    def _rule(self, node: Node, where: str) -> RuleText | None:
-        if isinstance(node, ScalarNode):
-            rule = self.source.choice(node, where, ALL_RULES)
-            return RuleText(node, ((rule, None),)) if rule else None
-        of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
-        if of_pairs:
-            first = of_pairs[0]
-            why = "makes both blocks of a pair of colours"
-            message = f"{where}: {first} {why} and cannot be combined"
-            self.source.fault(node, message, f"write {first} on its own", code="not-together")
-            return None
-        form = "write one of the rules, for instance transfer: collocation"
-        entries = self.source.mapping(node, where, RULES, form=form)
-        if not entries:
-            if isinstance(node, MappingNode) and not node.value:
-                cure = f"one of: {', '.join(ALL_RULES)}"
-                self.source.fault(node, f"{where}: no rule", cure, code="missing-key")
-            return None
-        terms = []
-        for rule, weight in entries.items():
-            place = f"{where}, weight of {rule}"
-            terms.append((rule, self.numbers.entry(weight, place)))
-        return RuleText(node, tuple(terms))
+
+def _rule(at: Reading, node: Node, where: str) -> RuleText | None:
+    if isinstance(node, ScalarNode):
+        rule = at.source.choice(node, where, ALL_RULES)
+        return RuleText(node, ((rule, None),)) if rule else None
+    of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
+    if of_pairs:
+        why = "makes both blocks of a pair of colours and cannot be combined"
+        cure = f"write {of_pairs[0]} on its own"
+        at.source.fault(node, f"{where}: {of_pairs[0]} {why}", cure, code="not-together")
+        return None
+    form = "write one of the rules, for instance transfer: collocation"
+    entries = at.source.mapping(node, where, RULES, form=form)
+    if isinstance(node, MappingNode) and not node.value:
+        cure = f"one of: {', '.join(ALL_RULES)}"
+        at.source.fault(node, f"{where}: no rule", cure, code="missing-key")
+    terms = [
+        (rule, at.numbers.entry(weight, f"{where}, weight of {rule}"))
+        for rule, weight in entries.items()
+    ]
+    return RuleText(node, tuple(terms)) if terms else None

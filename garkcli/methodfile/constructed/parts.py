@@ -14,7 +14,7 @@ from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.build import families_of, nodes_to_spell_out
 from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
 from garkcli.methodfile.grammar import defined
-from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.numbers import Numbers, Reading
 from garkcli.methodfile.source import Source
 from garkcli.tableau.tableau import Method, Tableau
 
@@ -44,12 +44,11 @@ Written: TypeAlias = Callable[[Node, str], Description | None]
 """Reads a method that stands in this file, called so in messages."""
 
 
-class PartReader:
+class PartReader(Reading):
     """Reads what one construction is made from.
 
     Args:
-        source: the file, where faults are noted.
-        numbers: its coefficients.
+        numbers: the coefficients of the file.
         written: what reads methods that are spelled out.
         opened: what reads methods of the catalogue.
         tolerance: the rounding that the file states; None where it states none.
@@ -61,15 +60,13 @@ class PartReader:
 
     def __init__(
         self,
-        source: Source,
         numbers: Numbers,
         written: Written,
         opened: Open,
         tolerance: fmpq | None,
         structure: Structure,
     ) -> None:
-        self.source = source
-        self.numbers = numbers
+        super().__init__(numbers)
         self.tolerance = tolerance
         self.structure = structure
         self.parts: list[PartText] = []
