@@ -11,7 +11,7 @@ from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, value_of
-from garkcli.exact.nodes import Expression, Literal, Name
+from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.methodfile.nodes import is_null, shortened, unquoted
 from garkcli.methodfile.numbers import MAX_SIZE
@@ -76,24 +76,15 @@ class Formulas:
             return None
         if names is None:
             return expression
-        are_known = self._are_known(expression, node, where, names, noun)
-        return expression if are_known else None
-
-    def _are_known(
-        self, expression: Expression, node: Node, where: str, names: Mapping[str, str], noun: str
-    ) -> bool:
-        """Whether all names have a meaning; each that has none is noted at its first place."""
-        own = {name for name, cure in names.items() if not cure}
-        allowed = {*self.values, *CONSTANTS, *own}
-        strangers: dict[str, Name] = {}
-        for found in reversed([*names_in(expression)]):
-            if found.name not in allowed:
-                strangers[found.name] = found
+        # each name without a meaning is noted at its first place
+        allowed = {*self.values, *CONSTANTS, *(name for name, cure in names.items() if not cure)}
+        found = [x for x in names_in(expression) if x.name not in allowed]
+        strangers = {x.name: x for x in reversed(found)}
         for name, place in strangers.items():
             message = f"{where}: {shortened(name)} is no {noun}"
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
             self.source.fault(node, message, cure, place.start, code="wrong-value")
-        return not strangers
+        return None if strangers else expression
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
         """A formula of parameters alone, and its value."""
@@ -125,9 +116,7 @@ class Formulas:
 
     def read_parameters(self, node: Node | None) -> None:
         """Read ``parameters``; each may use those before it."""
-        if node is None:
-            return
-        entries = self.source.mapping(node, "parameters", ())
+        entries = {} if node is None else self.source.mapping(node, "parameters", ())
         for name, value_node in entries.items():
             where = f"parameters: {unquoted(name)}"
             message = bad_name(name)
@@ -138,20 +127,14 @@ class Formulas:
             if name in self.given:
                 found = (Literal(self.given[name]), self.given[name])
             # a faulty parameter is 1, so that formulas with it are still read
-            expression: Expression | None = None
-            value: Value = fmpq(1)
-            if found is not None:
-                expression, value = found
-            if isinstance(value, fmpq):
-                self.made[name] = rational(value)
-            else:
-                assert expression is not None
-                self.made[name] = self.translator({}).translate(expression)
+            expression, value = found or (Literal(fmpq(1)), fmpq(1))
+            self.made[name] = (
+                rational(value)
+                if isinstance(value, fmpq)
+                else self.translator({}).translate(expression)
+            )
             self.values[name] = value
-            size = 1
-            if expression is not None:
-                size = size_of(expression, self._sizes)
-            self._sizes[name] = size
+            self._sizes[name] = size_of(expression, self._sizes)
 
 
 def bad_name(name: str) -> str:
@@ -173,15 +156,11 @@ def nearby(value: Value) -> fmpq:
     """
     if isinstance(value, fmpq):
         return value
-    middle = _rational(value)
+    # the middle of a ball is a whole number times a power of 2
+    mantissa, exponent = map(int, value.mid().man_exp())
+    middle = mantissa * fmpq(2) ** exponent
     reach = fmpq(1, 10**PLACES)
     return _simplest(middle - reach, middle + reach)
-
-
-def _rational(value: arb) -> fmpq:
-    """The middle of a ball, which is a whole number times a power of 2."""
-    mantissa, exponent = map(int, value.mid().man_exp())
-    return mantissa * fmpq(2) ** exponent
 
 
 def _simplest(low: fmpq, high: fmpq) -> fmpq:
@@ -240,11 +219,8 @@ class TermReader:
                 the variables have faults: then nothing is translated.
             noun: what a name can be here.
         """
-        allowed: dict[str, Expr] = {}
-        for name, cure in (names or {}).items():
-            if not cure:
-                allowed[name] = symbols[name]
-        translator = self.formulas.translator(allowed)
+        allowed = [name for name, cure in (names or {}).items() if not cure]
+        translator = self.formulas.translator({name: symbols[name] for name in allowed})
         found = []
         for node, where in items:
             expression = self.formulas.parsed(node, where, names, noun)
@@ -323,8 +299,8 @@ class TermReader:
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]
-            found = f"second derivatives of {sum(sizes)} operations"
-            message = f"{largest.where}: {found} (limit {MAX_SIZE})"
+            message = f"{largest.where}: second derivatives of {sum(sizes)} operations"
+            message += f" (limit {MAX_SIZE})"
             cure = "write it shorter, or with fewer variables"
             self.source.fault(largest.node, message, cure, code="too-many")
 
@@ -333,14 +309,12 @@ class TermReader:
         import sympy
 
         for term in terms:
-            longest = 0
-            for x in term.made.atoms(sympy.Rational):
-                largest = max(abs(int(x.p)), int(x.q))
-                longest = max(longest, largest.bit_length())
+            rationals = term.made.atoms(sympy.Rational)
+            parts = [int(part).bit_length() for x in rationals for part in (x.p, x.q)]
+            longest = max(parts, default=0)
             if longest > MAX_BITS:
                 digits = int(longest * LOG10_2)
-                found = f"a coefficient of about {digits} digits"
-                message = f"{term.where}: {found}"
+                message = f"{term.where}: a coefficient of about {digits} digits"
                 cure = "choose units in which coefficients are shorter"
                 self.source.fault(term.node, message, cure, code="number-too-large")
 
@@ -352,8 +326,4 @@ def formulas_of_invariants(text: ProblemText) -> list[tuple[Node, str]]:
 
 def named(invariants: Sequence[Term]) -> Invariants:
     """First integrals with the names that the file has for them."""
-    found: list[tuple[str, Expr]] = []
-    for term in invariants:
-        name = term.where.removeprefix("invariants: ")
-        found.append((name, term.made))
-    return tuple(found)
+    return tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants)

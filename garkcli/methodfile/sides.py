@@ -9,7 +9,6 @@ from itertools import chain
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq
-from yaml.nodes import Node
 
 from garkcli.methodfile.formulas import (
     Formulas,
@@ -44,8 +43,7 @@ class SidesMaker:
         self.reader = TermReader(source, formulas)
         self.y = symbols(text.variables, "y")
         (self.t,) = symbols(text.variables, TIME)
-        every = (*self.y, self.t)
-        self._symbols = {str(x): x for x in every}
+        self._symbols = {str(x): x for x in (*self.y, self.t)}
 
     def problem(self) -> RightHandSide:
         """The problem.
@@ -57,7 +55,9 @@ class SidesMaker:
 
         exact = self._exact()
         start = self._initial(exact)
-        terms = [self._side(side) for side in self.text.sides]
+        names = dict.fromkeys(self._symbols, "")
+        noun = "variable or parameter, nor t"
+        terms = [self._by_name(side, names, noun) for side in self.text.sides]
         invariants = self._invariants()
         all_terms = list(chain(*(term.values() for term in terms)))
         if start is not None:
@@ -72,6 +72,7 @@ class SidesMaker:
         self.reader.check_derivatives(all_terms, self.y, start, {self.t: arb(0)})
         self._refuse_constants(all_terms, terms, invariants)
         self.source.close()
+        stiffness = self.formulas.values.get(STIFFNESS)
         made = RightHandSide(
             self.text.name,
             self.text.variables,
@@ -80,46 +81,33 @@ class SidesMaker:
             self.text.t_end,
             named(invariants),
             None if exact is None else self._components(exact),
-            stiffness=self._stiffness,
+            stiffness=stiffness if isinstance(stiffness, fmpq) else None,
         )
         if exact is not None:
             self._check_solution(made, exact)
             self.source.close()
         return made
 
-    @property
-    def _stiffness(self) -> fmpq | None:
-        found = self.formulas.values.get(STIFFNESS)
-        return found if isinstance(found, fmpq) else None
-
     def _components(self, term: ByName) -> tuple[object, ...]:
         """D expressions: 0 for what is left out."""
         import sympy
 
         zero = sympy.Integer(0)
-        made = {name: x.made for name, x in term.items()}
-        return tuple(made.get(name, zero) for name in self.text.variables)
-
-    def _side(self, side: Side) -> ByName:
-        """The formulas of one term by the names of variables."""
-        names = dict.fromkeys(self._symbols, "")
-        noun = "variable or parameter, nor t"
-        return self._by_name(side, names, noun)
+        return tuple(term[x].made if x in term else zero for x in self.text.variables)
 
     def _by_name(self, items: Side, names: dict[str, str], noun: str) -> ByName:
         known = names if self.text.are_named else None
-        found = {}
-        for name, node, where in items:
-            for term in self.reader.terms([(node, where)], self._symbols, known, noun):
-                found[name] = term
-        return found
+        return {
+            name: term
+            for name, node, where in items
+            for term in self.reader.terms([(node, where)], self._symbols, known, noun)
+        }
 
     def _invariants(self) -> list[Term]:
         names = dict.fromkeys(map(str, self.y), "")
         names[TIME] = "an invariant depends on the variables alone"
-        items = formulas_of_invariants(self.text)
         known = names if self.text.are_named else None
-        noun = "variable or parameter"
+        items, noun = formulas_of_invariants(self.text), "variable or parameter"
         return self.reader.terms(items, self._symbols, known, noun)
 
     def _exact(self) -> ByName | None:
@@ -130,13 +118,9 @@ class SidesMaker:
         before = len(self.source.faults)
         variables = self.text.variables if self.text.are_named else ()
         entries = self.source.mapping(node, "exact", variables)
-        items: list[tuple[str, Node, str]] = []
-        for name, formula in entries.items():
-            items.append((name, formula, f"exact: {name}"))
-        unknowns = map(str, self.y)
-        names = dict.fromkeys(unknowns, "the solution is a formula in t")
-        names[TIME] = ""
-        found = self._by_name(tuple(items), names, "parameter, nor t")
+        items = tuple((name, formula, f"exact: {name}") for name, formula in entries.items())
+        names = dict.fromkeys(map(str, self.y), "the solution is a formula in t") | {TIME: ""}
+        found = self._by_name(items, names, "parameter, nor t")
         if self.text.are_named:
             cure = f"a formula, such as {{}}: cos({TIME})"
             self.reader.refuse_missing(node, "exact", variables, entries, cure)
@@ -185,11 +169,8 @@ class SidesMaker:
         self, all_terms: Sequence[Term], terms: Sequence[ByName], invariants: Sequence[Term]
     ) -> None:
         """Note right-hand sides with which nothing moves, and invariants that depend on nothing."""
-        moves = False
-        for name in self.text.variables:
-            parts = [term[name].made for term in terms if name in term]
-            moves = moves or sum(parts) != 0
-        if not moves:
+        parts = ([x[name].made for x in terms if name in x] for name in self.text.variables)
+        if not any(sum(made) != 0 for made in parts):
             message = "nothing moves: the right-hand sides sum to 0"
             cure = "write the derivative of a variable"
             self.source.fault(all_terms[0].node, message, cure, code="nothing-moves")
@@ -209,18 +190,15 @@ class SidesMaker:
             at = {self.t: arb(time)}
             for name, total in totals.items():
                 term = exact[name]
-                slope = term.made.diff(self.t)
-                field = total.xreplace(places)
-                has, needs = enclosed([slope, field], at)
+                has, needs = enclosed([term.made.diff(self.t), total.xreplace(places)], at)
                 if not (has.is_finite() and needs.is_finite()):
                     message = f"{term.where} has no value at t = {time}"
                     cure = "give an earlier t_end"
                     self.source.fault(term.node, message, cure, code="no-formula")
                     return
                 if not has.overlaps(needs):
-                    message = f"{term.where} is no solution: at t = {time} "
-                    message += f"its derivative is {_decimal(has)}, "
-                    message += f"the right-hand sides give {_decimal(needs)}"
+                    message = f"{term.where} is no solution: at t = {time} its derivative is "
+                    message += f"{_decimal(has)}, the right-hand sides give {_decimal(needs)}"
                     cure = "correct it, or leave exact out"
                     self.source.fault(term.node, message, cure, code="no-solution")
                     return

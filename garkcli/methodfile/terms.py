@@ -26,7 +26,7 @@ from garkcli.methodfile.formulas import (
 )
 from garkcli.methodfile.problem_keys import ProblemText
 from garkcli.methodfile.source import Source
-from garkcli.problems.expr import Expr, Place, Vector
+from garkcli.problems.expr import Place, Vector
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
@@ -68,8 +68,7 @@ class Maker:
         assert start is not None
         if self.is_lagrangian:
             terms, start = self._transformed(terms, start)
-        names = [str(x) for x in (*self.q, *self.p)]
-        at = {name: start[name] for name in names}
+        at = {str(x): start[str(x)] for x in (*self.q, *self.p)}
         self.reader.check_derivatives(terms, (*self.q, *self.p), at, {})
         self.reader.check_values(invariants, at)
         self._refuse_constants(terms, invariants)
@@ -108,12 +107,8 @@ class Maker:
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
-        names: dict[str, str] = {}
-        for x, y in zip(motion, other, strict=True):
-            names[str(y)] = cure.format(x)
-        for x in (*self.q, *motion):
-            names[str(x)] = ""
-        return names
+        others = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
+        return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
 
     def _terms(self) -> list[Term]:
         if self.is_lagrangian:
@@ -126,14 +121,13 @@ class Maker:
 
     def _invariants(self) -> list[Term]:
         names = self._names(self.p, self.v, "invariants have momenta: {}")
-        items = formulas_of_invariants(self.text)
-        return self._formulas(items, names, "variable, momentum or parameter")
+        noun = "variable, momentum or parameter"
+        return self._formulas(formulas_of_invariants(self.text), names, noun)
 
     def _formulas(
         self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str
     ) -> list[Term]:
-        every = (*self.q, *self.p, *self.v)
-        symbols = {str(x): x for x in every}
+        symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
         known = names if self.text.are_named else None
         return self.reader.terms(items, symbols, known, noun)
 
@@ -144,16 +138,13 @@ class Maker:
         velocities = set(self.v)
         moving = [x for x in lagrangians if x.made.free_symbols & velocities]
         if not moving:
-            names = ", ".join(map(str, self.v[:3]))
             message = "the Lagrangian has no velocities"
-            cure = f"the kinetic energy has {names}"
+            cure = f"the kinetic energy has {', '.join(map(str, self.v[:3]))}"
             self.source.fault(lagrangians[0].node, message, cure, code="missing-key")
         has_velocities = str(self.v[0]) in start
-        at: dict[Expr, arb] = {}
+        every = (*self.q, *self.p, *self.v)
         with ctx.workprec(BITS):
-            for x in (*self.q, *self.p, *self.v):
-                if str(x) in start:
-                    at[x] = arb(start[str(x)])
+            at = {x: arb(start[str(x)]) for x in every if str(x) in start}
         # with several moving terms the velocity of each is not q̇(0), only their sum is
         is_one = len(moving) == 1 or not has_velocities
         known = at if is_one else {x: at[x] for x in self.q}
@@ -177,9 +168,8 @@ class Maker:
             message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
             self.source.fault(term.node, message, WRITE_HAMILTONIAN, code="no-legendre-transform")
             return None
-        variables = self.text.variables
         try:
-            made = legendre_transform(term.made, variables, known)
+            made = legendre_transform(term.made, self.text.variables, known)
         except NoLegendreTransform as error:
             message = f"{term.where}: {error.message}"
             self.source.fault(term.node, message, error.help, code=error.code)
@@ -218,8 +208,9 @@ class Maker:
         total = sum(x.made for x in terms)
         if is_constant(total):
             parts = "the sum of its terms" if len(terms) > 1 else "it"
-            why = f"{parts} depends on no variable, and nothing moves"
-            message = f"the Hamiltonian is constant: {why}"
+            message = (
+                f"the Hamiltonian is constant: {parts} depends on no variable, and nothing moves"
+            )
             cure = "write it in positions and momenta"
             self.source.fault(terms[0].node, message, cure, code="nothing-moves")
         self.reader.refuse_constants(invariants, "positions and momenta")
