@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
-from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.description import (
     ArkText,
@@ -49,7 +49,7 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Method, Tableau, butcher
-from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
+from garkcli.transfer import PAIR_RULES, RULES, build_on, combination, symplectic_blocks
 
 if TYPE_CHECKING:
     from garkcli.methodfile.printed import Printed
@@ -84,10 +84,9 @@ class BlockBuilder:
         Raises:
             MethodFileError: a block cannot be made.
         """
-        needed = [(1, 0)]
-        if is_general:
-            colours = range(len(self.methods))
-            needed = [(l, m) for l in colours for m in colours if l != m]
+        colours = range(len(self.methods))
+        every = [(l, m) for l in colours for m in colours if l != m]
+        needed = every if is_general else [(1, 0)]
         blocks: Blocks = {}
         for l, m in needed:
             text = self._text_of(l, m)
@@ -103,16 +102,10 @@ class BlockBuilder:
     def _text_of(self, l: int, m: int) -> MatrixText | RuleText | None:
         """What the file says of a block: itself, with the opposite one, or of all."""
         transfer = self.text.transfer
-        own = transfer.blocks.get((l, m))
-        return own or self._rule_of_both(m, l) or transfer.default
-
-    def _rule_of_both(self, l: int, m: int) -> RuleText | None:
-        """The rule given for the block (l, m), when it makes the opposite block too."""
-        block = self.text.transfer.blocks.get((l, m))
-        if not isinstance(block, RuleText):
-            return None
-        rule, _ = block.terms[0]
-        return block if rule in PAIR_RULES else None
+        own, opposite = transfer.blocks.get((l, m)), transfer.blocks.get((m, l))
+        if own is None and isinstance(opposite, RuleText) and opposite.terms[0][0] in PAIR_RULES:
+            return opposite
+        return own or transfer.default
 
     def _block(self, text: MatrixText | RuleText | None, l: int, m: int) -> Matrix:
         if text is None:
@@ -124,15 +117,11 @@ class BlockBuilder:
 
     def _matrix(self, text: MatrixText, l: int, m: int) -> Matrix:
         """A block that the file spells out."""
-        rows = self.methods[l].stages
-        columns = self.methods[m].stages
-        found_rows = len(text.rows)
-        found_columns = len(text.rows[0])
-        if (found_rows, found_columns) != (rows, columns):
-            found = f"a matrix of {found_rows} by {found_columns}"
-            message = f"{found} should be {rows} by {columns}"
-            cure = f"a row for each stage of method {l + 1},"
-            cure += f" a column for each of method {m + 1}"
+        wanted = self.methods[l].stages, self.methods[m].stages
+        found = len(text.rows), len(text.rows[0])
+        if found != wanted:
+            message = "a matrix of {} by {} should be {} by {}".format(*found, *wanted)
+            cure = f"a row for each stage of method {l + 1}, a column for each of method {m + 1}"
             raise ShapeMismatch(message, cure)
         return self.values.matrix(text.rows)
 
@@ -160,10 +149,7 @@ class BlockBuilder:
         Raises:
             MethodError: its weights do not sum to 1.
         """
-        terms: list[tuple[Number, Rule]] = []
-        for name, tau in text.terms:
-            if tau is not None:
-                terms.append((self.values.number(tau), RULES[name]))
+        terms = [(self.values.number(tau), RULES[x]) for x, tau in text.terms if tau is not None]
         total = sum((tau for tau, _ in terms), start=ZERO)
         if total != ONE:
             raise MethodError(
@@ -176,8 +162,7 @@ class BlockBuilder:
     def _order(self, l: int) -> int:
         """The order of a diagonal method on its own, found once."""
         if l not in self._orders:
-            alone = gark([self.methods[l]], {})
-            self._orders[l] = find_order(alone).order
+            self._orders[l] = find_order(gark([self.methods[l]], {})).order
         return self._orders[l]
 
 
@@ -253,20 +238,17 @@ class Builder:
             case TableauText():
                 tableau = self._spelled_out(content)
             case ArkText():
-                tableau = self._additive(content)
+                A, b = map(self.values.matrix, content.A), map(self.values.vector, content.b)
+                tableau = additive([*A], [*b], self._vector(content.c))
             case PrkText():
                 tableau = self._prk(content, description.structure)
             case ConstructionText():
-                tableau = self._constructed(content)
+                for part in content.parts:  # all are built
+                    self.part(part)
+                tableau = self._at(content.node, lambda: content.make(self.part, self.values))
         if description.is_conjugate:
             tableau = self._at(description.node, lambda: conjugate(tableau))
         return tableau
-
-    def _constructed(self, text: ConstructionText) -> Tableau:
-        """A method made from others, all of which are built."""
-        for part in text.parts:
-            self.part(part)
-        return self._at(text.node, lambda: text.make(self.part, self.values))
 
     def part(self, part: PartText) -> Tableau:
         """A method that another is made from, built as if it stood alone."""
@@ -283,14 +265,9 @@ class Builder:
         texts = further_of(description.content)
         if not texts:  # what a construction makes has none
             return Further()
-        of_colours = [texts[colour.term] for colour in tableau.colours]
-        embedded: list[Vector] = []
-        blocks: list[Matrix] = []
-        for text in of_colours:
-            if text.embedded is not None:
-                embedded.append(self.values.vector(text.embedded))
-            if text.dense is not None:
-                blocks.append(self.values.matrix(text.dense))
+        given = [texts[colour.term] for colour in tableau.colours]
+        embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]
+        blocks = [self.values.matrix(x.dense) for x in given if x.dense is not None]
         dense = None
         if blocks:
             degree = max(len(block[0]) for block in blocks)
@@ -321,40 +298,26 @@ class Builder:
         c = [self._vector(row) for row in text.c]
         return spelled_out(A, b, c, text.linear)
 
-    def _additive(self, text: ArkText) -> Tableau:
-        A = [self.values.matrix(rows) for rows in text.A]
-        b = [self.values.vector(row) for row in text.b]
-        return additive(A, b, self._vector(text.c))
-
     def _prk(self, text: PrkText, structure: Structure) -> Tableau:
-        q = self._part(text.q)
-        p = self._part(text.p)
+        q, p = self._part(text.q), self._part(text.p)
         if structure == "general":
             return partitioned(butcher(*q), butcher(*p))
         tableau = separable_prk(q, p)
-        if structure == "nystrom":
-            return with_linear(tableau, ["q"])
-        return tableau
+        return with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
 
     def _part(self, text: ButcherText) -> tuple[Matrix, Vector, Vector | None]:
         """A, b and c of one part."""
-        A = self.values.matrix(text.A)
-        b = self.values.vector(text.b)
-        return A, b, self._vector(text.c)
+        return self.values.matrix(text.A), self.values.vector(text.b), self._vector(text.c)
 
     def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
-        methods: list[Method] = []
-        for l, method in enumerate(text.methods):
-            methods.append(self._diagonal(l, method))
+        methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
         is_general = structure == "general"
         blocks = BlockBuilder(self.source, self.values, text, methods)
         tableau = gark(methods, blocks.built(is_general))
         if is_general:
             return tableau
-        velocities, forces = [0], [1]
-        if structure == "semi-separable":
-            forces = [0, 1]
-        both = self._at(text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces))
+        forces = [0, 1] if structure == "semi-separable" else [1]
+        both = self._at(text.methods[0].node, lambda: symplectic_pair(tableau, [0], forces))
         return with_linear(both, ["V1"]) if structure == "nystrom" else both
 
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
@@ -367,8 +330,7 @@ class Builder:
             from garkcli.tableau.pointwise import method_in_points
 
             return method_in_points(method, self.values.vector(self.nodes[l]))
-        A, b, c = self._part(text)
-        return butcher(A, b, c, text.name)
+        return butcher(*self._part(text), text.name)
 
 
 def families_of(description: Description) -> dict[int, Method]:
@@ -406,16 +368,11 @@ def nodes_to_spell_out(
     content = description.content
     if not isinstance(content, MethodsText):
         return {}
-    blocks = content.transfer.blocks
-    beside: dict[int, None] = {}
-    for (l, m), block in blocks.items():
-        if isinstance(block, MatrixText):
-            beside |= {l: None, m: None}
-    for l, method in enumerate(content.methods):
-        if method.further.node is not None or why:
-            beside[l] = None
+    blocks = content.transfer.blocks.items()
+    beside = [k for place, block in blocks if isinstance(block, MatrixText) for k in place]
+    beside += [l for l, x in enumerate(content.methods) if x.further.node is not None or why]
     rows: dict[int, Row] = {}
-    for k in beside:
+    for k in dict.fromkeys(beside):
         text = content.methods[k]
         if not isinstance(text, FamilyText) or k not in families:
             continue
@@ -448,8 +405,5 @@ def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers, why: st
             cure = "take fewer stages, or spell the method out"
         numbers.source.fault(text.node, message, cure, code="no-radicals")
         return None
-    entries: list[Entry] = []
-    for i, node in enumerate(nodes, start=1):
-        where = f"node {i} of {text.name}"
-        entries.append(Entry(node, text.node, where))
-    return tuple(entries)
+    numbered = enumerate(nodes, start=1)
+    return tuple(Entry(x, text.node, f"node {i} of {text.name}") for i, x in numbered)

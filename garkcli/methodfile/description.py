@@ -198,9 +198,8 @@ class PartText:
     def tolerance(self) -> fmpq | None:
         """The rounding of its coefficients."""
         content = self.description.content
-        if isinstance(content, ConstructionText):
-            return self.description.tolerance or content.tolerance
-        return self.description.tolerance
+        made = content.tolerance if isinstance(content, ConstructionText) else None
+        return self.description.tolerance or made
 
 
 Make: TypeAlias = "Callable[[Callable[[PartText], Tableau], Values], Tableau]"
@@ -247,16 +246,14 @@ def left_behind(content: Content) -> tuple[str, ...]:
     """
     if not isinstance(content, ConstructionText):
         return ()
-    found: dict[str, None] = {}
+    found: list[str] = []
     for part in content.parts:
         inside = part.description.content
-        found |= dict.fromkeys(left_behind(inside))
+        found += left_behind(inside)
         for text in further_of(inside):
-            if text.embedded is not None:
-                found["embedded weights"] = None
-            if text.dense is not None:
-                found["dense output"] = None
-    return tuple(found)
+            found += ["embedded weights"] if text.embedded is not None else []
+            found += ["dense output"] if text.dense is not None else []
+    return tuple(dict.fromkeys(found))
 
 
 @dataclass(frozen=True)

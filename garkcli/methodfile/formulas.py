@@ -299,8 +299,8 @@ class TermReader:
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]
-            message = f"{largest.where}: second derivatives of {sum(sizes)} operations"
-            message += f" (limit {MAX_SIZE})"
+            found = f"second derivatives of {sum(sizes)} operations"
+            message = f"{largest.where}: {found} (limit {MAX_SIZE})"
             cure = "write it shorter, or with fewer variables"
             self.source.fault(largest.node, message, cure, code="too-many")
 

@@ -43,17 +43,13 @@ def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmp
     >>> units[fmpq(1, 2)]
     11/1000000000
     """
-    longest = 0
-    for expression, _ in printed:
-        for literal in _literals(expression):
-            longest = max(longest, _digits(literal))
+    longest = max((_digits(x) for text, _ in printed for x in _literals(text)), default=0)
     half = longest // 2 + 1
     fewest = max(FEWEST_DIGITS, half if many is None else min(half, many))
     units: dict[Number, fmpq] = {}
     with ctx.workprec(4 * longest + 128):
         for expression, value in printed:
-            enclosure = _enclosed(expression, fewest)
-            unit = _radius(enclosure)
+            unit = _radius(_enclosed(expression, fewest))
             # equal values may be printed to different lengths
             units[value] = max(unit, units.get(value, unit))
     return units
@@ -113,15 +109,13 @@ def _literals(expression: Expression) -> Iterator[Literal]:
 def _digits(literal: Literal) -> int:
     """Digits of a printed number, without zeros in front."""
     mantissa = literal.text.lower().partition("e")[0]
-    digits = mantissa.replace(".", "")
-    return len(digits.lstrip("0"))
+    return len(mantissa.replace(".", "").lstrip("0"))
 
 
 def _unit(literal: Literal) -> fmpq:
     """One in the last place."""
     mantissa, _, exponent = literal.text.lower().partition("e")
-    fraction = mantissa.partition(".")[2]
-    decimals = len(fraction) - int(exponent or 0)
+    decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
     return fmpq(10) ** -decimals
 
 
@@ -130,11 +124,9 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
     match expression:
         case Literal(value=value):
             least = FEWEST_DIGITS if expression.text.isdigit() else fewest
-            is_rounded = _digits(expression) >= least
-            if not is_rounded:
+            if _digits(expression) < least:
                 return arb(value)
-            unit = arb(_unit(expression))
-            return arb(value, unit)
+            return arb(value, arb(_unit(expression)))
         case Chain(signs=signs, operands=operands):
             total = arb(0) if signs[0] in "+-" else arb(1)
             for sign, operand in zip(signs, operands, strict=True):
@@ -144,9 +136,7 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
             return integer_power(_enclosed(base, fewest), exponent)
         case Root(radicand=radicand, index=index):
             inner = _enclosed(radicand, fewest)
-            if inner < 0:
-                return -(-inner).root(index)
-            return inner.root(index)
+            return -(-inner).root(index) if inner < 0 else inner.root(index)
         case AlgebraicRoot():
             return enclose(expression)
     return arb(0)

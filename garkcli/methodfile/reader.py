@@ -179,7 +179,8 @@ class Reader(Reading):
     def __init__(
         self, source: Source, settings: Mapping[str, str], inside: tuple[str, ...] = ()
     ) -> None:
-        super().__init__(Numbers(source, settings=settings))
+        self.source = source
+        self.numbers = Numbers(source, settings=settings)
         self.content = ContentReader(self.numbers, self._opened)
         self._inside = inside
         self.keys: frozenset[str] = frozenset()

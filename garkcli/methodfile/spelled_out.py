@@ -258,7 +258,7 @@ def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row
     is_square = all(len(row) == rows for row in A)
     if is_square and rows != stages and (c is None or len(c) == rows):
         # A and c agree with each other, so the mistake is in b
-        message = f"{why}, {name_of_A} is {rows} by {rows}"
+        message = f"{name_of_b} has {entries_of(stages)}, {name_of_A} is {rows} by {rows}"
         at.source.fault(entries["b"], message, "both have one a stage", code="wrong-size")
         return None
     A = at.numbers.fitted(A, entries["A"], name_of_A, (stages, stages), why)

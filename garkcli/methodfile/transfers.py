@@ -93,9 +93,10 @@ def _blocks(at: Reading, node: Node, colours: int) -> BlockTexts:
     for key, value in at.source.mapping(node, "transfer, blocks", (), form=form).items():
         l, m = _block_of(key)
         if l == m or max(l, m) >= colours:
-            shown = f"{shortened(key)} names no off-diagonal block of {colours} colours"
+            wanted = f"off-diagonal block of {colours} colours"
+            message = f"transfer, blocks: {shortened(key)} names no {wanted}"
             cure = 'write for instance "1,2" for the block A^{1,2}'
-            at.source.fault(keys[key], f"transfer, blocks: {shown}", cure, code="wrong-value")
+            at.source.fault(keys[key], message, cure, code="wrong-value")
             continue
         where = block_name(l, m)
         if (l, m) in blocks:
@@ -122,9 +123,9 @@ def _rule(at: Reading, node: Node, where: str) -> RuleText | None:
         return RuleText(node, ((rule, None),)) if rule else None
     of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
     if of_pairs:
-        why = "makes both blocks of a pair of colours and cannot be combined"
-        cure = f"write {of_pairs[0]} on its own"
-        at.source.fault(node, f"{where}: {of_pairs[0]} {why}", cure, code="not-together")
+        why = "makes both blocks of a pair of colours"
+        message = f"{where}: {of_pairs[0]} {why} and cannot be combined"
+        at.source.fault(node, message, f"write {of_pairs[0]} on its own", code="not-together")
         return None
     form = "write one of the rules, for instance transfer: collocation"
     entries = at.source.mapping(node, where, RULES, form=form)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -42,20 +43,16 @@ def write_tableau_file(
         parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
         further: embedded weights and dense output, written beside b.
     """
-    lines = [f"# {line}" for line in note.splitlines()]
-    lines.append("gark: 1")
-    lines.append(f"name: {quoted(name)}")
+    lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]
     if parameters:
         lines.append(f"parameters: {{{', '.join(parameters)}}}")
     if _is_prk(tableau):
         lines += _prk(tableau, text, further)
-    elif _is_ark(tableau):
-        lines += _ark(tableau, text)
-        lines += _further(further, text)
     else:
-        lines += _blocks(tableau, text)
+        lines += _ark(tableau, text) if _is_ark(tableau) else _blocks(tableau, text)
         lines += _further(further, text)
-        lines += _linear(tableau)
+        linear = [str(l) for l, x in enumerate(tableau.colours, start=1) if x.is_linear]
+        lines += [f"linear: [{', '.join(linear)}]"] if linear else []
     if tolerance is not None:
         lines.append(f"tolerance: {decimal(tolerance)}")
     return "\n".join(lines) + "\n"
@@ -84,11 +81,9 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Furthe
     digits = entries.digits
     made = _rounded_tableau(tableau, entries)
     largest = max(abs(x) for x in _rationals(made))
-    whole = int(largest.floor())
-    digits_before_the_point = len(str(whole))
+    digits_before_the_point = len(str(int(largest.floor())))
     # a hundred units in the last digit
-    exponent = 2 + digits_before_the_point - digits
-    tolerance = fmpq(10) ** exponent
+    tolerance = fmpq(10) ** (2 + digits_before_the_point - digits)
     note = f"rounded to {digits} digits"
     rounded = further.changed(lambda number: _rounded(to_ball(number, digits), digits))
     return write_tableau_file(made, name, tolerance, note, _decimal_text, further=rounded)
@@ -126,23 +121,14 @@ def _rounded(cell: Cell, digits: int) -> fmpq:
 
 
 def _decimal_text(number: Number) -> str:
-    if isinstance(number, fmpq):
-        return plain_decimal(number)
-    return to_text(number)
+    return plain_decimal(number) if isinstance(number, fmpq) else to_text(number)
 
 
 def _rationals(tableau: Tableau) -> Iterator[fmpq]:
     """Every coefficient of a tableau whose coefficients are rational."""
-    rows: list[Vector] = []
-    for colour in tableau.colours:
-        rows.append(colour.b)
-        rows.append(colour.c)
-    for block in tableau.blocks.values():
-        rows += block
-    for row in rows:
-        for x in row:
-            if isinstance(x, fmpq):
-                yield x
+    rows = [row for colour in tableau.colours for row in (colour.b, colour.c)]
+    rows += chain.from_iterable(tableau.blocks.values())
+    yield from (x for x in chain.from_iterable(rows) if isinstance(x, fmpq))
 
 
 def can_spell_out(tableau: Tableau) -> bool:
@@ -170,9 +156,8 @@ def _is_ark(tableau: Tableau) -> bool:
     colours = tableau.colours
     if len(colours) == 1 or len(tableau.spaces) > 1:
         return False
-    nodes = {colour.c for colour in colours}
     is_plain = not any(colour.is_linear for colour in colours)
-    return len(nodes) == 1 and is_plain and _is_complete(tableau)
+    return len({colour.c for colour in colours}) == 1 and is_plain and _is_complete(tableau)
 
 
 def _is_complete(tableau: Tableau) -> bool:
@@ -181,14 +166,11 @@ def _is_complete(tableau: Tableau) -> bool:
 
 def _ark(tableau: Tableau, text: NumberText) -> list[str]:
     """The form ``ark``: one matrix a colour, all on the same stages."""
-    nodes = tableau.colours[0].c
-    lines = ["ark:", f"  c: {_row(nodes, text)}", "  A:"]
+    lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
     for m in range(tableau.size):
-        lines.append(f"    -  # A^{{{m + 1}}}")
-        lines += _items(tableau.blocks[0, m], 6, text)
-    lines.append("  b:")
-    weights = [colour.b for colour in tableau.colours]
-    return [*lines, *_items(weights, 4, text)]
+        lines += [f"    -  # A^{{{m + 1}}}", *_items(tableau.blocks[0, m], 6, text)]
+    weights = (colour.b for colour in tableau.colours)
+    return [*lines, "  b:", *_items(weights, 4, text)]
 
 
 def _items(rows: Iterable[Vector], indent: int, text: NumberText) -> Iterator[str]:
@@ -209,27 +191,15 @@ def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
     return [*lines, "  b:", *_items(weights, 4, text)]
 
 
-def _linear(tableau: Tableau) -> list[str]:
-    """The key ``linear``, where a colour is."""
-    numbered = enumerate(tableau.colours, start=1)
-    linear = [str(l) for l, colour in numbered if colour.is_linear]
-    if not linear:
-        return []
-    numbers = ", ".join(linear)
-    return [f"linear: [{numbers}]"]
-
-
 def _further(further: Further, text: NumberText) -> list[str]:
     """Embedded weights and dense output of a tableau or an ark, a part for each colour."""
     lines = []
     if further.embedded is not None:
         lines += ["  embedded:", *_items(further.embedded, 4, text)]
     if further.dense is not None:
-        lines += ["  dense:", f"    degree: {further.dense.degree}"]
-        lines.append("    weights:")
+        lines += ["  dense:", f"    degree: {further.dense.degree}", "    weights:"]
         for l, rows in enumerate(further.dense.weights, start=1):
-            lines.append(f"      -  # colour {l}: θ, θ², … a stage")
-            lines += _items(rows, 8, text)
+            lines += [f"      -  # colour {l}: θ, θ², … a stage", *_items(rows, 8, text)]
     return lines
 
 
@@ -237,11 +207,9 @@ def _further_of_part(further: Further, colour: int, text: NumberText) -> list[st
     """The same of one part of a prk."""
     lines = []
     if further.embedded is not None:
-        row = _row(further.embedded[colour], text)
-        lines.append(f"    embedded: {row}")
+        lines.append(f"    embedded: {_row(further.embedded[colour], text)}")
     if further.dense is not None:
-        lines += ["    dense:", f"      degree: {further.dense.degree}"]
-        lines.append("      weights:")
+        lines += ["    dense:", f"      degree: {further.dense.degree}", "      weights:"]
         lines += _items(further.dense.weights[colour], 8, text)
     return lines
 
@@ -265,42 +233,26 @@ def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
         block = tableau.blocks[tableau.colours[seen_at].space, drives]
-        weights = tableau.colours[drives].b
-        nodes = tableau.colours[seen_at].c
-        lines.append(f"  {part}:")
-        lines.append("    A:")
-        lines += _items(block, 6, text)
-        lines.append(f"    b: {_row(weights, text)}")
-        lines.append(f"    c: {_row(nodes, text)}")
+        lines += [f"  {part}:", "    A:", *_items(block, 6, text)]
+        lines.append(f"    b: {_row(tableau.colours[drives].b, text)}")
+        lines.append(f"    c: {_row(tableau.colours[seen_at].c, text)}")
         lines += _further_of_part(further, drives, text)
     structure = "separable"
     if len(tableau.spaces) == 1:
         structure = "general"
     elif tableau.colours[0].is_linear:
         structure = "nystrom"
-    lines.append(f"structure: {structure}")
-    return lines
+    return [*lines, f"structure: {structure}"]
 
 
 def _row(numbers: Sequence[Number], text: NumberText) -> str:
-    items = [_item(text(x)) for x in numbers]
-    inside = ", ".join(items)
-    return f"[{inside}]"
-
-
-def _item(text: str) -> str:
-    """A text as an entry in brackets; the comma of root(x, n) would end it."""
-    return quoted(text) if "," in text else text
+    # the comma of root(x, n) would end an entry in brackets
+    items = [quoted(x) if "," in x else x for x in map(text, numbers)]
+    return f"[{', '.join(items)}]"
 
 
 def quoted(text: str) -> str:
     """A text as YAML takes it at its word: in quotes, what cannot be printed as an escape."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    inside = "".join(map(_printable, escaped))
+    inside = "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
     return f'"{inside}"'
-
-
-def _printable(sign: str) -> str:
-    if sign.isprintable():
-        return sign
-    return f"\\U{ord(sign):08x}"
