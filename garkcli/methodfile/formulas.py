@@ -281,7 +281,7 @@ class TermReader:
         self, terms: Sequence[Term], y: Vector, start: Mapping[str, fmpq], more: Place
     ) -> None:
         """Note terms that have no derivative at the start, where more names may have values."""
-        from garkcli.problems.start import missing_derivative
+        from garkcli.problems.lagrangian import missing_derivative
 
         with ctx.workprec(BITS):
             at = {**{x: arb(start[str(x)]) for x in y}, **more}
