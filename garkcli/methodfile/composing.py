@@ -9,11 +9,11 @@ same answer on every machine.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 import yaml
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import Fault, printable
 
@@ -90,12 +90,12 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
     problem = str(error.problem or context)
     if context.startswith("found "):  # here the context says what is wrong
         problem = context.partition(";")[0]
-    cures = [cure for words, cure in _YAML_CURES if words in problem]
-    cure = cures[0] if cures else ""
+    cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
     if "parsing a flow" in context and error.context_mark:
         line, column = position(error.context_mark)
-        bracket = f"the bracket at {line}:{column} is open"
-        cure = f"{bracket}: close it, and put commas between its values"
+        cure = (
+            f"the bracket at {line}:{column} is open: close it, and put commas between its values"
+        )
     message = printable(f"this is not YAML: {problem}")
     return Fault(message, printable(cure), *position(mark), code="not-yaml")
 
@@ -148,17 +148,10 @@ def _walk(root: Node) -> None:
         if depth > MAX_NESTING:
             cure = "no file needs that; or an anchor contains itself"
             raise TooLargeError(node, _TOO_DEEP, cure)
-        below = depth + 1
-        pending += [(child, below) for child in _children(node)]
-
-
-def _children(node: Node) -> Iterator[Node]:
-    if isinstance(node, SequenceNode):
-        yield from node.value
-    elif isinstance(node, MappingNode):
-        for key, value in node.value:
-            yield key
-            yield value
+        if not isinstance(node, ScalarNode):
+            is_mapping = isinstance(node, MappingNode)
+            children = chain.from_iterable(node.value) if is_mapping else node.value
+            pending += [(child, depth + 1) for child in children]
 
 
 def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
@@ -183,9 +176,7 @@ def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
 
 def place_of_sign(text: str, sign: object) -> tuple[int, int]:
     """Where a sign that YAML refuses stands first; one at the start of the text marks its bytes."""
-    code = sign
-    if isinstance(sign, str) and len(sign) == 1:
-        code = ord(sign)
+    code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
     position = 0
     if isinstance(code, int):
         start = 1 if text.startswith("\ufeff") else 0

@@ -31,7 +31,6 @@ _PLACE = re.compile(
     r"(?:(?P<part>[qp])\.)?(?P<letter>[Abc])(?:\^\{(?P<colours>[0-9,]+)\})?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
-_Indices: TypeAlias = list[str]
 
 
 def name_of_place(where: str) -> str | None:
@@ -48,15 +47,10 @@ def name_of_place(where: str) -> str | None:
     if found is None:
         return None
     part, letter, colours, row, entry = found.groups()
-    letter = letter.lower()
     # one value in place of a row of one is its only entry
-    indices = [entry or "1"]
-    if letter == "a":
-        indices = [row or "1", *indices]
-    name = letter
-    if colours:
-        name += _together(colours.split(",")) + "_"
-    name += _together(indices)
+    indices = [row or "1", entry or "1"] if letter == "A" else [entry or "1"]
+    of_colours = f"{_together(colours.split(','))}_" if colours else ""
+    name = letter.lower() + of_colours + _together(indices)
     return f"{part}_{name}" if part else name
 
 
@@ -64,20 +58,12 @@ def is_bare_unknown(node: Node) -> bool:
     """Whether a ? stands there without quotes, which YAML takes for the sign of a key."""
     if not isinstance(node, MappingNode) or len(node.value) != 1:
         return False
-    key, value = node.value[0]
-    return _is_empty(key) and _is_empty(value)
+    return all(isinstance(x, ScalarNode) and not x.value for x in node.value[0])
 
 
-def _is_empty(node: Node) -> bool:
-    return isinstance(node, ScalarNode) and not node.value
-
-
-def _together(indices: _Indices) -> str:
+def _together(indices: Sequence[str]) -> str:
     """Indices one after the other, with _ between them where one has two digits."""
-    join = ""
-    if any(len(index) > 1 for index in indices):
-        join = "_"
-    return join.join(indices)
+    return ("_" if any(len(index) > 1 for index in indices) else "").join(indices)
 
 
 MAX_SIZE = 2_000
@@ -215,31 +201,24 @@ class Numbers:
         return entry
 
     def _expression(self, text: str) -> Expression:
-        """What a text means; the same object for the same text, which large matrices repeat a
-        lot.
-        """
-        if text not in self._read:
-            self._read[text] = self._parsed(text)
-        return self._read[text]
-
-    def _parsed(self, text: str) -> Expression:
-        """What a text means, its parameters written out.
+        """What a text means, its parameters written out; the same object for the same text, which
+        large matrices repeat a lot.
 
         Raises:
             ExpressionError: it is no number.
             LimitExceeded: written out it is too long.
         """
+        if text in self._read:
+            return self._read[text]
         parsed = parse(text)
-        message = cure = ""
         if size_of(parsed, self._sizes) > MAX_SIZE:
             message = f"more than {MAX_SIZE} operations, with the parameters written out"
-            cure = "write it shorter"
-        elif depth_of(parsed, self._depths) > MAX_DEPTH:
+            raise LimitExceeded(message, "write it shorter", 0, len(text))
+        if depth_of(parsed, self._depths) > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
-            cure = "give the parameter its value"
-        if message:
-            raise LimitExceeded(message, cure, 0, len(text))
-        return substitute(parsed, self.parameters)
+            raise LimitExceeded(message, "give the parameter its value", 0, len(text))
+        found = self._read[text] = substitute(parsed, self.parameters)
+        return found
 
     def row(self, node: Node, where: str) -> Row:
         """A row of coefficients; a single value is a row of one."""
@@ -285,15 +264,14 @@ class Numbers:
             cure = "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
             self.source.fault(deep, message, cure, code="value-expected")
             return ()
-        rows: list[Row] = []
-        for i, item in enumerate(items, start=1):
-            place = f"{where}, row {i}"
-            if isinstance(item, SequenceNode):
-                rows.append(self._entries(item.value, place))
-            else:
-                rows.append(self.row(item, place))
+        rows = tuple(
+            self._entries(item.value, f"{where}, row {i}")
+            if isinstance(item, SequenceNode)
+            else self.row(item, f"{where}, row {i}")
+            for i, item in enumerate(items, start=1)
+        )
         if any(rows):
-            return tuple(rows)
+            return rows
         if not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage", code="empty")
         return ()
@@ -334,17 +312,12 @@ class Numbers:
         if count == stages and set(lengths) == {columns}:
             return rows
         if len(set(lengths)) == 1:
-            found = f"{count} by {lengths[0]}"
-            wanted = f"{stages} by {columns}"
-            message = f"{where} is {found} and should be {wanted}"
+            message = f"{where} is {count} by {lengths[0]} and should be {stages} by {columns}"
             self.source.fault(node, message, why, code="wrong-size")
             return rows
-        lacks_a_row = is_square and count + 1 == stages
-        if lacks_a_row and is_triangle([0, *lengths]):
-            found, wanted = counted(count, "row"), counted(stages, "stage")
-            message = f"{where} has {found} for {wanted}"
-            cure = "begin with the empty row of the first stage: "
-            cure += "[[], [1/2], …]"
+        if is_square and count + 1 == stages and is_triangle([0, *lengths]):
+            message = f"{where} has {counted(count, 'row')} for {counted(stages, 'stage')}"
+            cure = "begin with the empty row of the first stage: [[], [1/2], …]"
             self.source.fault(node, message, cure, code="wrong-size")
             return rows
         self._uneven(lengths, node, where, columns)
@@ -367,9 +340,7 @@ class Numbers:
             numbers = ", ".join(map(str, others[:_SHOWN_ROWS]))
             more = ", …" if len(others) > _SHOWN_ROWS else ""
             message += f"; other lengths in {noun} {numbers}{more} too"
-        place = node
-        if isinstance(node, SequenceNode):
-            place = node.value[first - 1]
+        place = node.value[first - 1] if isinstance(node, SequenceNode) else node
         cure = "give every row the same number, or end each at the diagonal"
         if lengths[first - 1] > columns:
             cure += "; decimals have a point: 0.5"

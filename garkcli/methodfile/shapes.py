@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, product
 from typing import Any, Literal, TypeAlias
 
 from yaml.nodes import Node
@@ -56,11 +56,8 @@ class Layout:
     @property
     def unknowns(self) -> tuple[str, ...]:
         """The names in it, each once, row by row."""
-        names: dict[str, None] = {}
-        for rows in (*self.A, self.b):
-            for text in _entries(rows):
-                names |= dict.fromkeys(_NAME.findall(text))
-        return tuple(names)
+        texts = chain.from_iterable(chain(*self.A, self.b))
+        return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> Layout:
         """The layout with the entries of its last matrix changed.
@@ -69,35 +66,23 @@ class Layout:
             entry: from a row and a column, counted from 0, and the text there to another.
         """
         *others, last = self.A
-        changed: list[TextRow] = []
-        for i, row in enumerate(last):
-            texts: list[str] = []
-            for j, text in enumerate(row):
-                texts.append(entry(i, j, text))
-            changed.append(tuple(texts))
-        return replace(self, A=(*others, tuple(changed)))
-
-    def with_weights(self, weights: Iterable[str]) -> Layout:
-        """The layout with other weights for all of its colours."""
-        row = tuple(weights)
-        return replace(self, b=(row,) * len(self.b))
-
-
-def _entries(rows: Texts) -> Iterator[str]:
-    """Every entry, row by row."""
-    return chain.from_iterable(rows)
+        changed = tuple(
+            tuple(entry(i, j, text) for j, text in enumerate(row)) for i, row in enumerate(last)
+        )
+        return replace(self, A=(*others, changed))
 
 
 def full_layout(stages: int) -> Layout:
     """Every entry an unknown of its own, named by its place."""
-    join = "" if stages < 10 else "_"
+    join = _join(stages)
     numbers = range(1, stages + 1)
-    rows: list[TextRow] = []
-    for i in numbers:
-        row = [f"a{join}{i}{join}{j}" for j in numbers]
-        rows.append(tuple(row))
-    weights = tuple(f"b{join}{i}" for i in numbers)
-    return Layout("tableau", (tuple(rows),), (weights,))
+    rows = tuple(tuple(f"a{join}{i}{join}{j}" for j in numbers) for i in numbers)
+    return Layout("tableau", (rows,), (tuple(f"b{join}{i}" for i in numbers),))
+
+
+def _join(stages: int) -> str:
+    """What parts numbers of stages in names, where they may have two digits."""
+    return "" if stages < 10 else "_"
 
 
 def with_nodes(layout: Layout) -> Layout:
@@ -108,26 +93,20 @@ def with_nodes(layout: Layout) -> Layout:
     """
     if layout.kind == "prk":
         return layout
-    matrices = tuple(_with_nodes(rows, layout) for rows in layout.A)
-    return replace(layout, A=matrices)
+    everything = [*layout.b[0], *chain.from_iterable(chain(*layout.A))]
 
-
-def _with_nodes(rows: Texts, layout: Layout) -> Texts:
-    everything = list(layout.b[0])
-    for block in layout.A:
-        everything += _entries(block)
-    join = "" if layout.stages < 10 else "_"
-    changed: list[TextRow] = []
-    for i, row in enumerate(rows, start=1):
+    def row_with_node(i: int, row: TextRow) -> TextRow:
         first, *others = row
         uses = [text for text in everything if first in _NAME.findall(text)]
         if not _OWN.fullmatch(first) or len(uses) > 1:
-            changed.append(row)
-            continue
-        rest = [x for x in others if x != ZERO]
-        difference = " - ".join([f"c{join}{i}", *rest])
-        changed.append((difference, *others))
-    return tuple(changed)
+            return row
+        node = f"c{_join(layout.stages)}{i}"
+        return (" - ".join([node, *(x for x in others if x != ZERO)]), *others)
+
+    return replace(
+        layout,
+        A=tuple(tuple(row_with_node(i, x) for i, x in enumerate(A, start=1)) for A in layout.A),
+    )
 
 
 def _explicit(layout: Layout) -> Layout:
@@ -169,22 +148,15 @@ def _imex(layout: Layout) -> Layout:
 
 def _lower(weights: tuple[str, ...], reach: int) -> Texts:
     """Rows of weights up to the diagonal, or before it."""
-    stages = range(len(weights))
-    rows: list[TextRow] = []
-    for i in stages:
-        end = i + reach
-        zeros = (ZERO,) * (len(weights) - end)
-        rows.append((*weights[:end], *zeros))
-    return tuple(rows)
+    stages = len(weights)
+    ends = (i + reach for i in range(stages))
+    return tuple((*weights[:end], *(ZERO,) * (stages - end)) for end in ends)
 
 
 def _splitting(layout: Layout) -> Layout:
-    join = "" if layout.stages < 10 else "_"
-    numbers = range(1, layout.stages + 1)
-    drifts = tuple(f"a{join}{i}" for i in numbers)
-    kicks = tuple(f"b{join}{i}" for i in numbers)
-    A = _lower(drifts, 1), _lower(kicks, 0)
-    return Layout("prk", A, (drifts, kicks))
+    join = _join(layout.stages)
+    drifts, kicks = (tuple(f"{x}{join}{i + 1}" for i in range(layout.stages)) for x in "ab")
+    return Layout("prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks))
 
 
 def _stiffly_accurate(layout: Layout) -> Layout:
@@ -203,14 +175,10 @@ def _stiffly_accurate(layout: Layout) -> Layout:
         )
     bottom = layout.stages - 1
     # names of weights stay; what the shapes before it fixed in the last row fixes weights
-    weights = []
-    for a, b in zip(last, layout.b[0], strict=True):
-        weights.append(b if a.startswith("a") else a)
-
-    def entry(i: int, j: int, text: str) -> str:
-        return weights[j] if i == bottom else text
-
-    return layout.with_entries(entry).with_weights(weights)
+    pairs = zip(last, layout.b[0], strict=True)
+    weights = tuple(b if a.startswith("a") else a for a, b in pairs)
+    changed = layout.with_entries(lambda i, j, text: weights[j] if i == bottom else text)
+    return replace(changed, b=(weights,) * len(layout.b))
 
 
 def _palindromic(layout: Layout) -> Layout:
@@ -225,26 +193,17 @@ def _palindromic(layout: Layout) -> Layout:
             code="not-together",
         )
     s = layout.stages
-    (weights,) = layout.b
-    (matrix,) = layout.A
-    mirrored: dict[str, str] = {}
-    for i in range(s // 2, s):
-        mirrored[weights[i]] = weights[s - 1 - i]
-
-    def name_of(found: re.Match[str]) -> str:
-        name = found[0]
-        return mirrored.get(name, name)
+    (weights,), (matrix,) = layout.b, layout.A
+    mirrored = {weights[i]: weights[s - 1 - i] for i in range(s // 2, s)}
 
     def renamed(text: str) -> str:
-        return re.sub(r"\w+", name_of, text)
+        return re.sub(r"\w+", lambda found: mirrored.get(found[0], found[0]), text)
 
     b = tuple(map(renamed, weights))
     rows = [[renamed(text) for text in row] for row in matrix]
-    for i in range(s):
-        for j in range(s):
-            _mirror(rows, b, i, j)
-    made: Texts = tuple(map(tuple, rows))
-    return replace(layout, A=(made,), b=(b,))
+    for i, j in product(range(s), repeat=2):
+        _mirror(rows, b, i, j)
+    return replace(layout, A=(tuple(map(tuple, rows)),), b=(b,))
 
 
 def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
@@ -260,13 +219,12 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
         )
     if not opposite.startswith("a"):
         return
-    weight = b[j]
     if entry == ZERO:
-        rows[k][l] = weight
+        rows[k][l] = b[j]
     elif (i, j) == (k, l):
-        rows[k][l] = f"{weight}/2"
+        rows[k][l] = f"{b[j]}/2"
     elif (i, j) < (k, l):
-        rows[k][l] = f"{weight} - {entry}"
+        rows[k][l] = f"{b[j]} - {entry}"
 
 
 @dataclass(frozen=True)

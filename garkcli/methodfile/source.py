@@ -42,20 +42,15 @@ def place_of(found: Found) -> Place:
 def told_once(found: Sequence[Found]) -> list[Fault]:
     """The faults in file order; those of one cause at their first place, which names the others."""
     causes = Counter(one.cause for one in found)
-    first: dict[object, Fault] = {}
-    places: dict[object, list[Place]] = {}
+    together: dict[object, list[Found]] = {}
     for number, one in enumerate(found):
-        key: object = number
-        is_often = causes[one.cause] > MAX_PLACES
-        if one.cause and (one.is_one or is_often):
-            key = one.cause
-        first.setdefault(key, one.fault)
-        places.setdefault(key, []).append(place_of(one))
+        is_shared = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
+        together.setdefault(one.cause if is_shared else number, []).append(one)
     told: list[Fault] = []
-    for key, fault in first.items():
-        _, *others = dict.fromkeys(places[key])
-        message = fault.message + _elsewhere(others)
-        told.append(replace(fault, message=message))
+    for group in together.values():
+        _, *others = dict.fromkeys(map(place_of, group))
+        fault = group[0].fault
+        told.append(replace(fault, message=fault.message + _elsewhere(others)))
     return told
 
 
@@ -63,12 +58,10 @@ def _elsewhere(others: Sequence[Place]) -> str:
     """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
     if not others:
         return ""
-    named = others[:MAX_PLACES]
-    places = ", ".join(f"{line}:{column}" for line, column in named)
+    places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
     left = len(others) - MAX_PLACES
-    if left > 0:
-        return f" (also at {places} and in {counted(left, 'more place')})"
-    return f" (also at {places})"
+    more = f" and in {counted(left, 'more place')}" if left > 0 else ""
+    return f" (also at {places}{more})"
 
 
 @dataclass(frozen=True)
@@ -183,9 +176,7 @@ class Source:
         Raises:
             MethodFileError: there are ``MAX_FAULTS_READ`` of them; no file is read further.
         """
-        line, column = 1, 1
-        if node is not None:
-            line, column = self._place(node, offset)
+        line, column = (1, 1) if node is None else self._place(node, offset)
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
@@ -202,11 +193,9 @@ class Source:
         line, column = position(node.start_mark)
         if not isinstance(node, ScalarNode):
             return line, column + offset
-        is_block = node.style in {"|", ">"}
-        if is_block or node.end_mark.line >= line:
+        if node.style in {"|", ">"} or node.end_mark.line >= line:
             return folded_place(self.text, node, offset)
-        is_quoted = node.style in {"'", '"'}
-        return line, column + is_quoted + offset
+        return line, column + (node.style in {"'", '"'}) + offset
 
     def expression_fault(
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
@@ -255,7 +244,7 @@ class Source:
             return None
         root = composed(self.text)
         if isinstance(root, Fault):
-            self._note(self._cured(root))
+            self._note(replace(root, help=self._foreign(False) or root.help))
             return None
         if root is None:
             self.fault(None, "the file is empty", self.kind.smallest, code="empty-file")
@@ -271,11 +260,6 @@ class Source:
         if self.kind is not METHOD_FILE:
             return ""
         return cure_of_foreign(self.text, self.name, is_yaml)
-
-    def _cured(self, fault: Fault) -> Fault:
-        """What YAML complains about, with the cure for what the file looks like."""
-        cure = self._foreign(False)
-        return replace(fault, help=cure) if cure else fault
 
     def mapping(
         self,
@@ -396,23 +380,20 @@ class Source:
         text = self.scalar(node, where)
         if text is None:
             return None
-        is_number = text.isascii() and text.isdigit()
         is_padded = text.startswith("0") and text != "0"
-        is_plain = is_number and not is_padded
-        is_long = is_plain and len(text) > _MOST_DIGITS
-        if not is_plain or is_long or int(text) < smallest:
-            wanted = f"a whole number of at least {smallest} is expected"
-            if is_long:
-                wanted = f"a whole number of at most {_MOST_DIGITS} digits is expected"
-            message = f"{where}: {wanted}, not {shortened(text)}"
-            self.fault(node, message, code="wrong-value")
-            return None
-        number = int(text)
-        if largest is not None and number > largest:
-            wanted = f"a whole number of at most {largest} is expected"
-            self.fault(node, f"{where}: {wanted}, not {number}", code="wrong-value")
-            return None
-        return number
+        is_plain = text.isascii() and text.isdigit() and not is_padded
+        if is_plain and len(text) > _MOST_DIGITS:
+            limit = f"most {_MOST_DIGITS} digits"
+        elif not is_plain or int(text) < smallest:
+            limit = f"least {smallest}"
+        elif largest is not None and int(text) > largest:
+            limit = f"most {largest}"
+        else:
+            return int(text)
+        shown = text if limit == f"most {largest}" else shortened(text)
+        message = f"{where}: a whole number of at {limit} is expected, not {shown}"
+        self.fault(node, message, code="wrong-value")
+        return None
 
     def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
         """One of a few words."""

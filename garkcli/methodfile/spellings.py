@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import chain
 
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
@@ -21,9 +22,7 @@ def is_triangle(lengths: Sequence[int]) -> bool:
     (True, True, False)
     """
     stages = len(lengths)
-    to_the_diagonal = [*range(1, stages + 1)]
-    before_it = [*range(stages)]
-    return list(lengths) in (before_it, to_the_diagonal)
+    return list(lengths) in ([*range(stages)], [*range(1, stages + 1)])
 
 
 def opens(node: Node) -> bool:
@@ -36,11 +35,9 @@ def opens(node: Node) -> bool:
 
 def first_list_in_rows(items: Sequence[Node]) -> Node | None:
     """The first entry of a matrix that is a list itself."""
-    for row in items:
-        for entry in row.value if isinstance(row, SequenceNode) else ():
-            if isinstance(entry, SequenceNode):
-                return entry
-    return None
+    rows = (row.value for row in items if isinstance(row, SequenceNode))
+    lists = (x for x in chain.from_iterable(rows) if isinstance(x, SequenceNode))
+    return next(lists, None)
 
 
 _SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")
@@ -82,15 +79,8 @@ def bracketed(text: str) -> str:
     words = [word for row in rows for word in row]
     if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
         return ""
-    texts = [_in_brackets(row) for row in rows]
-    if len(texts) == 1:
-        return texts[0]
-    return _in_brackets(texts)
-
-
-def _in_brackets(items: Sequence[str]) -> str:
-    inside = ", ".join(items)
-    return f"[{inside}]"
+    texts = [f"[{', '.join(row)}]" for row in rows]
+    return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
 
 
 def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:
@@ -152,25 +142,14 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
             cure = better.format(**found.groupdict())
             explanation = ExpressionError(message, cure, found.start(), found.end(), code=code)
             return explanation, pattern.pattern
-    if _is_symbol(error, text):
-        return error, _SYMBOLS.pattern
-    return error, ""
+    # a tableau copied with its symbols; a slip in the name of a parameter is another matter
+    is_name = isinstance(error, UndefinedValue) and not error.help.startswith("did you mean")
+    is_symbol = is_name and _SYMBOLS.fullmatch(text[error.start : error.end])
+    return error, _SYMBOLS.pattern if is_symbol else ""
 
 
 _SYMBOLS = re.compile(r"[A-Za-z]+_?[0-9]+(_[0-9]+)*", re.ASCII)
 """Names as a11, b_2, x1_2: the symbols of a tableau in general, all without values."""
-
-
-def _is_symbol(error: ExpressionError, text: str) -> bool:
-    """Whether a tableau was copied with its symbols; a slip in the name of a parameter is another
-    matter.
-    """
-    if not isinstance(error, UndefinedValue) or error.help.startswith("did you mean"):
-        return False
-    word = text[error.start : error.end]
-    return _SYMBOLS.fullmatch(word) is not None
-
-
 _READ_DIFFERENTLY = re.compile(
     r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
     re.IGNORECASE,
