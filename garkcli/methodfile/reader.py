@@ -89,13 +89,14 @@ class ContentReader(Reading):
     def _form(self, root: Node, entries: Entries) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
         given = FORM.given(entries)
-        begun = [home.key for key, home in elsewhere().items() if key in keys_of(root)]
-        # a key that belongs to a form was noted with its cure, which is where to begin
-        if given or {"transfer", *FORMS}.isdisjoint(begun):
-            before = len(self.source.faults)
-            FORM.refuse(self.source, root, FILE, entries)
-            if given and len(self.source.faults) == before:
-                return cast("Form", "tableau" if given[0] in PLAIN else given[0])  # or "unknown"
+        if not given:
+            begun = [home.key for key, home in elsewhere().items() if key in keys_of(root)]
+            if not {"transfer", *FORMS}.isdisjoint(begun):
+                return None  # such a key was noted with its cure, which is where to begin
+        before = len(self.source.faults)
+        FORM.refuse(self.source, root, FILE, entries)
+        if given and len(self.source.faults) == before:
+            return cast("Form", "tableau" if given[0] in PLAIN else given[0])  # or "unknown"
         return None
 
     def _structure(self, form: Form, entries: Entries) -> Structure:
