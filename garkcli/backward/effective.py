@@ -78,7 +78,11 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
             continue
         sides: list[list[fmpq]] = []
         if any(residual):
-            sides = _rational_sides(residual, equation.tableau.field)
+            number_field = equation.tableau.field
+            degree = number_field.degree if number_field else 1
+            # over ℚ, one column for each coordinate
+            by_row = [coordinates(number, degree) for number in residual]
+            sides = [list(column) for column in zip(*by_row, strict=True)]
         extended = _bracket_with_delta(forest, k, sides)
         rank = rank_of_all = extended.rank()
         if sides and rank_of_all == extended.ncols():
@@ -113,25 +117,14 @@ def _bracket_with_delta(
     for i, number in enumerate(rows):
         for cut in forest.cuts[number]:
             if forest.order(cut.branch) == 1:
-                j = cut.rest - columns.start
-                before = matrix[i, j]
-                matrix[i, j] = before + cut.times
+                matrix[i, cut.rest - columns.start] += cut.times
             if forest.order(cut.rest) == 1:
-                j = cut.branch - columns.start
-                before = matrix[i, j]
-                matrix[i, j] = before - cut.times
+                matrix[i, cut.branch - columns.start] -= cut.times
     for j, side in enumerate(sides, start=len(columns)):
         common = lcm(*[int(x.q) for x in side])
         for i, x in enumerate(side):
             matrix[i, j] = (x * common).p
     return matrix
-
-
-def _rational_sides(right: Sequence[Number], field: NumberField | None) -> list[list[fmpq]]:
-    """The coordinates over ℚ of a right-hand side, one column for each."""
-    degree = field.degree if field else 1
-    rows = [coordinates(number, degree) for number in right]
-    return [list(column) for column in zip(*rows, strict=True)]
 
 
 def _solve(

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from math import log10
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -83,7 +84,8 @@ class Meter:
         for k in range(MAX_ROWS):
             count = first * 2**k
             h = self.t_end / count
-            if k >= ROWS and (count > MAX_STEPS or self._have_settled(table)):
+            columns = zip(*table, strict=True)
+            if k >= ROWS and (count > MAX_STEPS or all(map(slopes_have_settled, columns))):
                 break
             row = []
             for i, error in enumerate(self.errors(count)):
@@ -92,9 +94,6 @@ class Meter:
                 row.append(Row(h, error, slope, error, digits=self.digits))
             table.append(row)
         return table
-
-    def _have_settled(self, table: Sequence[Sequence[Row]]) -> bool:
-        return all(slopes_have_settled(rows) for rows in zip(*table, strict=True))
 
     def errors(self, count: int) -> list[arb]:
         """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
@@ -112,7 +111,9 @@ class Meter:
             squares = [arb(0) for _ in self.powers]
             start: list[arb] = []
             for n, y in enumerate(path):
-                values = self._truncations(values_of(*y), h)
+                amounts = zip(self.powers, values_of(*y), strict=True)
+                # H̃ up to each of the powers
+                values = list(accumulate(value * arb(h**power) for power, value in amounts))
                 start = start or values
                 for k, first in enumerate(start):
                     square = (values[k] - first).mid() ** 2
@@ -124,15 +125,6 @@ class Meter:
             means = [(x / count).sqrt() for x in squares]
             # with what rounding can have done to them
             return [arb(x.mid(), noise.mid()) for x in means]
-
-    def _truncations(self, values: Sequence[arb], h: fmpq) -> list[arb]:
-        """H̃ up to each of the powers."""
-        total = arb(0)
-        sums = []
-        for power, value in zip(self.powers, values, strict=True):
-            total += value * arb(h**power)
-            sums.append(total)
-        return sums
 
 
 def are_above_noise(rows: Sequence[Row]) -> bool:

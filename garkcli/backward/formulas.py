@@ -129,7 +129,9 @@ class VisibleTrees:
 def visible(bound: Binding) -> VisibleTrees:
     """What a problem sees of a method: the fewest trees for which roots can move still."""
     energies = bound.problem.terms
-    if bound.fields and _is_consistent(bound.tableau):
+    roots = range(bound.tableau.size)
+    is_consistent = all(elementary_weight(bound.tableau, Tree(l)) == 1 for l in roots)
+    if bound.fields and is_consistent:
         few = visible_tableau(bound.tableau, bound.fields)
         origins = _terms_apart(few)
         distinct = list(dict.fromkeys(origins))
@@ -143,12 +145,6 @@ def visible(bound: Binding) -> VisibleTrees:
             return VisibleTrees(few, apart, structure)
     more = _with_linear_fields(bound)
     return VisibleTrees(more, energies, hamiltonian_structure(more))
-
-
-def _is_consistent(tableau: Tableau) -> bool:
-    """Whether all weights sum to 1."""
-    roots = range(tableau.size)
-    return all(elementary_weight(tableau, Tree(l)) == 1 for l in roots)
 
 
 def _terms_apart(tableau: Tableau) -> list[tuple[int, str]]:

@@ -12,7 +12,7 @@ from math import ceil, factorial
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.convergence.result import Cost, Row, Visible, absolute, slope_between
+from garkcli.convergence.result import Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import MAX_DIGITS, REACHED, NoUniqueStep, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
@@ -141,12 +141,9 @@ class LinearSolver:
         digits = 10 * ceil((_AGREEING - decades) / 10)
         if digits > MAX_DIGITS:
             return row
-        return replace(row, cost=self._cost_with(digits, row.h, steps))
-
-    def _cost_with(self, digits: int, h: fmpq, steps: int) -> Cost:
-        state = Stepper(self._integrator(digits), h)
+        state = Stepper(self._integrator(digits), row.h)
         state.advance(steps)
-        return cost_of(state)
+        return replace(row, cost=cost_of(state))
 
     def _integrator(self, digits: int) -> Integrator:
         if digits not in self.integrators:

@@ -80,11 +80,12 @@ class Measure:
             first: Floats = np.array(self._first)
             return np.array([self._values_of(y) for y in states], dtype=np.float64) - first
         with ctx.workprec(self._bits):
-            rows = []
-            for y in states:
-                differences = self._differences(y)
-                rows.append([float(x) for x in differences])
-            return np.array(rows)
+            return np.array(
+                [
+                    [float(x - a) for x, a in zip(self._values_of(y), self._first, strict=True)]
+                    for y in states
+                ]
+            )
 
     def sizes(self, y: Sequence[Any]) -> Floats:
         """The sums of the sizes of the summands of each invariant at the state y, in floats; nan
@@ -102,9 +103,6 @@ class Measure:
             "give other initial values",
             code="no-formula",
         )
-
-    def _differences(self, y: Sequence[Any]) -> list[Any]:
-        return [x - first for x, first in zip(self._values_of(y), self._first, strict=True)]
 
     def _values_of(self, y: Sequence[Any]) -> list[Any]:
         try:

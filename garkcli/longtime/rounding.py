@@ -156,17 +156,10 @@ def sensitivity(tableau: Tableau) -> tuple[float, float]:
     stages = max(len(row) for row in printed.b)
     is_split = any(colour.part != "y" for colour in tableau.colours)
     of_order_1 = 2.0 * stages if is_split else 0.0
-    nodes = _sum_of_sizes(printed.c)
-    weights = _sum_of_sizes(printed.b)
-    of_order_2 = nodes + stages * weights
-    return of_order_1, of_order_2
+    return of_order_1, _sum_of_sizes(printed.c) + stages * _sum_of_sizes(printed.b)
 
 
 def _sum_of_sizes(rows: Iterable[Iterable[Any]]) -> float:
-    """Σ |x| over all entries."""
-    return sum(_size(x) for row in rows for x in row)
-
-
-def _size(x: Any) -> float:
-    """|x| of an exact number or an enclosed one."""
-    return abs(float(x) if isinstance(x, arb) else to_float(x))
+    """Σ |x| over all entries, exact numbers or enclosed ones."""
+    every = (x for row in rows for x in row)
+    return sum(abs(float(x) if isinstance(x, arb) else to_float(x)) for x in every)

@@ -67,7 +67,7 @@ def save(figure: Figure, path: Path) -> None:
     check_suffix(path)
     suffix = path.suffix.lower()
     kind = suffix.removeprefix(".")
-    undated = _undated(kind)
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
     drawn = BytesIO()
     # no date, and no names drawn by lot: the same result gives the same file
     with rc_context({"svg.hashsalt": "gark"}), warnings.catch_warnings():
@@ -75,11 +75,3 @@ def save(figure: Figure, path: Path) -> None:
         warnings.filterwarnings("ignore", "Glyph .* missing")
         figure.savefig(drawn, format=kind, dpi=150, metadata=undated)
     write_whole(str(path), [drawn.getvalue()])
-
-
-def _undated(kind: str) -> dict[str, None]:
-    if kind == "svg":
-        return {"Date": None}
-    if kind == "pdf":
-        return {"CreationDate": None}
-    return {}

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, TypeAlias, TypeVar
 
 from garkcli.graph import components
@@ -88,10 +89,9 @@ class DependencyGraph:
                 continue
             stages = [x for x in component if isinstance(x, Stage)]
             cut = self._cut(stages)
-            rest = _within([x for x in component if x not in cut], after)
-            order: list[Vertex] = []
-            for single in components(rest):
-                order += single
+            known = {x for x in component if x not in cut}
+            rest = {x: [y for y in after[x] if y in known] for x in component if x in known}
+            order = list(chain.from_iterable(components(rest)))
             unknowns = [stage for stage in self.sums if stage in cut]
             found.append(StageBlock(tuple(unknowns), tuple(order)))
         return tuple(found)
@@ -143,17 +143,6 @@ class DependencyGraph:
                 seen |= inside.intersection(looked_at)
             before[stage] = seen
         return before
-
-
-def _within(
-    vertices: Sequence[Vertex], after: Mapping[Vertex, Sequence[Vertex]]
-) -> dict[Vertex, list[Vertex]]:
-    """The part of a graph that has these vertices only."""
-    kept = set(vertices)
-    part = {}
-    for x in vertices:
-        part[x] = [y for y in after[x] if y in kept]
-    return part
 
 
 def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:

@@ -112,11 +112,8 @@ def _over_rationals(rows: Matrix, field: NumberField | None) -> fmpq_mat:
     if field is None:
         return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
     d = field.degree
-    powers = []  # 1, θ, … θ^{d−1}
-    for k in range(d):
-        unit = [fmpq(0)] * d
-        unit[k] = ONE
-        powers.append(field.from_coordinates(unit))
+    # 1, θ, … θ^{d−1}
+    powers = [field.from_coordinates([fmpq(i == k) for i in range(d)]) for k in range(d)]
     columns = []
     for entries in zip(*rows, strict=True):
         for power in powers:

@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeAlias, cast
 from garkcli.glossary.key import Files, Key
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.sweep_file import file_of, read_sweep, sweep_file_schema
-from garkcli.methodfile.sweep_methods import SearchText, TemplateText
+from garkcli.methodfile.sweep_methods import SearchText
 from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
 
 Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
@@ -208,18 +208,16 @@ def load_plan(path: str) -> Plan:
         for name, relation, bound in text.conditions
     )
     search = text.search or SearchText(range(0))
-    templates = tuple(_template(x, search) for x in text.templates)
+    # with searches where unknowns are left to them
+    templates = tuple(
+        Template(x.name, x.text, x.parameters, x.order, search.seeds, search.starts)
+        if x.order
+        else Template(x.name, x.text, x.parameters)
+        for x in text.templates
+    )
     criteria = Criteria(tuple(text.columns), conditions)
     best, pareto = tuple(text.best), tuple(text.pareto)
     return Plan(text.name, templates, text.grids, criteria, best, pareto)
-
-
-def _template(given: TemplateText, search: SearchText) -> Template:
-    """A method file, with its searches where unknowns are left to them."""
-    plain = given.name, given.text, given.parameters
-    if not given.order:
-        return Template(*plain)
-    return Template(*plain, given.order, search.seeds, search.starts)
 
 
 def sweep_schema() -> dict[str, Any]:

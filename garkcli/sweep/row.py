@@ -61,16 +61,14 @@ def is_row(row: Any) -> TypeGuard[Row]:
     texts = [row.get(name) for name in _TEXTS]
     if not all(isinstance(text, str) for text in texts):
         return False
-    settings = [row.get(name, {}) for name in _SETTINGS]
-    if not all(map(_is_settings, settings)):
-        return False
+    for settings in (row.get(name, {}) for name in _SETTINGS):
+        if not isinstance(settings, dict):
+            return False
+        if not all(isinstance(value, str) for value in settings.values()):
+            return False
     if not isinstance(row.get("failure", ""), str):
         return False
     return all(is_value(row.get(name)) for name in columns())
-
-
-def _is_settings(found: object) -> bool:
-    return isinstance(found, dict) and all(isinstance(value, str) for value in found.values())
 
 
 def row_of(criteria: Criteria, point: Point) -> Row:
