@@ -159,11 +159,11 @@ def read_range(text: str) -> Range:
     span = _SPAN.fullmatch(text.strip())
     if span:
         return Range(int(span[1]), int(span[2]))
-    found = _RANGE.fullmatch(text.strip())
-    if found is None:
+    match = _RANGE.fullmatch(text.strip())
+    if match is None:
         message = f"{text!r} is no number and no range"
         raise UsageProblem(message, "write 4, '>=4', '<4' or 2..4", code="option-value")
-    sign, number = found[1] or "=", int(found[2])
+    sign, number = match[1] or "=", int(match[2])
     ranges = {
         "=": Range(number, number),
         ">=": Range(number, _MOST),

@@ -193,15 +193,15 @@ def _properties(analysis: Analysis) -> Entry:
     is_small = _is_small(analysis.tableau)
     sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
-    found: Entry = {"symplectic": analysis.symplectic}
+    values: Entry = {"symplectic": analysis.symplectic}
     open_ones = []
     for key in KEYS:
         field = find(key).field
         verdict = verdicts.get(key)
-        found[field] = None if verdict is None else _value(verdict)
+        values[field] = None if verdict is None else _value(verdict)
         if verdict is None or verdict.is_undecided:
             open_ones.append(field)
-    return {**found, "undecided": open_ones}
+    return {**values, "undecided": open_ones}
 
 
 def _is_small(tableau: Tableau) -> bool:
@@ -231,17 +231,17 @@ def method_files(data: Path) -> list[tuple[str, Path]]:
     Raises:
         NoMethod: two have one name, or a name is not as names are.
     """
-    found: dict[str, Path] = {}
+    paths: dict[str, Path] = {}
     for path in data.rglob(f"*{SUFFIX}"):
         name = path.name.removesuffix(SUFFIX)
         if name != key_of(name):
             cure = f"{key_of(name)}{SUFFIX} would be its name"
             raise NoMethod(f"{path} is not named as methods are", cure, code="name-taken")
-        if name in found:
-            message = f"{found[name]} and {path} have one name"
+        if name in paths:
+            message = f"{paths[name]} and {path} have one name"
             raise NoMethod(message, "keep one of them, or rename it", code="name-in-doubt")
-        found[name] = path
-    return sorted(found.items())
+        paths[name] = path
+    return sorted(paths.items())
 
 
 def made(data: Path, before: str, tell: Tell) -> str:

@@ -100,8 +100,8 @@ class Catalogue(ModuleType):
 
         entries = list(all_entries())
         chosen = _wanted(wanted, words, folder, entries[0])
-        found = [entry for entry in entries if chosen.takes(entry)]
-        return [entry["name"] for entry in sorted_by(found, "order")]
+        taken = [entry for entry in entries if chosen.takes(entry)]
+        return [entry["name"] for entry in sorted_by(taken, "order")]
 
     def get(self, name: str, default: Any = None) -> Any:
         """The method of a name or an alias; the default where there is none."""
@@ -164,12 +164,12 @@ def _found(name: object) -> Shelved:
         raise NoSuchMethod(f"a name is text, not {type(name).__name__}", code="arrays")
     message = f"no method {name!r} in the catalogue"
     try:
-        found = find_named(PREFIX + name.removeprefix(PREFIX))
+        method = find_named(PREFIX + name.removeprefix(PREFIX))
     except MethodFileError as error:
         fault = error.faults[0]
         if fault.message.startswith("no such file"):
             raise NoSuchMethod(message, fault.help, code="unknown-word") from None
         raise NoSuchMethod(fault.message, fault.help, code=fault.code) from None
-    if found is None:
+    if method is None:
         raise NoSuchMethod(message, "load(path) reads a file", code="unknown-word")
-    return found
+    return method

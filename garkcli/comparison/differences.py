@@ -69,8 +69,8 @@ class BlockGap:
 
 
 def _size(gap: EntryGap) -> arb:
-    found = gap.gap
-    ball = found if isinstance(found, arb) else to_ball(found, DIGITS)
+    difference = gap.gap
+    ball = difference if isinstance(difference, arb) else to_ball(difference, DIGITS)
     size: arb = abs(ball).mid()
     return size
 

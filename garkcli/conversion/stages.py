@@ -88,13 +88,13 @@ def _compared(x: Number, y: Number) -> int:
 
 def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
     """What a stage has by itself: its space, its nodes and its weights of every colour."""
-    found: dict[Stage, _Signature] = {}
+    signatures: dict[Stage, _Signature] = {}
     for k, space in enumerate(sheet.tableau.spaces):
         rows = _own_rows(sheet, k)
         for i in range(space.stages):
             own = [ranks[row[i]] for row in rows]
-            found[k, i] = (k, *own)
-    return found
+            signatures[k, i] = (k, *own)
+    return signatures
 
 
 def _own_rows(sheet: Sheet, space: int) -> list[Vector]:
@@ -122,12 +122,12 @@ def _sights(tableau: Tableau, classes: Classes, ranks: _Ranks) -> dict[Stage, _S
                 rank = ranks[entry]
                 seen[k, i].append((m, rank, classes[other, j]))
                 seeing[other, j].append((m, rank, classes[k, i]))
-    found: dict[Stage, _Signature] = {}
+    signatures: dict[Stage, _Signature] = {}
     for stage, number in classes.items():
         sees = tuple(sorted(seen[stage]))
         is_seen = tuple(sorted(seeing[stage]))
-        found[stage] = (number, sees, is_seen)
-    return found
+        signatures[stage] = (number, sees, is_seen)
+    return signatures
 
 
 def in_order(sheet: Sheet) -> Sheet:

@@ -65,7 +65,7 @@ def where(
     left = None if start is None else RealRoot.rational(start)
     if left is not None:
         roots = [left, *(root for root in roots if root > left)]
-    found: list[Interval] = []
+    intervals: list[Interval] = []
     grown: Interval | None = None
     for cell in _cells(roots, left is not None):
         check_time()
@@ -74,11 +74,11 @@ def where(
                 cell = Interval(grown.start, cell.end, grown.has_start, cell.has_end)
             grown = cell
         elif grown is not None:
-            found.append(grown)
+            intervals.append(grown)
             grown = None
     if grown is not None:
-        found.append(grown)
-    return tuple(found)
+        intervals.append(grown)
+    return tuple(intervals)
 
 
 def _roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:

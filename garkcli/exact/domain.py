@@ -62,11 +62,11 @@ class Domain:
         self._are_real = are_real
         self._size = 0
         self._values: dict[Radical, Number] = {}
-        found: list[Radical] = []
+        radicals: list[Radical] = []
         for expression in expressions:
-            found += roots_in(expression)
+            radicals += roots_in(expression)
         irrational = []
-        for root in dict.fromkeys(found):  # each once, the inner ones first
+        for root in dict.fromkeys(radicals):  # each once, the inner ones first
             value = self._rational_root(root)
             if value is None:
                 irrational.append(root)

@@ -29,8 +29,8 @@ def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
         bits: the precision.
     """
     with ctx.workprec(bits):
-        found: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
-        real = [root.real for root, _ in found if root.imag == 0]
+        roots: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
+        real = [root.real for root, _ in roots if root.imag == 0]
         real.sort(key=lambda ball: ball.mid())
         return tuple(real)
 

@@ -132,9 +132,9 @@ class Parser:
 
     def _expect(self, sign: str, opened: int) -> None:
         if self.value != sign:
-            found = "the end" if self.kind == "end" else repr(self.value)
+            actual = "the end" if self.kind == "end" else repr(self.value)
             self._fail(
-                f"{sign!r} expected, {found} found",
+                f"{sign!r} expected, {actual} found",
                 f"the parenthesis at column {opened + 1} is open",
             )
         self._advance()

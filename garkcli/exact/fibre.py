@@ -66,14 +66,14 @@ class Root:
 
     def ball(self, bits: int) -> arb:
         """An enclosure, by ``bits`` behind the point."""
-        found = self.refined(bits)
+        finer = self.refined(bits)
         with ctx.workprec(2 * bits):
-            return arb(found.low).union(arb(found.high))
+            return arb(finer.low).union(arb(finer.high))
 
     @property
     def exact(self) -> RealRoot:
         """The number by its polynomial over ℚ."""
-        curve = self.fibre.found[min(self.curves)]
+        curve = self.fibre.curves[min(self.curves)]
         candidates = [y for y, _ in real_roots(in_y(resultant(curve, self.fibre.modulus, "t")))]
         bits = FIRST_BITS
         while len(candidates) > 1:
@@ -88,12 +88,12 @@ class Fibre:
 
     Args:
         t: the number t_0.
-        found: irreducible curves, no two of them the same.
+        curves: irreducible curves, no two of them the same.
     """
 
-    def __init__(self, t: RealRoot, found: Sequence[fmpq_mpoly]) -> None:
+    def __init__(self, t: RealRoot, curves: Sequence[fmpq_mpoly]) -> None:
         self.t = t
-        self.found = found
+        self.curves = curves
         self._monic = Polynomial.from_flint(t.polynomial).monic().to_flint()
         self._field = NumberField(self._monic, ())
         self._signs: dict[tuple[Polynomial, fmpq], int] = {}
@@ -122,26 +122,26 @@ class Fibre:
     @cached_property
     def roots(self) -> list[Root]:
         """All of them, in ascending order; no two have ends in common."""
-        found: list[Root] = []
-        for place, curve in enumerate(self.found):
+        roots: list[Root] = []
+        for place, curve in enumerate(self.curves):
             p = self.polynomial(curve)
             if p.degree > 0:
                 simple = p.square_free()
                 ends = self._isolated(simple)
-                found += [Root(self, simple, *x, frozenset({place})) for x in ends]
+                roots += [Root(self, simple, *x, frozenset({place})) for x in ends]
         bits = FIRST_BITS
         while True:
-            found = sorted((root.refined(bits) for root in found), key=lambda x: (x.low, x.high))
-            together = self._joined(found)
+            roots = sorted((root.refined(bits) for root in roots), key=lambda x: (x.low, x.high))
+            together = self._joined(roots)
             if all(a.high < b.low for a, b in pairwise(together)):
                 return together
-            found = together
+            roots = together
             bits *= 2
 
-    def _joined(self, found: Sequence[Root]) -> list[Root]:
+    def _joined(self, roots: Sequence[Root]) -> list[Root]:
         """Roots of different curves that are the same number as one."""
         joined: list[Root] = []
-        for root in found:
+        for root in roots:
             for place, other in enumerate(joined):
                 same = self._common(other, root)
                 if same is not None:
@@ -244,7 +244,7 @@ class Fibre:
 
     def _curves_of(self, p: fmpq_mpoly) -> frozenset[int]:
         """Which of the curves divide a polynomial, by their places."""
-        return frozenset(k for k, curve in enumerate(self.found) if p and not p % curve)
+        return frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)
 
     def _sign(self, p: fmpq_mpoly, y: fmpq) -> int:
         return sign_of(at_y(p, y), self.t)

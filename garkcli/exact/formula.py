@@ -193,8 +193,8 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
     if isinstance(left, arb) or isinstance(right, arb):
         left = arb(left)
         right = arb(right)
-    found: Value = OPERATIONS[sign](left, right)
-    return found
+    result: Value = OPERATIONS[sign](left, right)
+    return result
 
 
 def _check_divisor(number: Value, at: Expression) -> None:

@@ -339,14 +339,14 @@ def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]
     constant = powers[0]
     zeros = fmpq_mat(constant.nrows(), constant.ncols())
     by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
-    found = []
+    reduced = []
     for rows in zip(*by_power, strict=True):
         row = []
         for entry in zip(*rows, strict=True):
             poly = fmpq_poly(list(entry))
             row.append(field.element(poly))
-        found.append(tuple(row))
-    return found
+        reduced.append(tuple(row))
+    return reduced
 
 
 def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:

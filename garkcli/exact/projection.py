@@ -25,27 +25,27 @@ PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 
 def curves(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """The irreducible factors of polynomials in the plane, each once; constants are left out."""
-    found: dict[str, fmpq_mpoly] = {}
+    irreducible: dict[str, fmpq_mpoly] = {}
     for p in polynomials:
         if not p:
             continue
         _, factors = p.factor()
         for factor, _ in factors:
-            found[str(factor)] = factor
-    return [curve for curve in found.values() if not curve.is_constant()]
+            irreducible[str(factor)] = factor
+    return [curve for curve in irreducible.values() if not curve.is_constant()]
 
 
-def projected(found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
+def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
     """The polynomials in t, not zero, between whose roots nothing changes.
 
     Args:
-        found: irreducible curves, no two of them the same.
+        irreducible: irreducible curves, no two of them the same.
         ends: the ends of the interval of y.
     """
     _, t = PLANE.gens()
     critical: list[fmpq_mpoly] = []
     crossing = []
-    for curve in found:
+    for curve in irreducible:
         check_time()
         degree, _ = curve.degrees()
         if degree == 0:
@@ -152,14 +152,14 @@ def kept_sign(p: fmpq_mpoly) -> int | None:
     if not p:
         return 1
     content, factors = p.factor()
-    found = 1 if content > 0 else -1
+    common = 1 if content > 0 else -1
     for factor, power in factors:
         if power % 2:
             own = _of_factor(factor)
             if own is None:
                 return None
-            found *= own
-    return found
+            common *= own
+    return common
 
 
 def _of_factor(p: fmpq_mpoly) -> int | None:

@@ -58,18 +58,18 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
     bits = BITS
     while bits <= MOST_BITS:
         with ctx.workprec(bits):
-            found = []
+            distances = []
             for factor, _ in factors:
                 roots = isolated(tuple(int(a) for a in factor.coeffs()), bits)
-                found += [(abs(x - target), factor, k) for k, x in enumerate(roots)]
-            if not found:
+                distances += [(abs(x - target), factor, k) for k, x in enumerate(roots)]
+            if not distances:
                 message = "the polynomial has no real root"
                 raise UndefinedValue(
                     message, "coefficients are real numbers", at.start, at.end, code="not-real"
                 )
-            found.sort(key=lambda entry: entry[0].mid())
-            if len(found) == 1 or found[0][0] < found[1][0]:
-                _, factor, number = found[0]
+            distances.sort(key=lambda entry: entry[0].mid())
+            if len(distances) == 1 or distances[0][0] < distances[1][0]:
+                _, factor, number = distances[0]
                 is_positive = factor[factor.degree()] > 0
                 return (factor if is_positive else -factor), number
         bits *= 2

@@ -98,7 +98,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     """
     if not p:
         raise ValueError("every number is a root of the zero polynomial")
-    found: list[tuple[RealRoot, int]] = []
+    roots: list[tuple[RealRoot, int]] = []
     _, factors = p.norm().factor()
     for factor, power in factors:
         check_time()
@@ -110,8 +110,8 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
             if not p.is_rational:
                 multiplicity = multiplicity_at(p, root)
             if multiplicity:
-                found.append((root, multiplicity))
-    return sorted(found, key=lambda pair: pair[0])
+                roots.append((root, multiplicity))
+    return sorted(roots, key=lambda pair: pair[0])
 
 
 def multiplicity_at(p: Polynomial, root: RealRoot) -> int:

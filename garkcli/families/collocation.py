@@ -79,9 +79,9 @@ def with_first_column(name: str, base: Method) -> Method:
     leading = (ZERO,) * (s - 1) + (ONE,)
     b_1 = dot(base.b, first)
     wanted = tuple(b_1 * x for x in space.one)
-    found = apply(base.A, first)
+    images = apply(base.A, first)
     scale_of_first = first[s - 1]
-    missing = [(x - y) / scale_of_first for x, y in zip(wanted, found, strict=True)]
+    missing = [(x - y) / scale_of_first for x, y in zip(wanted, images, strict=True)]
     correction = outer(tuple(missing), leading)
     return Method(name, space, add(base.A, correction), base.b)
 

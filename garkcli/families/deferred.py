@@ -92,11 +92,11 @@ def _nodes(word: str, points: int) -> tuple[Expression, ...]:
         return tuple(Literal(fmpq(k, last)) for k in range(points))
     space = _COLLOCATION[word](points).space
     assert isinstance(space, PolynomialSpace)
-    found = simple_nodes(space)
-    if found is None:
+    nodes = simple_nodes(space)
+    if nodes is None:
         message = f"the {points} {word} nodes have no simple radicals"
         raise UnknownFamily(message, "take fewer points, or equidistant ones", code="no-radicals")
-    return found
+    return nodes
 
 
 class _Corrections:

@@ -43,10 +43,10 @@ def sequence(name: str, length: int) -> tuple[int, ...]:
         return tuple(range(1, length + 1))
     if name == "romberg":
         return tuple(2**k for k in range(length))
-    found = [1, 2, 3]
-    while len(found) < length:
-        found.append(2 * found[-2])
-    return tuple(found[:length])
+    numbers = [1, 2, 3]
+    while len(numbers) < length:
+        numbers.append(2 * numbers[-2])
+    return tuple(numbers[:length])
 
 
 def extrapolation_weights(parts: Sequence[int], powers: Sequence[int]) -> tuple[fmpq, ...]:

@@ -54,7 +54,7 @@ class FaultKind:
 @lru_cache(maxsize=len(TOPICS))
 def faults_of(topic: str) -> tuple[FaultKind, ...]:
     """The kinds of faults of a topic."""
-    found = []
+    kinds = []
     for code, entry in read(f"faults-{topic}").items():
         kind = FaultKind(
             code,
@@ -63,8 +63,8 @@ def faults_of(topic: str) -> tuple[FaultKind, ...]:
             tuple(entry["says"]),
             entry.get("example", "").strip(),
         )
-        found.append(kind)
-    return tuple(found)
+        kinds.append(kind)
+    return tuple(kinds)
 
 
 @lru_cache(maxsize=1)
@@ -92,15 +92,15 @@ def code_of(message: str, least: int = 1) -> str:
 
 def codes_of(message: str, least: int = 1) -> list[str]:
     """The codes of the kinds with the longest words; of messages of the program it is one."""
-    found: list[str] = []
+    codes: list[str] = []
     own = _QUOTED.sub(_without_text, message)
     for said in _messages():
         if said.letters < least:
             break
-        if said.code not in found and said.is_told_by(own):
-            found.append(said.code)
+        if said.code not in codes and said.is_told_by(own):
+            codes.append(said.code)
             least = said.letters
-    return found
+    return codes
 
 
 def _without_text(quoted: re.Match[str]) -> str:
@@ -128,12 +128,12 @@ class _Message:
 @lru_cache(maxsize=1)
 def _messages() -> tuple[_Message, ...]:
     """Those of all kinds, those with the longest words first."""
-    found = []
+    messages = []
     for kind in by_code().values():
         for said in kind.says:
             words = tuple(said.split(HOLE))
-            found.append(_Message(sum(map(len, words)), kind.code, words))
-    return tuple(sorted(found, key=lambda said: said.letters, reverse=True))
+            messages.append(_Message(sum(map(len, words)), kind.code, words))
+    return tuple(sorted(messages, key=lambda said: said.letters, reverse=True))
 
 
 COMMANDS = {"check": "docs/ci.md", "audit": "docs/audit.md"}
@@ -156,9 +156,9 @@ def findings_of(command: str) -> Mapping[str, FindingKind]:
     >>> list(findings_of("check"))
     ['unreadable', 'claim', 'no-claim']
     """
-    found = {}
+    kinds = {}
     for code, entry in read("findings")[command].items():
         text = " ".join(entry["text"].split())
         cure = " ".join(entry["cure"].split())
-        found[code] = FindingKind(code, text, cure)
-    return found
+        kinds[code] = FindingKind(code, text, cure)
+    return kinds

@@ -21,10 +21,10 @@ def field_entries() -> Mapping[str, str]:
     """What each field holds, by its name or by that of the one above and its own."""
     entries: dict[str, str] = read("fields")
     endings = {x: text for x, text in entries.items() if x.startswith("_")}
-    found = {x: text for x, text in entries.items() if x not in endings}
+    texts = {x: text for x, text in entries.items() if x not in endings}
     for order in ORDERS:
-        found |= {order + ending: text for ending, text in endings.items()}
-    return found
+        texts |= {order + ending: text for ending, text in endings.items()}
+    return texts
 
 
 def field_text(path: Sequence[str]) -> str:

@@ -235,10 +235,10 @@ def _refined(
     for _ in range(NEWTON_STEPS):
         if isinstance(value, fmpq):
             value = (value / grid).floor() * grid
-        found = _weights(missed, entry.put(method, value), [condition.tree])
-        if found is None:
+        weights = _weights(missed, entry.put(method, value), [condition.tree])
+        if weights is None:
             break
-        value = value - (found[0] - condition.required) / slope
+        value = value - (weights[0] - condition.required) / slope
     return value
 
 

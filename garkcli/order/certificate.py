@@ -177,6 +177,6 @@ class Proof:
 
 def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
     """The exact order of a tableau and what decides it; no order beyond ``limit`` is looked for."""
-    found = find_order(tableau, limit)
-    orders = range(1, found.order + 1)
-    return Proof(tableau, found, tuple(all_spanning_trees(tableau, orders)))
+    order = find_order(tableau, limit)
+    orders = range(1, order.order + 1)
+    return Proof(tableau, order, tuple(all_spanning_trees(tableau, orders)))

@@ -237,11 +237,11 @@ def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
 
     Of a rounded tableau a condition is met where rounding explains every entry of its defect.
     """
-    found = _Search(method, limit)
-    colours = range(found.tableau.size)
-    B = [found.r(l) for l in colours]
-    C = [tuple(found.eta(l, m) for m in colours) for l in colours]
-    D = [tuple(found.zeta(l, m) for m in colours) for l in colours]
+    search = _Search(method, limit)
+    colours = range(search.tableau.size)
+    B = [search.r(l) for l in colours]
+    C = [tuple(search.eta(l, m) for m in colours) for l in colours]
+    D = [tuple(search.zeta(l, m) for m in colours) for l in colours]
     return Simplifying(tuple(B), tuple(C), tuple(D), limit)
 
 
@@ -315,11 +315,11 @@ def consistent_blocks(method: AnyTableau) -> dict[Edge, bool]:
     defects = defects_of(method)
     alike = _Alike.of(defects.tableau)
     known: dict[Edge, bool] = {}
-    found: dict[Edge, bool] = {}
+    consistent: dict[Edge, bool] = {}
     for l, m in defects.tableau.edges():
         key = alike.nodes[l], m
         if key not in known:
             defect: Any = defects.C(l, m, 1)
             known[key] = defects.vanish(defect)
-        found[l, m] = known[key]
-    return found
+        consistent[l, m] = known[key]
+    return consistent

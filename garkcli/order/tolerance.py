@@ -52,10 +52,10 @@ def rounded_up(size: arb) -> fmpq:
 
 
 def _whole(number: arb) -> int:
-    found = number.unique_fmpz()
-    if found is None:
+    whole = number.unique_fmpz()
+    if whole is None:
         raise ArithmeticError(f"{number} is no whole number")
-    return int(found)
+    return int(whole)
 
 
 def within(number: Number, tolerance: fmpq) -> bool:

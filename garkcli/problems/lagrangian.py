@@ -82,13 +82,13 @@ def candidates(L: Expr, equations: Equations) -> list[Solved]:
     """What may solve the equations; some do not."""
     if equations.are_linear:
         return [_by_elimination(equations)]
-    found = _by_form(L, equations)
+    solved = _by_form(L, equations)
     if len(equations.v) == 1:
         (v,), (p,) = equations.v, equations.p
         (slope,) = equations.gradient
         for velocity in solutions(slope, v, p):
-            found.append(Solved({v: velocity}, {}))
-    return found
+            solved.append(Solved({v: velocity}, {}))
+    return solved
 
 
 def _by_elimination(equations: Equations) -> Solved:
@@ -154,14 +154,14 @@ def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[So
     square = sympy.Dummy("n", positive=True)
     norm = {square: dot(shifted, raised)}
     equation = 2 * form.slope**2 * (form.symbol - form.at_rest)
-    found = []
+    solved = []
     for value in solutions(equation, form.symbol, square):
         slope = form.slope.xreplace({form.symbol: value})
         slope = slope.xreplace(norm)
         made = {velocity: x / slope for velocity, x in zip(v, raised, strict=True)}
         forms = {form.a: value.xreplace(norm)}
-        found.append(Solved(made, forms))
-    return found
+        solved.append(Solved(made, forms))
+    return solved
 
 
 def _form(L: Expr, a: Expr, v: Vector) -> _Form | None:
@@ -231,11 +231,11 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
         whose = ", ".join(map(str, equations.v))
         raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
     known = {**equations.start, **equations.momenta(equations.start)}
-    found = []
+    at_start = []
     for solved in right:
         expressions = list(solved.velocities.values())
-        found.append(enclosed(expressions, known))
-    first, *others = found
+        at_start.append(enclosed(expressions, known))
+    first, *others = at_start
     for other in others:
         if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):
             raise NoLegendreTransform(
@@ -295,10 +295,10 @@ def _is_right(solved: Substitution, equations: Equations) -> bool:
         with ctx.workprec(BITS):
             for x, y in equations.start.items():
                 near[x] = y + arb(fmpq(draw.between(-_NEAR, _NEAR), 1000))
-        found = _agrees(solved, equations, near)
-        if found is False:
+        agrees = _agrees(solved, equations, near)
+        if agrees is False:
             return False
-        tested += found is True
+        tested += agrees is True
     return tested > _TRIES // 2
 
 
@@ -308,11 +308,11 @@ def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | 
     if not all(x in at for x in equations.p):
         return False
     values = enclosed(list(solved.values()), at)
-    found = dict(zip(solved, values, strict=True))
-    back = enclosed(equations.gradient, {**at, **found})
+    solution = dict(zip(solved, values, strict=True))
+    back = enclosed(equations.gradient, {**at, **solution})
     pairs = [(value, at[p]) for p, value in zip(equations.p, back, strict=True)]
     known = [v for v in solved if v in at]
-    pairs += [(found[v], at[v]) for v in known]
+    pairs += [(solution[v], at[v]) for v in known]
     for x, y in pairs:
         if not (x.is_finite() and y.is_finite()):
             return None

@@ -25,11 +25,11 @@ def field_of(problem: Problem, term: int, drives: Group) -> VectorField:
 
 def unknowns(problem: Problem) -> Exprs:
     """The symbols of a state, time excluded."""
-    found: Exprs = ()
+    names: Exprs = ()
     for group in problem.layout.groups:
         if group != TIME:
-            found += symbols(problem.variables, group)
-    return found
+            names += symbols(problem.variables, group)
+    return names
 
 
 def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:

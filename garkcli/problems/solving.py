@@ -39,14 +39,14 @@ def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
         free, rest = f.as_independent(u, as_Add=False)
         if free != 1:
             return solutions(rest, u, c / free)
-    found: list[Expr] = []
+    roots: list[Expr] = []
     inner = [x for x in f.args if u in x.free_symbols]
     if len(inner) == 1:
         for value in _undone(f, inner[0], c):
-            found += solutions(inner[0], u, value)
-    if not found:
-        found = _by_polynomial(sympy.together(f - c), u)
-    return found
+            roots += solutions(inner[0], u, value)
+    if not roots:
+        roots = _by_polynomial(sympy.together(f - c), u)
+    return roots
 
 
 def _undone(f: Expr, inner: Expr, c: Expr) -> list[Expr]:
@@ -120,12 +120,12 @@ def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
     c0, c1, c2, _, c4 = (coefficients[n] for n in range(5))
     if degrees <= {0, 1, 2}:
         return _quadratic(c2, c1, c0)
-    found = []
+    zeros = []
     if degrees <= {0, 2, 4}:
         for square in _quadratic(c4, c2, c0):
             root = sympy.sqrt(square)
-            found += [root, -root]
-    return found
+            zeros += [root, -root]
+    return zeros
 
 
 def _without_root(f: Expr, u: Expr) -> Expr:

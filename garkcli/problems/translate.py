@@ -129,8 +129,8 @@ class Translator:
         made = base**exponent
         is_power = made.is_Pow and made.exp.is_Rational
         if is_power and abs(made.exp) > MAX_EXPONENT:
-            found = f"the exponents are {made.exp} together"
-            message = f"{found} (limit {MAX_EXPONENT})"
+            what = f"the exponents are {made.exp} together"
+            message = f"{what} (limit {MAX_EXPONENT})"
             raise LimitExceeded(message, "use smaller ones", at.start, at.end, code="too-many")
         return _without_kinks(made, at)
 

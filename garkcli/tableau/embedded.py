@@ -145,9 +145,9 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     (2, 1)
     """
     if len(weights) != tableau.size:
-        found = counted(len(weights), "row")
+        rows = counted(len(weights), "row")
         wanted = counted(tableau.size, "colour")
-        raise ShapeMismatch(f"{found} of weights for {wanted}")
+        raise ShapeMismatch(f"{rows} of weights for {wanted}")
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         message = "the weights are those of single stages, "
         message += "and a family is kept in the algebra of its nodes"

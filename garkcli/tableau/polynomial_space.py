@@ -260,10 +260,10 @@ def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
     Raises:
         ZeroDivisionError: the precision is too small.
     """
-    found = _coordinates_at_nodes(space, ctx.prec)
-    if found is None:
+    inverse = _coordinates_at_nodes(space, ctx.prec)
+    if inverse is None:
         raise ZeroDivisionError
-    return found
+    return inverse
 
 
 @lru_cache(maxsize=32)

@@ -341,7 +341,7 @@ def _binary_exponent(number: arb) -> int:
 
 def _node_radii(tableau: Tableau, A: Mapping[Edge, Rows], printed: Rows) -> Rows:
     """The radii of the nodes: those of the row sums of a block whose row sums they are."""
-    found = []
+    of_nodes = []
     for l, colour in enumerate(tableau.colours):
         radii = printed[l]
         for m in range(tableau.size):
@@ -349,8 +349,8 @@ def _node_radii(tableau: Tableau, A: Mapping[Edge, Rows], printed: Rows) -> Rows
             if block is not None and apply(block, tableau.space(m).one) == tuple(colour.c):
                 radii = [sum(row, arb(0)).abs_upper() for row in A[colour.space, m]]
                 break
-        found.append(radii)
-    return found
+        of_nodes.append(radii)
+    return of_nodes
 
 
 def _widened(rows: Sequence[Sequence[arb]], radii: Rows) -> Rows:

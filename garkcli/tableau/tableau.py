@@ -165,10 +165,10 @@ class Tableau:
 def _check_length(name: str, row: Vector, stages: int) -> None:
     if len(row) == stages:
         return
-    found = counted(len(row), "entry", "entries")
+    given = counted(len(row), "entry", "entries")
     due = counted(stages, "entry", "entries")
     of_stages = counted(stages, "stage")
-    message = f"{name} has {found} for {of_stages}"
+    message = f"{name} has {given} for {of_stages}"
     raise ShapeMismatch(message, f"give {due}")
 
 

@@ -240,8 +240,8 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
     """
     count = len(trees)
     if captions is not None and len(captions) != count:
-        found = f"{len(captions)} captions for {count} trees"
-        raise ValueError(f"{found}; give each tree one")
+        counts = f"{len(captions)} captions for {count} trees"
+        raise ValueError(f"{counts}; give each tree one")
     placed = [layout(u) for u in trees]
     lines = [[f"σ = {u.symmetry}, γ = {u.density}"] for u in trees]
     for k, caption in enumerate(captions or ()):

@@ -162,8 +162,8 @@ def _check(
                 raise ValueError(f"no block for {which}; give the table edges without it")
             shape = len(b), len(weights[m])
             if block.shape != shape:
-                found = f"has shape {block.shape}, not {shape}"
-                raise ValueError(f"the block of {which} {found}")
+                fault = f"has shape {block.shape}, not {shape}"
+                raise ValueError(f"the block of {which} {fault}")
 
 
 class _FloatVectors(StageVectors["Floats"]):
