@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from flint import arb, fmpq, fmpz
 
 from garkcli.exact.display import to_text
+from garkcli.exact.domain import square_free
 from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.radicands import square_free
 from garkcli.exact.roots import RealRoot
 
 BITS_A_DIGIT = 3.33

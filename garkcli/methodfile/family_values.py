@@ -9,7 +9,7 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded
-from garkcli.exact.domain import Domain
+from garkcli.exact.domain import Domain, perfect_root
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
 from garkcli.exact.parametric import (
@@ -20,7 +20,6 @@ from garkcli.exact.parametric import (
     terms_of_product,
     terms_of_sum,
 )
-from garkcli.exact.radicands import perfect_root
 from garkcli.exact.rewriting import format_expression, roots_in
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.numbers import Entry, Free, Numbers

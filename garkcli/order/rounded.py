@@ -34,7 +34,7 @@ from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from garkcli.trees.columns import Column, Segment
+    from garkcli.trees.table import Column, Segment
 
 
 @dataclass(frozen=True, eq=False)

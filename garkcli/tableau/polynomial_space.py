@@ -13,6 +13,7 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpq_poly
 
+from garkcli.exact.domain import square_free
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import (
@@ -29,7 +30,6 @@ from garkcli.exact.matrix import (
     transpose,
 )
 from garkcli.exact.nodes import Chain, Expression, Literal, Root
-from garkcli.exact.radicands import square_free
 from garkcli.reason import Formula, Reason
 from garkcli.tableau.stages import StageSpace, in_flint
 

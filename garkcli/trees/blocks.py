@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from garkcli.trees.columns import Columns
 from garkcli.trees.count import Admissible, Edges
-from garkcli.trees.table import TreeTable, first_ids, segments_of
+from garkcli.trees.table import Columns, TreeTable, first_ids, segments_of
 from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from garkcli.trees.columns import Column
+    from garkcli.trees.table import Column
 
 BLOCK_SIZE = 1 << 18
 """Trees in a block unless asked for otherwise."""

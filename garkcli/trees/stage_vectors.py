@@ -14,9 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from garkcli.arrays import Floats
-    from garkcli.trees.columns import Column, Segment
     from garkcli.trees.count import Admissible
-    from garkcli.trees.table import TreeTable
+    from garkcli.trees.table import Column, Segment, TreeTable
 
 
 Vectors = TypeVar("Vectors")

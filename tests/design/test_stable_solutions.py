@@ -12,9 +12,9 @@ from flint import fmpq, fmpq_poly, fmpz_poly
 from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters
 from garkcli.errors import MethodFileError
+from garkcli.exact.domain import square_free
 from garkcli.exact.field import NumberField
 from garkcli.exact.polynomial_text import root_text
-from garkcli.exact.radicands import square_free
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads

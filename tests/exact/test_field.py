@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.exact.display import to_float
-from garkcli.exact.domain import Domain
+from garkcli.exact.domain import Domain, square_free
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number, coordinates
 from garkcli.exact.matrix import (
@@ -22,7 +22,6 @@ from garkcli.exact.matrix import (
     solve,
     transpose,
 )
-from garkcli.exact.radicands import square_free
 from tests.oracles.draws import fractions
 
 FIELDS = {

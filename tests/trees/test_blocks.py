@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from garkcli.trees.blocks import Block, iter_blocks, select
-from garkcli.trees.columns import Columns
-from garkcli.trees.table import TreeTable
+from garkcli.trees.table import Columns, TreeTable
 from garkcli.trees.tree import Tree
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from flint import fmpq
 from yaml.nodes import Node, SequenceNode
 
-from garkcli.constructions.extrapolation import extrapolated
+from garkcli.constructions.composition import extrapolated
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
 from garkcli.families.extrapolated import SEQUENCES, sequence
