@@ -14,8 +14,8 @@ from garkcli.check.senses import (
     field_meanings,
     term_meaning,
 )
-from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.glossary.faults import UNKNOWN, code_of
+from garkcli.errors import UNKNOWN, UsageProblem, did_you_mean
+from garkcli.glossary.faults import code_of
 from garkcli.glossary.fields import field_entries
 from garkcli.glossary.labels import key_of
 from garkcli.glossary.term import plain

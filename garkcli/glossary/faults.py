@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from garkcli.errors import UNKNOWN as UNKNOWN
+from garkcli.errors import UNKNOWN
 from garkcli.glossary import read
 
 TOPICS = {

@@ -292,20 +292,6 @@ class Blame:
     restores: tuple[str, ...] = ()
 
 
-def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
-    """Look at all conditions of ``order``, the first failing one, of exact coefficients.
-
-    Args:
-        tableau: the tableau.
-        order: its exact order plus one.
-        claimed: the order it was meant to have.
-
-    Returns:
-        None where there are more than ``MAX_CONDITIONS`` conditions.
-    """
-    return blame_of(tableau, Missed(order, claimed))
-
-
 @doing("what is to blame")
 def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     """Look at all conditions of the first failing order of a method, its conjugate or their pair.

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.glossary.faults import UNKNOWN
+from garkcli.errors import UNKNOWN
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"

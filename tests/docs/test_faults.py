@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from garkcli.api.files import loads_problem
 from garkcli.check.meanings import explain
-from garkcli.errors import GarkError, MethodFileError
-from garkcli.glossary.faults import HOLE, UNKNOWN, FaultKind, by_code, code_of, codes_of
+from garkcli.errors import UNKNOWN, GarkError, MethodFileError
+from garkcli.glossary.faults import HOLE, FaultKind, by_code, code_of, codes_of
 from garkcli.methodfile.load import loads
 from tests.cli.harness import ROOT, gark
 from tests.docs.fault_sites import ERRORS, sites, source

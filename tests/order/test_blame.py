@@ -10,7 +10,7 @@ from flint import fmpq
 
 from garkcli import Tableau, conjugate, find_order, load
 from garkcli.check.check_file import check_file
-from garkcli.order.blame import Repair, find_blame
+from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.tolerance import within
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,7 +24,7 @@ def example(name: str) -> Tableau:
 def test_misprinted_collocation_example() -> None:
     """The paper's misprinted block A^{1,2} is named; no single entry repairs four wrong ones."""
     tableau = load(str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")).tableau
-    blame = find_blame(tableau, 3, 4)
+    blame = blame_of(tableau, Missed(3, 4))
     assert blame is not None
     assert blame.culprit == (0, 1)
     assert blame.in_every == ((0, 1),)
@@ -46,7 +46,7 @@ def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
     true = block[i][j]
     block[i][j] = true + fmpq(1, 7)
     wrong = replace(tableau, blocks={**tableau.blocks, key: tuple(map(tuple, block))})
-    blame = find_blame(wrong, find_order(wrong).order + 1, 4)
+    blame = blame_of(wrong, Missed(find_order(wrong).order + 1, 4))
     assert blame is not None
     assert blame.culprit == key
     assert Repair(*key, i, j, true + fmpq(1, 7), true) in blame.repairs
@@ -60,7 +60,7 @@ def test_single_wrong_weight() -> None:
     tableau = example("collocation-conjugate")
     b = tableau.colours[1].b
     colours = (tableau.colours[0], replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])))
-    blame = find_blame(replace(tableau, colours=colours), 1, 4)
+    blame = blame_of(replace(tableau, colours=colours), Missed(1, 4))
     assert blame is not None
     assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [(1, None, 1, fmpq(2, 3))]
 
@@ -70,7 +70,7 @@ def test_right_method_has_no_repair_for_more() -> None:
     have.
     """
     tableau = example("rectangular")
-    blame = find_blame(tableau, 5, 6)
+    blame = blame_of(tableau, Missed(5, 6))
     assert blame is not None
     assert blame.repairs == ()
 
@@ -78,7 +78,7 @@ def test_right_method_has_no_repair_for_more() -> None:
 def test_too_many_conditions() -> None:
     """Beyond the limit nothing is listed and nothing is claimed."""
     tableau = example("gauss6-lobatto7")
-    assert find_blame(conjugate(tableau), 13, 14) is None
+    assert blame_of(conjugate(tableau), Missed(13, 14)) is None
 
 
 PRINTED = """

@@ -10,7 +10,7 @@ from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
-from garkcli.order.blame import find_blame
+from garkcli.order.blame import Missed, blame_of
 from garkcli.order.constants import error_constants
 from garkcli.page.paint import Paint, aligned, beside
 from garkcli.report.check_text import render
@@ -191,7 +191,7 @@ def test_hints_and_constants_of_one_colour() -> None:
     """
     method = loads(ONE_ENTRY)
     analysis = analyse(method.tableau)
-    blame = find_blame(method.tableau, 2, 2)
+    blame = blame_of(method.tableau, Missed(2, 2))
     assert blame is not None
     hint = str(blame_text(blame, ["1"]))
     assert hint.startswith("the one condition of order 2 fails; ")
