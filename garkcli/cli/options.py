@@ -192,10 +192,11 @@ def _made(
     if "FILE" in row.arguments or "FIRST" in row.arguments:
         shared = ["--catalogue", *shared]
     further = more["options"]() if "options" in more else ()
+    calls = {option.name: option.of for option in options_of(name) if option.of}
 
     def run(**values: Any) -> Any:
         output = Output.of(values)
-        return function(Given(name, values), output)
+        return function(Given(values, calls), output)
 
     return click.Command(
         name,
@@ -260,13 +261,17 @@ class Given(SimpleNamespace):
 
     ``which`` is ``"conjugate"`` or ``"pair"`` where one of these is meant, else None.
 
+    Args:
+        values: by their names.
+        calls: the functions and arguments of the package that options are, by the same names.
+
     Raises:
         UsageProblem: both are.
     """
 
-    def __init__(self, command: str, values: dict[str, Any]) -> None:
+    def __init__(self, values: Mapping[str, Any], calls: Mapping[str, str]) -> None:
         super().__init__(**values)
-        self._command = command
+        self._calls = calls
         derived = [x for x in ("conjugate", "pair") if values.get(x)]
         if len(derived) > 1:
             raise UsageProblem(
@@ -279,11 +284,11 @@ class Given(SimpleNamespace):
         names there.
         """
         found = {}
-        for option in options_of(self._command):
-            owner, _, name = option.of.partition(".")
-            value = getattr(self, option.name, None) if owner == function else None
+        for name, of in self._calls.items():
+            owner, _, argument = of.partition(".")
+            value = getattr(self, name) if owner == function else None
             if value is not None and value is not False and value != ():
-                found[name] = value
+                found[argument] = value
         return found
 
     def method(self, file: str = "", is_exact: bool = False) -> GarkMethod:
