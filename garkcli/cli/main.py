@@ -39,7 +39,6 @@ HELP = "help"
 """Before the name of a command: what its option ``--help`` shows."""
 COMPLETION = "_GARK_COMPLETE"
 """The variable in which shells ask for completions."""
-OBJECTS_BETWEEN_COLLECTIONS = 50_000
 
 
 class _LazyGroup(click.Group):
@@ -133,9 +132,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     prepare()
-    # few objects are in circles: to look for them as often as Python does costs a twentieth
-    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS, 10, 10)
-    # nor is there any use in looking for them a last time, in all that was loaded
+    # there is no use in looking for circles a last time, in all that was loaded
     atexit.register(gc.freeze)
     if COMPLETION in os.environ:
         gark.main(arguments, prog_name="gark", complete_var=COMPLETION)
