@@ -24,16 +24,12 @@ NAMES = {
         "tableau.tableau": "Tableau",
     },
     "What is true of it": {
-        "api.methods": "find_order is_symplectic analyse simplifying",
+        "api.methods": "find_order is_symplectic analyse simplifying find_property",
         "api.asserting": "find_orders assert_order",
-        "api.properties": "find_property",
         "api.calls": "find_stability two_springs claims_of prove_method",
         "report.calls": "certificate",
     },
-    "Methods from it": {
-        "api.methods": "conjugate pair symplectic_pair",
-        "api.properties": "reduced",
-    },
+    "Methods from it": {"api.methods": "conjugate pair symplectic_pair reduced"},
     "Trees": {
         "trees.tree": "Tree",
         "trees.notation": "parse_tree",
@@ -92,7 +88,7 @@ ANSWERS = {
     "methodfile.problem_keys": "Files.problem=told",
     "sweep.plan": "Files.sweep=told",
     "trees.notation": "Tree.text=format_tree",
-    "trees.svg": "Tree.svg=draw_svg",
+    "trees.drawing": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "
     "Witness.html=witness_html Order.html=order_html RoundedOrder.html=order_html "
     "DenseOrder.html=dense_order_html Condition.html=condition_html",

@@ -27,8 +27,10 @@ from garkcli.api.files import loads_problem as loads_problem
 from garkcli.api.methods import analyse as analyse
 from garkcli.api.methods import conjugate as conjugate
 from garkcli.api.methods import find_order as find_order
+from garkcli.api.methods import find_property as find_property
 from garkcli.api.methods import is_symplectic as is_symplectic
 from garkcli.api.methods import pair as pair
+from garkcli.api.methods import reduced as reduced
 from garkcli.api.methods import simplifying as simplifying
 from garkcli.api.methods import symplectic_pair as symplectic_pair
 from garkcli.api.modified import backward_analysis as backward_analysis
@@ -36,8 +38,6 @@ from garkcli.api.modified import modified_formula as modified_formula
 from garkcli.api.modified import modified_run as modified_run
 from garkcli.api.problems import hamiltonian as hamiltonian
 from garkcli.api.problems import problem as problem
-from garkcli.api.properties import find_property as find_property
-from garkcli.api.properties import reduced as reduced
 from garkcli.api.runs import bind as bind
 from garkcli.api.runs import converge as converge
 from garkcli.api.runs import integrate as integrate

@@ -21,15 +21,20 @@ from garkcli.api.anymethod import (
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, UsageProblem, did_you_mean
+from garkcli.exact.field import ZERO
 from garkcli.order import simplifying as conditions
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying
+from garkcli.properties.property import Verdict
+from garkcli.properties.reduction import smallest
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import Subject
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import Derivation, GarkMethod, derived_name
-from garkcli.tableau.meant import meant
+from garkcli.tableau.meant import meant, tolerance_of
 from garkcli.tableau.tableau import Method, Tableau
 
 
@@ -233,3 +238,56 @@ def symplectic_pair(
             "a pair of no colour", "give colours of velocities and of forces", code="arrays"
         )
     return method_of(forms.symplectic_pair(tableau, V, F))
+
+
+def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) -> Verdict:
+    """What is true of a property, such as ``"l-stable"``, and what decides it.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        key: the name of the property, as method files claim it.
+        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
+            none.
+
+    Raises:
+        UsageProblem: there is no such property.
+
+    >>> find_property("gauss-2", "l-stable").why
+    'R(∞) = 1'
+    """
+    if key not in KEYS:
+        raise UsageProblem(f"no property {key!r}", did_you_mean(key, KEYS), code="unknown-word")
+    is_own = tolerance is None
+    method, known_as = meant_of(method, tolerance)
+    near = tolerance_of(known_as)
+    order = find_order(method, tolerance=None if is_own else near or 0).order
+    assumed = conditions.simplifying(known_as)
+    subject = Subject(method.tableau, order, assumed, DEFAULT_LIMIT, near or ZERO)
+    return subject.verdict(key)
+
+
+def reduced(method: AnyMethod) -> GarkMethod | None:
+    """The smallest method that does the same, itself where that is the method: ``gark reduce``.
+    None where stages are at irrational nodes and more than row sums would have to be compared.
+
+    Args:
+        method: whatever ``method_of`` takes.
+
+    >>> reduced(([[0, 0], [0, 0]], [1, 0])).stages
+    (1,)
+    """
+    method = method_of(method)
+    found = smallest(method.tableau, method.further)
+    if found is None:
+        return None
+    tableau, further = found
+    if tableau is method.tableau:
+        return method
+    is_named = method.name and method.name != getattr(method, "source", "")
+    return GarkMethod(
+        tableau=tableau,
+        name=f"{method.name}, reduced" if is_named else "a reduced method",
+        tolerance=method.tolerance,
+        embedded=further.embedded,
+        dense=further.dense,
+    )

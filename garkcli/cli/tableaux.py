@@ -246,7 +246,7 @@ def reduce(given: Given, output: Output) -> None:
     problem become one. Where nothing is to be reduced the file is written as it is, and a note
     says so. Claims are left behind: the orders stay, B, C and D may not.
     """
-    from garkcli.api.properties import reduced
+    from garkcli.api.methods import reduced
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
     from garkcli.methodfile.writer import can_spell_out, write_method

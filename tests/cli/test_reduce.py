@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.api.properties import reduced
+from garkcli.api.methods import reduced
 from garkcli.exact.field import ZERO
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
@@ -100,7 +100,7 @@ def test_what_is_not_compared_is_refused() -> None:
 
 def test_why_it_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """The command says it with a cure."""
-    monkeypatch.setattr("garkcli.api.properties.smallest", lambda *_: None)
+    monkeypatch.setattr("garkcli.api.methods.smallest", lambda *_: None)
     run = gark("reduce", "rk4")
     assert (run.code, run.out) == (2, "")
     assert run.err.startswith("gark: rk4: the nodes have no simple radicals")

@@ -9,7 +9,7 @@ from pathlib import Path
 import jsonschema  # type: ignore[import-untyped]
 import pytest
 
-from garkcli.api.properties import reduced
+from garkcli.api.methods import reduced
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
 from garkcli.check.true_claims import true_claims
