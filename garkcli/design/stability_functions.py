@@ -1,6 +1,6 @@
 """The stability function of a family, its coefficients rational functions of the parameters.
 
-With the stage system of ``garkcli.stepping.stage_system`` it is det(I − z(W − E B)) / det(I − zW).
+With the stage system of ``garkcli.stepping.linear`` it is det(I − z(W − E B)) / det(I − zW).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
-from garkcli.stepping.stage_system import stage_system
+from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 Coefficients = tuple[Any, ...]

@@ -1,7 +1,7 @@
 """The step of a family of one parameter on a linear problem, as polynomials in z and t.
 
 For each value of the parameter t the step is M(z) = D(z)⁻¹ N(z) with D = det(I − zW)
-(``garkcli.stability.step_function``). Times common denominators of the coefficients both are
+(``garkcli.stability.linear``). Times common denominators of the coefficients both are
 polynomials in t, of a degree that the size of W bounds: values at so many rational t determine
 them.
 """
@@ -22,8 +22,8 @@ from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, in_one, interpolated
 from garkcli.exact.projection import PLANE
-from garkcli.stability.step_function import unreduced
-from garkcli.stepping.stage_system import stage_system
+from garkcli.stability.linear import unreduced
+from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 

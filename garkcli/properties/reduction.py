@@ -36,7 +36,7 @@ def reduced(tableau: Tableau) -> Tableau | None:
     >>> reduced(twice).spaces[0].stages
     1
     """
-    exact = _at_points(tableau)
+    exact = at_points(tableau)
     if exact is None:
         return None
     smaller = _once(exact)
@@ -49,7 +49,8 @@ def reduced(tableau: Tableau) -> Tableau | None:
             return smaller
 
 
-def _at_points(tableau: Tableau) -> Tableau | None:
+def at_points(tableau: Tableau) -> Tableau | None:
+    """The same method with one coordinate a stage; None where nodes have no simple radicals."""
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
     # nodes of families are radicals

@@ -13,6 +13,7 @@ from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
+from garkcli.properties.reduction import at_points
 from garkcli.properties.registry import find
 from garkcli.properties.symmetry import Symmetry, symmetry
 from garkcli.reason import Reason
@@ -105,11 +106,7 @@ class Subject:
     @cached_property
     def points(self) -> Tableau | None:
         """The method with one coordinate a stage; None where nodes have no simple radicals."""
-        if all(isinstance(space, PointSpace) for space in self.tableau.spaces):
-            return self.tableau
-        from garkcli.tableau.pointwise import in_points
-
-        return in_points(self.tableau)
+        return at_points(self.tableau)
 
     @property
     def _with_entries(self) -> Tableau:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Step, Whose
 from garkcli.design.design import Kind as Verdict
-from garkcli.design.minimise.critical import DECIMALS
 from garkcli.design.minimise.objective import Level as LevelObjective
 from garkcli.design.minimise.result import Candidate, Extent, Minimum, Proof
+from garkcli.design.minimise.smallest import DECIMALS
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
 from garkcli.errors import counted

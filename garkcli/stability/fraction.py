@@ -23,8 +23,8 @@ from flint import fmpq
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate, from_lines, lattice
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.stability.step_function import StepFunction, unreduced
-from garkcli.stepping.stage_system import stage_system
+from garkcli.stability.linear import StepFunction, unreduced
+from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MOST_LINES = 400

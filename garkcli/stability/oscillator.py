@@ -23,8 +23,8 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
-from garkcli.stability.step_function import StepFunction, step_function
-from garkcli.stepping.stage_system import stage_system
+from garkcli.stability.linear import StepFunction, step_function
+from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 

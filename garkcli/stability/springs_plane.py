@@ -14,7 +14,7 @@ from flint import fmpq
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import to_float
 from garkcli.stability.two_frequencies import SplitSprings
-from garkcli.stepping.stage_system import stage_system
+from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from garkcli.exact.projection import PLANE, curves, projected
 from garkcli.exact.roots import RealRoot, number_of
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.oscillator import Ratio, stable_set
-from garkcli.stepping.stage_system import StageSystem, stage_system
+from garkcli.stepping.linear import StageSystem, stage_system
 from garkcli.tableau.tableau import Colour, Tableau
 
 

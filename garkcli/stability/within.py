@@ -33,7 +33,7 @@ from garkcli.stability.ball_polynomials import (
     squared_on_axis,
 )
 from garkcli.stability.ssp import driven_part, stacked
-from garkcli.stepping.stage_system import StageSystem, stage_system
+from garkcli.stepping.linear import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
 
 BITS = 256

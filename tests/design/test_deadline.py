@@ -17,9 +17,9 @@ from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import groebner_basis, grown_basis, unproved_basis
 from garkcli.design.ideal import Ideal, characteristic_polynomial, least_meeting
 from garkcli.design.minimise.climbing import climbed
-from garkcli.design.minimise.critical import critical_point_near
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.parts import nodes_as_coordinates, parts_of
+from garkcli.design.minimise.smallest import critical_point_near
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.search.run import results

@@ -16,13 +16,16 @@ from garkcli.design.ideal import Ideal
 from garkcli.design.member import member
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.climbing import climbed
-from garkcli.design.minimise.critical import critical_equations, is_of_one_dimension
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Minimum
-from garkcli.design.minimise.smallest import is_nowhere_less
+from garkcli.design.minimise.smallest import (
+    critical_equations,
+    is_nowhere_less,
+    is_of_one_dimension,
+)
 from garkcli.design.minimise.squared_error import squared_coupling_error, squared_error
 from garkcli.design.solutions import value_at
 from garkcli.errors import NotDecided, UsageProblem

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import combinations
+from math import comb
 from typing import cast
 
 from flint import fmpq, fmpq_mpoly
@@ -14,23 +15,129 @@ from garkcli.deadline import check_time, until
 from garkcli.design.design import Found
 from garkcli.design.member import member, not_negative
 from garkcli.design.minimise.comparison import Comparison, at_root
-from garkcli.design.minimise.critical import (
-    critical_equations,
-    critical_point_near,
-    is_of_one_dimension,
-    without_factors,
-)
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.parts import Part, parts_within
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
+from garkcli.design.search.points import Fixings, is_proved, polished
+from garkcli.design.search.rational import (
+    System,
+    as_float,
+    in_decimals,
+    midpoint,
+    polynomial_functions,
+)
 from garkcli.design.solutions import Solution, value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, between
-from garkcli.exact.parametric import fraction
+from garkcli.exact.parametric import Parameters, fraction
 from garkcli.exact.polynomial import in_one
 from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, is_nowhere_negative
 from garkcli.exact.roots import RealRoot
+
+MOST_MINORS = 200
+"""Equations that are written down at most."""
+
+
+def critical_equations(
+    part: Part, numerator: fmpq_mpoly, denominator: fmpq_mpoly
+) -> list[fmpq_mpoly]:
+    """Polynomials that are zero at the critical points of N/D on a part.
+
+    On the zeros of f_1, …, f_m of codimension c these are the points where the gradients of the
+    function and of the f_i have rank c at most: where all minors of size c + 1 are zero. Points at
+    which the set is not smooth are among them. Of components of a larger codimension not all are.
+
+    Raises:
+        NotDecided: there are too many of them.
+    """
+    size = len(part.ring.names)
+    gradient = []
+    for i in range(size):
+        over = numerator.derivative(i) * denominator
+        gradient.append(over - numerator * denominator.derivative(i))
+    if part.is_free:
+        return gradient
+    equations = part.equations
+    codimension = size - part.dimension
+    minors = comb(len(equations), codimension)
+    if minors * comb(size, codimension + 1) > MOST_MINORS:
+        raise NotDecided
+    zeros = []
+    for chosen in combinations(equations, codimension):
+        rows = [gradient]
+        rows += [[p.derivative(i) for i in range(size)] for p in chosen]
+        for columns in combinations(range(size), codimension + 1):
+            check_time()
+            minor = [[row[j] for j in columns] for row in rows]
+            zeros.append(_determinant(minor))
+    return zeros
+
+
+def is_of_one_dimension(part: Part) -> bool:
+    """Whether no component of a part is known to be able to have a smaller dimension than another:
+    as many equations as the codimension have none (F. S. Macaulay, 1916).
+    """
+    codimension = len(part.ring.names) - part.dimension
+    return part.is_free or len(part.equations) == codimension
+
+
+def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:
+    """A polynomial without the factors that it has in common with another one."""
+    while True:
+        common = p.gcd(denominator)
+        if common.is_constant() or not p:
+            return p
+        p = p // common
+
+
+def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
+    """By the first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    total = rows[0][0] * 0
+    for j, a in enumerate(rows[0]):
+        if a:
+            smaller = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
+            minor = a * _determinant(smaller)
+            total = total - minor if j % 2 else total + minor
+    return total
+
+
+BITS = 256
+"""Of Newton's method and the test, which then encloses the point to half as many."""
+DECIMALS = 20
+"""Of the rational point beside it."""
+NEAR = fmpq(1, 100)
+"""How far from the point that is given it may be."""
+
+
+def critical_point_near(
+    point: Sequence[fmpq],
+    gradient: Sequence[fmpq_mpoly],
+    nonzero: Sequence[fmpq_mpoly],
+    ring: Parameters,
+) -> tuple[fmpq, ...] | None:
+    """A rational point within 10^−DECIMALS of a common zero of some polynomials; None where none is
+    proved to exist near, by Krawczyk's test.
+
+    The coordinates of a part are free, so that the rational point is a method as well, of the same
+    order and, but for rounding, the same value.
+
+    Args:
+        point: near which it is looked for.
+        gradient: the polynomials, as many as unknowns.
+        nonzero: polynomials that are not to vanish there.
+        ring: of the unknowns.
+    """
+    system = Fixings(System(polynomial_functions(gradient, ring)))
+    zero = polished(system, [as_float(x) for x in point], BITS)
+    if zero is None or not is_proved(system, zero, BITS, polynomial_functions(nonzero, ring)):
+        return None
+    rounded = tuple(fmpq(in_decimals(x, DECIMALS), 10**DECIMALS) for x in zero[:, 0])
+    if any(abs(x - y) > NEAR for x, y in zip(rounded, point, strict=True)):
+        return None
+    return rounded
 
 
 def is_nowhere_less(numerator: fmpq_mpoly, denominator: fmpq_mpoly, m: fmpq) -> bool | None:
@@ -80,8 +187,7 @@ def _bound(best: RealRoot) -> fmpq:
     """A short value itself, else a short number that is less by ``SLACK`` of it at most."""
     if best.exact is not None and _is_short(best):
         return best.exact
-    mantissa, exponent = best.ball(SHORT).mid().man_exp()
-    about = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    about = midpoint(best.ball(SHORT))
     low = RealRoot.rational(about * (1 - SLACK))
     high = RealRoot.rational(about * (1 - SLACK / 2))
     return between(low, high)

@@ -35,6 +35,17 @@ def as_ball(number: fmpq) -> arb:
     return arb(number)
 
 
+def midpoint(ball: arb) -> fmpq:
+    """The middle of a ball, exactly."""
+    mantissa, exponent = ball.mid().man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)
+
+
+def in_decimals(ball: arb, count: int) -> int:
+    """The middle of a ball times 10^count as the nearest whole number, half up."""
+    return int((midpoint(ball) * 10**count + fmpq(1, 2)).floor())
+
+
 @dataclass(frozen=True)
 class _Polynomial:
     """Terms: a coefficient and the unknowns that it is multiplied with, as often as it takes."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
 
 from garkcli.deadline import check_time
+from garkcli.design.search.rational import midpoint
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
@@ -75,17 +76,11 @@ def rational(number: arb, bits: int) -> fmpq | None:
     ...     rational((arb(22) / 7).mid(), 190)
     22/7
     """
-    exact = _dyadic(number)
+    exact = midpoint(number)
     grain = fmpq(1, fmpz(2) ** (3 * bits // 4))
     simplest = _simplest(exact - grain, exact + grain)
     length = max(simplest.p.bit_length(), simplest.q.bit_length())
     return simplest if length <= bits // 4 else None
-
-
-def _dyadic(number: arb) -> fmpq:
-    mantissa, exponent = number.mid().man_exp()
-    power = fmpz(2) ** abs(int(exponent))
-    return fmpq(mantissa * power) if exponent >= 0 else fmpq(mantissa, power)
 
 
 def _simplest(low: fmpq, high: fmpq) -> fmpq:
@@ -159,7 +154,7 @@ def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
     rows = []
     for k, x in enumerate(scaled):
         row = [fmpz(int(k == j)) for j in range(size)]
-        rows.append([*row, _dyadic(x).p])
+        rows.append([*row, midpoint(x).p])
     shortest = fmpz_mat(rows).lll()
     relation = [shortest[0, j] for j in range(size)]
     # by chance the lattice has vectors of kept/size bits

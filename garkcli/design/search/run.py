@@ -19,6 +19,7 @@ from garkcli.deadline import within
 from garkcli.design.choices import DIGITS, values_text
 from garkcli.design.design import Whose
 from garkcli.design.search.points import small_bits
+from garkcli.design.search.rational import in_decimals
 from garkcli.design.search.search import BITS, Find, Proof, Search
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, NotDecided, UsageProblem, counted
@@ -62,7 +63,7 @@ class Method:
         return self.proof == "exact"
 
 
-def told(find: Find, parameters: tuple[str, ...]) -> Method:
+def _as_text(find: Find, parameters: tuple[str, ...]) -> Method:
     """A find as text.
 
     Args:
@@ -103,11 +104,7 @@ def decimals(number: arb, count: int = DECIMALS) -> str:
     >>> decimals(arb("0.25"), 3)
     '0.250'
     """
-    mantissa, exponent = number.mid().man_exp()
-    scaled = int(mantissa) * 10**count
-    shift = int(exponent)
-    # half up, in whole numbers
-    rounded = scaled << shift if shift >= 0 else ((scaled >> (-shift - 1)) + 1) >> 1
+    rounded = in_decimals(number, count)
     digits = f"{abs(rounded):0{count + 1}d}"
     sign = "-" if rounded < 0 else ""
     return f"{sign}{digits[:-count]}.{digits[-count:]}"
@@ -192,7 +189,7 @@ class Solution:
     def result(self, search: Search) -> object:
         """What comes of it."""
         find = search.find(self.start, self.point)
-        return None if find is None else told(find, search.family.parameters)
+        return None if find is None else _as_text(find, search.family.parameters)
 
 
 Task: TypeAlias = Batch | Solution
