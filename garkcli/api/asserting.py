@@ -12,8 +12,8 @@ from typing import Any, TypeAlias
 
 from garkcli.api.anymethod import method_of
 from garkcli.api.methods import conjugate, find_order, pair
-from garkcli.check.agreement import agrees
-from garkcli.check.explained import repair_text, witness_text
+from garkcli.check.claims import agrees
+from garkcli.check.findings import repair_text, witness_text
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of

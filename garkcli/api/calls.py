@@ -9,8 +9,8 @@ from flint import fmpq
 from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, with_tolerance
 from garkcli.api.methods import analyse
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
-from garkcli.check import proof
-from garkcli.check.proof import MethodProof
+from garkcli.check import analysis
+from garkcli.check.analysis import MethodProof
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
@@ -200,4 +200,4 @@ def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof
     >>> prove_method("rk4")
     <MethodProof order 4, conjugate 4, pair 4>
     """
-    return proof.prove_method(method_of(method), whole(limit, "limit", 1))
+    return analysis.prove_method(method_of(method), whole(limit, "limit", 1))

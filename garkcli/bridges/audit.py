@@ -13,7 +13,7 @@ from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
-from garkcli.check.explained import repair_text, witness_text
+from garkcli.check.findings import repair_text, witness_text
 from garkcli.doing import doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number

@@ -1,4 +1,4 @@
-"""Everything known about one method, as one value: what ``gark check`` reports."""
+"""Everything known about one method, as one value, and what proves its orders."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import fmpq
 
 from garkcli.doing import doing
-from garkcli.errors import ZeroWeight
+from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.field import ZERO
+from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.forms import with_time
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import derived, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
@@ -145,3 +147,58 @@ def nonautonomous(
     if timed is None:
         return None
     return order_of(timed, limit) if inconsistent else order
+
+
+@dataclass(frozen=True)
+class MethodProof(Shown):
+    """What decides the orders of a method.
+
+    Attributes:
+        name: of the method.
+        method: its order.
+        conjugate: that of its symplectic conjugate, or None where a weight is zero.
+        pair: that of the symplectic pair, or None likewise; of a partitioned method it needs the
+            weights of the positions alone.
+        obstacle: why there is no conjugate; empty where there is one.
+    """
+
+    name: str
+    method: Proof
+    conjugate: Proof | None
+    pair: Proof | None
+    obstacle: Reason
+
+    def __repr__(self) -> str:
+        proofs = {"conjugate": self.conjugate, "pair": self.pair}
+        orders = [f"order {self.method.order.order}"]
+        for label, proof in proofs.items():
+            if proof is not None:
+                orders.append(f"{label} {proof.order.order}")
+        return f"<MethodProof {', '.join(orders)}>"
+
+
+@doing("proof")
+def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
+    """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
+
+    Args:
+        method: as it was loaded; its coefficients are exact.
+        limit: the order at which to stop.
+
+    Raises:
+        MethodError: the coefficients are rounded.
+    """
+    if method.tolerance is not None:
+        raise MethodError(
+            "the coefficients are rounded: an order within a tolerance has no exact proof",
+            "give them exactly, without a tolerance",
+            code="rounded",
+        )
+    conjugated, both, obstacle = conjugate_and_pair(method.tableau)
+    return MethodProof(
+        name=method.name,
+        method=prove(method.tableau, limit),
+        conjugate=None if conjugated is None else prove(printed(conjugated), limit),
+        pair=None if both is None else prove(printed(both), limit),
+        obstacle=obstacle,
+    )

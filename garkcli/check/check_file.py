@@ -50,7 +50,7 @@ def check_file(
     try:
         method = load(path, settings)
     except HasFreeParameters as error:
-        from garkcli.check.every_file import check_every
+        from garkcli.check.every_value import check_every
 
         return check_every(error, limit, want_constants, settings)
     except MethodFileError as error:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from garkcli.check.agreement import agrees, capped, claim_of, claimed_text
 from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.expectations import AtLeast
+from garkcli.methodfile.expectations import AtLeast, Measure
 from garkcli.order.deciding import AnyOrder
 from garkcli.order.simplifying import Simplifying
+from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import Subject
+from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
     from garkcli.order.dense import DenseOrder
@@ -24,8 +26,6 @@ def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ..
 
 def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
     if claim.key in KEYS:
-        from garkcli.check.claimed_properties import verify_property
-
         return verify_property(claim, analysis.subject)
     found = found_value(claim.key, analysis)
     shown = claimed_text(found)
@@ -92,3 +92,72 @@ def _order(found: AnyOrder | DenseOrder | None) -> object:
     if found is None:
         return None
     return AtLeast(found.order) if found.is_lower_bound else found.order
+
+
+def verify_property(claim: ClaimText, subject: Subject) -> Claim:
+    """Hold a claim on a property against the truth."""
+    verdict = subject.verdict(claim.key)
+    return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.reason)
+
+
+def _found(verdict: Verdict) -> str:
+    if verdict.value is None:
+        return "not decided" if verdict.is_undecided else "no meaning"
+    if verdict.is_at_least:
+        return f">= {verdict.value}"
+    return claimed_text(verdict.value)
+
+
+def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool:
+    value, wanted = verdict.value, claim.value
+    if isinstance(value, Size):
+        return isinstance(wanted, Measure) and wanted.agrees(value.root, subject.tolerance)
+    if verdict.is_at_least and isinstance(value, int):
+        return agrees(wanted, AtLeast(value))
+    return agrees(wanted, value)
+
+
+def claim_of(claim: ClaimText, found: str, holds: bool, reason: Reason = NO_REASON) -> Claim:
+    """A claim with what was found."""
+    mark = claim.node.start_mark
+    return Claim(
+        claim=claim.key,
+        expected=claimed_text(claim.value),
+        found=found,
+        holds=holds,
+        line=mark.line + 1,
+        column=mark.column + 1,
+        reason=NO_REASON if holds else reason,
+    )
+
+
+def agrees(wanted: object, found: object) -> bool:
+    """Whether a value of a file, a number or a list of numbers or lists, is what was found."""
+    if isinstance(wanted, list):
+        if not isinstance(found, list) or len(found) != len(wanted):
+            return False
+        return all(agrees(x, y) for x, y in zip(wanted, found, strict=True))
+    if isinstance(wanted, AtLeast):
+        known = found.least if isinstance(found, AtLeast) else found
+        return isinstance(known, int) and known >= wanted.least
+    return type(wanted) is type(found) and wanted == found
+
+
+def capped(value: object, limit: int) -> object:
+    """A number at which the search stopped is known to be at least that large, no more."""
+    if isinstance(value, (list, tuple)):
+        return [capped(x, limit) for x in value]
+    is_number = isinstance(value, int) and not isinstance(value, bool)
+    return AtLeast(limit) if is_number and value == limit else value
+
+
+def claimed_text(value: object) -> str:
+    """A value as it is written in YAML."""
+    if isinstance(value, list):
+        inside = ", ".join(claimed_text(x) for x in value)
+        return f"[{inside}]"
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value)

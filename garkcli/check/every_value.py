@@ -1,23 +1,31 @@
-"""Everything that holds for every value of the free parameters of a file, as one value."""
+"""Everything that holds for every value of the free parameters of a file, and its claims."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 from flint import fmpq_mpoly
 
 from garkcli.check.analysis import inconsistent_blocks
-from garkcli.check.every_facts import Fact, find
+from garkcli.check.claims import agrees, capped, claim_of, claimed_text
+from garkcli.check.every_facts import Fact, fact_text, find
 from garkcli.check.every_family import EveryFamily, every_family
 from garkcli.check.every_orders import EveryOrder, every_order
 from garkcli.check.every_properties import find_property
+from garkcli.check.outcome import Claim, Outcome
 from garkcli.design.ideal import Ideal
-from garkcli.errors import ZeroWeight
+from garkcli.doing import doing
+from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError, ZeroWeight
 from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
-from garkcli.methodfile.family import FamilyFile, loads_family
-from garkcli.order.simplifying import is_symplectic, simplifying
+from garkcli.methodfile.description import ClaimText
+from garkcli.methodfile.expectations import OF_ORDERS, AtLeast, highest_order
+from garkcli.methodfile.family import FamilyFile, family_of, loads_family
+from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
+from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.conjugate import symplectic_defects
 from garkcli.tableau.embedded import with_weights
@@ -189,3 +197,141 @@ def _defects(family: EveryFamily) -> list[fmpq_mpoly]:
     if any(x and not isinstance(x, Parametric) for x in numbers):
         return [ring.constant(ONE)]
     return zeros
+
+
+MOST_PARAMETERS = 30
+"""Free parameters of a file that is checked: with 27 it takes ten seconds, with 35 minutes."""
+
+
+@doing("what holds for every value of the parameters")
+def check_every(
+    file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
+) -> Outcome:
+    """Check a file whose parameters are free.
+
+    Args:
+        file: with its text.
+        limit: where the search for orders stops, unless a claim of the file reaches further.
+        want_constants: whether error constants were asked for, which need values.
+        settings: values of other parameters.
+    """
+    try:
+        family = family_of(file, settings)
+        count = len(family.parameters)
+        if count > MOST_PARAMETERS:
+            message = f"{count} free parameters (limit {MOST_PARAMETERS})"
+            cure = "give values to some by --set; gark design asks for one order"
+            return _refused(file, message, cure, "too-many")
+        of_dense = [x for x in family.claims if x.key.startswith("dense")]
+        if of_dense:
+            name = family.parameters[0]
+            message = f"{of_dense[0].key} is claimed, and {name} is free"
+            cure = f"dense output is judged for values: --set {name}=1/2"
+            return _refused(file, message, cure, "free-parameters")
+        reach = max(limit, highest_order(family.claims) + 1)
+        found = every_value(family, reach)
+    except MethodFileError as error:
+        faults = error.faults
+        return Outcome(file.source, file.source, faults=faults, text=file.text)
+    except GarkError as error:
+        return _refused(file, error.message, error.help, error.code)
+    if want_constants:
+        name = found.parameters[0]
+        message = "error constants are numbers, and a parameter is free"
+        return _refused(file, message, f"choose a value: --set {name}=1/2", "free-parameters")
+    return Outcome(
+        file=family.source,
+        name=family.name,
+        structure=family.structure,
+        every=found,
+        claims=verify_every(family.claims, found),
+        text=file.text,
+        left_behind=family.left_behind,
+    )
+
+
+def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
+    """What is not said for every value."""
+    faults = (Fault(message, cure, code=code),)
+    return Outcome(file.source, file.source, faults=faults, text=file.text)
+
+
+_OF_TABLES: dict[str, Callable[[Simplifying], Any]] = {
+    "B": lambda x: list(x.B),
+    "C": lambda x: [list(row) for row in x.C],
+    "D": lambda x: [list(row) for row in x.D],
+    "bound": lambda x: x.bound,
+    "sharp-bound": lambda x: x.sharp_bound,
+}
+"""Claims on what B, C and D are."""
+GROWING = OF_ORDERS
+"""Claims on how many conditions hold."""
+
+
+def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim, ...]:
+    """Hold each claim against what is true for every value."""
+    return tuple(_held_against(claim, found) for claim in claims)
+
+
+def _held_against(claim: ClaimText, found: EveryValue) -> Claim:
+    fact = _fact(claim.key, found)
+    name = next(iter(found.parameters), "")
+    text = fact_text(fact, name, claimed_text)
+    return claim_of(claim, text, _holds(claim, fact, found.limit))
+
+
+def _fact(key: str, found: EveryValue) -> Fact:
+    """What is true of the subject of a claim."""
+    if key in _OF_TABLES:
+        return found.simplifying.of(_OF_TABLES[key])
+    if key.startswith("pair-") and key != "pair-order":
+        part = _OF_TABLES[key.removeprefix("pair-")]
+        return found.pair_simplifying().of(part)
+    if key == "symplectic":
+        return found.symplectic
+    if key in KEYS:
+        return found.verdict(key)
+    return _of_order(_order(key, found))
+
+
+def _order(key: str, found: EveryValue) -> EveryOrder | None:
+    """The order that a claim is on."""
+    # few files claim those with time, which are found when they are asked for
+    if key == "nonautonomous-order":
+        return found.nonautonomous
+    if key == "embedded-nonautonomous-order":
+        return found.embedded_nonautonomous
+    return {
+        "order": found.order,
+        "conjugate-order": found.conjugate,
+        "pair-order": found.pair,
+        "embedded-order": found.embedded,
+    }[key]
+
+
+def _of_order(order: EveryOrder | None) -> Fact:
+    if order is None:
+        return Fact(None)
+    return order.fact
+
+
+def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool:
+    """Whether a claim is true for every value."""
+    wanted = claim.value
+    if fact.is_undecided or fact.where is not None or fact.unknown:
+        return False
+    others = (*fact.special, *fact.elsewhere)
+    values = [fact.value, *(value for _, value in others)]
+    if not all(agrees(wanted, capped(value, limit)) for value in values):
+        return False
+    if not fact.open and not fact.zeros:
+        return True
+    # where polynomials are zero more conditions hold, never less
+    return claim.key in GROWING and _is_bound(wanted)
+
+
+def _is_bound(wanted: object) -> bool:
+    """Whether a claim says no more than how large numbers are at least."""
+    if isinstance(wanted, list):
+        return all(x is None or _is_bound(x) for x in wanted)
+    return isinstance(wanted, AtLeast)

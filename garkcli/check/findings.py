@@ -1,17 +1,196 @@
-"""What is wrong with checked files, one value a finding: the common ground of the formats for
-machines.
-"""
+"""What is wrong with checked files: in words, and a value each for the formats of machines."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import PurePath
+from typing import TYPE_CHECKING
 
-from garkcli.check.explained import claim_hint, claim_witness
+from flint import fmpq
+
 from garkcli.check.outcome import Outcome
+from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.expression import read_decimal
+from garkcli.exact.field import Number
+from garkcli.order.certificate import Witness
+from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
+from garkcli.tableau.forms import with_time
+from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis
+    from garkcli.order.blame import Repair
+    from garkcli.order.deciding import AnyOrder
+    from garkcli.order.dense import DenseWitness
+    from garkcli.order.simplifying import Simplifying
+    from garkcli.tableau.tableau import Tableau
+
+BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
+"""The bound of ``Simplifying.bound``."""
+SHARP_BOUND = "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
+"""The bound of ``Simplifying.sharp_bound``."""
+_SHORT = 20
+"""Characters beyond which an exact entry is shown in decimals."""
+_LONG = 60
+"""Characters of value and residual beyond which a witness is shown in decimals."""
+
+
+def witness_text(witness: Witness, colours: bool) -> Reason:
+    """Which condition fails, and by how much; ``colours`` where there are several."""
+    return _told(witness, Code(format_tree(witness.tree, colours)))
+
+
+def dense_witness_text(found: DenseWitness, colours: bool) -> Reason:
+    """Which power of θ in the condition of which tree is not what it should be."""
+    tree = Code(format_tree(found.witness.tree, colours))
+    power = Formula(f"θ^{found.power}", rf"\theta^{{{found.power}}}")
+    return _told(found.witness, Reason("{}, at {}", tree, power))
+
+
+def _told(witness: Witness, condition: Code | Reason) -> Reason:
+    value, residual = to_text(witness.value), to_text(witness.residual)
+    is_long = len(value) + len(residual) > _LONG
+    return Reason(
+        f"fails at order {witness.tree.order}: {{}}: {{}} instead of {{}}, off by {{}}",
+        condition,
+        f"about {to_decimal(witness.value, 8)}" if is_long else Formula(value),
+        Formula(str(witness.required)),
+        to_decimal(witness.residual, 4) if is_long else Formula(residual),
+    )
+
+
+def bound_numbers(found: Simplifying) -> str:
+    """What the bounds of the order are made of."""
+    numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
+    return ", ".join(
+        f"{name} {'≥' if found.is_open(number) else '='} {number}"
+        for name, number in numbers.items()
+    )
+
+
+def claim_witness(outcome: Outcome, claim: str) -> Reason:
+    """The witness against a failed claim on an order, what a bound is made of, or what speaks
+    against a property; empty where there is none of these.
+    """
+    for failed in outcome.failed_claims:
+        if failed.claim == claim and failed.reason:
+            return failed.reason
+    analysis = outcome.analysis
+    if analysis is None:
+        return NO_REASON
+    if claim.endswith("bound"):
+        return _bound_witness(analysis, claim)
+    if claim == "dense-order":
+        dense = analysis.dense
+        if dense is None or dense.order.witness is None:
+            return NO_REASON
+        has_colours = analysis.tableau.size > 1
+        return dense_witness_text(dense.order.witness, has_colours)
+    order, tableau = _order_of(analysis, claim)
+    if order is None or tableau is None or order.witness is None:
+        return NO_REASON
+    return witness_text(order.witness, tableau.size > 1)
+
+
+def _order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau | None]:
+    """The order that a claim is on, and the tableau that has it."""
+    embedded = analysis.embedded
+    if embedded is not None and claim == "embedded-order":
+        return embedded.order, embedded.tableau
+    if embedded is not None and claim == "embedded-nonautonomous-order":
+        return embedded.nonautonomous_order, with_time(embedded.tableau)
+    if claim == "nonautonomous-order":
+        return analysis.nonautonomous_order, with_time(analysis.tableau)
+    found = {
+        "order": (analysis.order, analysis.tableau),
+        "conjugate-order": (analysis.conjugate_order, analysis.conjugate),
+        "pair-order": (analysis.pair_order, analysis.pair),
+    }
+    return found.get(claim, (None, None))
+
+
+def _bound_witness(analysis: Analysis, claim: str) -> Reason:
+    """How a bound comes about; empty where there is no pair."""
+    found = analysis.simplifying
+    if claim.startswith("pair-"):
+        if analysis.pair_simplifying is None:
+            return NO_REASON
+        found = analysis.pair_simplifying
+    equation = f"{found.bound} = {BOUND}"
+    if claim.endswith("sharp-bound"):
+        equation = f"{found.sharp_bound} = {SHARP_BOUND}"
+    return Reason("{} with {}", equation, bound_numbers(found))
+
+
+def claim_hint(outcome: Outcome, claim: str) -> Reason:
+    """What would mend a failed claim on an order, or one that fails with it; empty where nothing is
+    known.
+    """
+    analysis, blame = outcome.analysis, outcome.blame
+    if analysis is None:
+        return NO_REASON
+    names = [colour.name for colour in analysis.tableau.colours]
+    if blame is not None and claim in blame.restores:
+        first = repair_text(blame.repairs[0], names)
+        return Reason(f"it fails with {blame.of}, and would hold with {{}}", first)
+    orders = {"order", "conjugate-order", "pair-order", "embedded-order"}
+    if claim not in orders:
+        return NO_REASON
+    found = analysis.suggestion
+    if found is not None and claim != "embedded-order":
+        return Reason(f"with the line {{}} the order is {found.order}", found.line)
+    if analysis.misprint is not None and analysis.misprint.repairs:
+        first = repair_text(analysis.misprint.repairs[0], names)
+        return Reason("an entry looks misprinted: {}", first)
+    if blame is not None and blame.of == claim and blame.repairs:
+        first = repair_text(blame.repairs[0], names)
+        return Reason("the claimed order would hold with {}", first)
+    return NO_REASON
+
+
+def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
+    """An entry, as it should be and as it is.
+
+    Args:
+        repair: an entry with another value.
+        names: of the colours.
+    """
+    colours = [repair.l] if repair.i is None or repair.m is None else [repair.l, repair.m]
+    letter = "b" if len(colours) == 1 else "a"
+    indices = (repair.j,) if repair.i is None or repair.m is None else (repair.i, repair.j)
+    place = Place(letter, names_of(colours, names), indices)
+    kind = "embedded " if repair.is_embedded and letter == "b" else ""
+    new, old = value_text(repair.new), value_text(repair.old)
+    return Reason(f"{kind}{{}} = {{}} instead of {{}}", place, new, old)
+
+
+def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
+    """The names of some colours, where there are several."""
+    return tuple(names[l] for l in colours) if len(names) > 1 else ()
+
+
+def value_text(number: Number, digits: int = 17) -> Formula | str:
+    """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
+    text = to_text(number)
+    if len(text) <= _SHORT:
+        return Formula(text)
+    shown = to_decimal(number, 60)
+    magnitude = shown.lstrip("-")
+    if isinstance(number, fmpq) and read_decimal(magnitude) == abs(number):
+        return _without_zeros(shown)
+    return to_decimal(number, digits)
+
+
+def _without_zeros(text: str) -> str:
+    """A decimal without the zeros at the end of its fraction."""
+    mantissa, *exponent = text.split("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    return "e".join([mantissa, *exponent])
+
 
 CLAIM = "write what holds under expect: gark claims FILE --write"
 """The cure of a file that lacks a claim."""

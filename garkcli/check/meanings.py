@@ -3,22 +3,214 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache, partial
 
-from garkcli.check.senses import (
-    Meaning,
-    Sense,
-    claim_meaning,
-    every_sense,
-    fault_meaning,
-    field_meanings,
-    term_meaning,
-)
 from garkcli.errors import UNKNOWN, UsageProblem, did_you_mean
-from garkcli.glossary.faults import code_of
+from garkcli.glossary.faults import COMMANDS, by_code, code_of, findings_of
 from garkcli.glossary.fields import field_entries
+from garkcli.glossary.key import KINDS, Key, keys_of
 from garkcli.glossary.labels import key_of
-from garkcli.glossary.term import plain
+from garkcli.glossary.term import Term, by_word, plain
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What a word means in one of its senses.
+
+    Attributes:
+        kind: what it is: a term, a claim, a key, …
+        name: as it is written.
+        text: in whole sentences.
+        formula: the definition in signs; empty where there is none.
+        values: of a claim, how it is written.
+        scope: of a claim, for which methods it has a meaning; empty for all.
+        default: of a key, what holds without it; empty where nothing does.
+        example: a line of a file with it, or what has the fault.
+        cure: of a fault or a finding, what to do.
+        source: where it comes from.
+        see: words near it.
+    """
+
+    kind: str
+    name: str
+    text: str
+    formula: str = ""
+    values: str = ""
+    scope: str = ""
+    default: str = ""
+    example: str = ""
+    cure: str = ""
+    source: str = ""
+    see: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<Meaning {self.name}: {self.kind}>"
+
+
+@dataclass(frozen=True)
+class Sense:
+    """One kind of words.
+
+    Attributes:
+        names: those that have a meaning, each with other spellings under which it is found.
+        mean: the meaning of a name.
+    """
+
+    names: Mapping[str, tuple[str, ...]]
+    mean: Callable[[str], Meaning]
+
+
+def every_sense() -> Iterator[Sense]:
+    """Every kind of word, in the order in which meanings are told."""
+    yield Sense(_plainly(by_word()), _term)
+    yield Sense(_claims(), claim_meaning)
+    for kind in KINDS:
+        yield _keys(kind)
+    yield from _choices()
+    for command in COMMANDS:
+        yield _findings(command)
+    yield Sense(_plainly(by_code()), fault_meaning)
+
+
+def _plainly(names: Mapping[str, object]) -> dict[str, tuple[str, ...]]:
+    return dict.fromkeys(names, ())
+
+
+def _term(word: str) -> Meaning:
+    return term_meaning(by_word()[word])
+
+
+def term_meaning(term: Term) -> Meaning:
+    """A term of the glossary as the meaning of a word."""
+    return Meaning(
+        "term", term.name, term.text, formula=term.formula, source=term.source, see=term.see
+    )
+
+
+def _claims() -> dict[str, tuple[str, ...]]:
+    from garkcli.methodfile.expectations import CLAIMS
+
+    return {key: (f"expect.{key}", key.replace("-", "_")) for key in CLAIMS}
+
+
+def claim_meaning(key: str) -> Meaning:
+    """What a claim of a method file means.
+
+    Raises:
+        UsageProblem: there is no such claim.
+    """
+    from garkcli.properties.definitions import definition
+
+    found = definition(key)
+    return Meaning(
+        "claim under expect",
+        key,
+        found.text,
+        values=found.values.replace("`", ""),
+        scope=found.meaning,
+        source=found.source,
+    )
+
+
+def _keys(kind: str) -> Sense:
+    """The keys of a kind of files: each is found by its path and by its own name."""
+    keys = keys_of(kind)
+    names: dict[str, tuple[str, ...]] = {}
+    for path, key in keys.items():
+        own = path.rpartition(".")[2]
+        names[path] = (own,) if key.is_word else ()
+    return Sense(names, partial(_key, kind, keys))
+
+
+def _key(kind: str, keys: Mapping[str, Key], path: str) -> Meaning:
+    key = keys[path]
+    files, _ = KINDS[kind]
+    default = "" if key.default is None else str(key.default)
+    if isinstance(key.default, bool):
+        default = default.lower()
+    return Meaning(
+        f"key of {files}", path, key.text, default=default, example=key.example, source=key.page
+    )
+
+
+def _choices() -> Iterator[Sense]:
+    """What keys and options can be set to: families, rules, schemes, shapes, problems."""
+    from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
+    from garkcli.families.registry import FAMILIES
+    from garkcli.methodfile.shapes import SHAPES
+    from garkcli.problems.builtin import PROBLEMS
+    from garkcli.transfer import SUMMARIES
+
+    families = {name: f"{sentence(x.summary)} Order {x.order}." for name, x in FAMILIES.items()}
+    yield _listed("family of methods", families)
+    yield _listed("transfer rule", SUMMARIES)
+    for kind, schemes in (("compose", SCHEMES), ("splitting", SPLITTINGS)):
+        texts = {name: f"{sentence(x.summary)} Order {x.order}." for name, x in schemes.items()}
+        sources = {name: x.reference for name, x in schemes.items()}
+        yield _listed(f"scheme of {kind}", texts, sources)
+    shapes = {name: x.summary for name, x in SHAPES.items()}
+    pages = dict.fromkeys(SHAPES, "docs/design.md")
+    yield _listed("shape of unknown tableaus", shapes, pages)
+    problems = {name: x.summary for name, x in PROBLEMS.items()}
+    yield _listed("problem", problems)
+
+
+def _listed(kind: str, texts: Mapping[str, str], sources: Mapping[str, str] | None = None) -> Sense:
+    """Words that ``gark list`` shows with their texts."""
+
+    def mean(name: str) -> Meaning:
+        source = (sources or {}).get(name) or "gark list"
+        return Meaning(kind, name, sentence(texts[name]), source=source)
+
+    return Sense(_plainly(texts), mean)
+
+
+def _findings(command: str) -> Sense:
+    kinds = findings_of(command)
+
+    def mean(code: str) -> Meaning:
+        found = kinds[code]
+        return Meaning(
+            f"finding of gark {command}",
+            code,
+            found.text,
+            cure=found.cure,
+            source=COMMANDS[command],
+        )
+
+    return Sense(_plainly(kinds), mean)
+
+
+def fault_meaning(code: str) -> Meaning:
+    """What an error means."""
+    kind = by_code()[code]
+    return Meaning(
+        "error", code, kind.text, example=kind.example, cure=kind.cure, source="docs/bad-input.md"
+    )
+
+
+def field_meanings(word: str) -> list[Meaning]:
+    """What the fields of JSON reports of a name hold: one meaning for each place that differs."""
+    wanted = plain(word)
+    found = []
+    for name, text in field_entries().items():
+        if wanted in {plain(name), plain(name.rpartition(".")[2])}:
+            kind, page = "field of JSON reports", "docs/json-fields.md"
+            found.append(Meaning(kind, name, text, source=page))
+    return found
+
+
+def sentence(text: str) -> str:
+    """A remark as a sentence.
+
+    >>> sentence("zero above the diagonal")
+    'Zero above the diagonal.'
+    """
+    begun = text[:1].upper() + text[1:]
+    return begun if begun.endswith(".") else f"{begun}."
+
 
 __all__ = ["Meaning", "claim_meaning", "explain", "known_words", "term_meaning"]
 _FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from garkcli.check.agreement import claimed_text
 from garkcli.check.analysis import Analysis
-from garkcli.check.claims import found_value
+from garkcli.check.claims import claimed_text, found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.methodfile.expectations import CLAIMS, AtLeast
 from garkcli.properties.property import Size, Verdict

@@ -86,13 +86,13 @@ def _take_defaults(project: Project, given: Given, output: Output) -> None:
 def _compare(project: Project, given: Given, output: Output) -> int:
     """Write what is worse than in an earlier report."""
     from garkcli.check.baseline import read_baseline, regressions
-    from garkcli.report import check_baseline
+    from garkcli.report.check_findings import baseline_text
     from garkcli.report.checked import REPORT
 
     earlier = read_baseline(given.baseline)
     outcomes = _outcomes(project, given, output)
     worse = regressions(REPORT.document(outcomes), earlier)
-    output.write(check_baseline.render(worse, len(outcomes)))
+    output.write(baseline_text(worse, len(outcomes)))
     return int(bool(worse))
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from garkcli.page.json_text import to_json
-from garkcli.page.schema import Schema, array, nullable
+from garkcli.page.schema import Schema, array
 
 Whole = TypeVar("Whole")
 Owner = TypeVar("Owner")
@@ -87,48 +87,6 @@ class Record(Generic[Whole]):
         required = [*schema["required"], name]
         return {**schema, "required": required, "properties": properties}
 
-    def whole(self, name: str, part: Callable[[Owner], Whole]) -> Field[Owner]:
-        """A field with this object of a part that is always there."""
-        return Field(name, self.schema, self._of(part))
-
-    def or_null(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
-        """A field with this object of a part; null where there is no such part."""
-        return Field(name, nullable(self.schema), self._of(part))
-
-    def optional(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
-        """A field with this object of a part; left out where there is no such part."""
-        return Field(name, self.schema, self._of(part), is_optional=True)
-
     def every(self, name: str, parts: Callable[[Owner], Iterable[Whole]]) -> Field[Owner]:
         """A field with a list of these objects, one for each part."""
-
-        def found(owner: Owner) -> object:
-            return [self.data(part) for part in parts(owner)]
-
-        return Field(name, array(self.schema), found)
-
-    def _of(self, part: Callable[[Owner], Whole | None]) -> Callable[[Owner], object]:
-        return _of_part(part, self.data)
-
-
-def inside(
-    part: Callable[[Owner], Whole | None], fields: Iterable[Field[Whole]]
-) -> tuple[Field[Owner], ...]:
-    """Fields of a part as fields of its owner; None where there is no such part."""
-    found = []
-    for field in fields:
-        value = _of_part(part, field.value)
-        found.append(Field(field.name, field.schema, value, field.is_optional))
-    return tuple(found)
-
-
-def _of_part(
-    part: Callable[[Owner], Whole | None], value: Callable[[Whole], object]
-) -> Callable[[Owner], object]:
-    """The value of a part, as a function of its owner."""
-
-    def found(owner: Owner) -> object:
-        whole = part(owner)
-        return None if whole is None else value(whole)
-
-    return found
+        return Field(name, array(self.schema), lambda owner: [self.data(x) for x in parts(owner)])

@@ -11,7 +11,7 @@ from garkcli.bridges.audit import CODES, Audited, AuditFinding
 from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import counted
 from garkcli.page.paint import Paint
-from garkcli.report import check_github, check_sarif
+from garkcli.report.check_findings import annotation, commands_off, log_of
 from garkcli.tell.facts import Level, Row, Section, part, parts, rows_of, table, told
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, choice
 from garkcli.tell.report import FORMATS as TOLD
@@ -157,13 +157,13 @@ def _told(
 
 def _github(tables: Sequence[Audited], *_: Any) -> str:
     """A workflow command for each finding, and the text for the log."""
-    commands = [check_github.annotation(x) for x in _findings(tables)]
+    commands = [annotation(x) for x in _findings(tables)]
     told = "".join(f"{x}\n" for x in commands)
-    return told + check_github.inert(_told(tables, verbosity=-1))
+    return told + commands_off(_told(tables, verbosity=-1))
 
 
 def _sarif(tables: Sequence[Audited], *_: Any) -> str:
-    return check_sarif.log_of(list(_findings(tables)), CODES)
+    return log_of(list(_findings(tables)), CODES)
 
 
 FORMATS: Mapping[str, Callable[..., str]] = {

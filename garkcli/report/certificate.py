@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
 
-from garkcli.check.proof import MethodProof
+from garkcli.check.analysis import MethodProof
 from garkcli.errors import counted
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from garkcli.check.explained import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text
+from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data

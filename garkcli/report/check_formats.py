@@ -1,9 +1,8 @@
-"""The formats of ``gark check``: one file each, named here."""
+"""The formats of ``gark check``: each is named here."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from importlib import import_module
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
@@ -36,14 +35,16 @@ def _told(format: str) -> Renderer:
     return render
 
 
-def _machine(module: str) -> Renderer:
-    """A format that is always the same: the ``render`` of its file, which is imported when used."""
+def _machine(name: str) -> Renderer:
+    """A format that is always the same: a function of a file that is imported when used."""
 
     def render(
         outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
     ) -> str:
         del paint, verbosity, digits, width  # for people
-        text: str = import_module(f"garkcli.report.{module}").render(outcomes)
+        from garkcli.report import check_findings
+
+        text: str = getattr(check_findings, name)(outcomes)
         return text
 
     return render
@@ -52,9 +53,9 @@ def _machine(module: str) -> Renderer:
 FORMATS: Mapping[str, Renderer] = {
     "text": _text,
     "json": _told("json"),
-    "sarif": _machine("check_sarif"),
-    "junit": _machine("check_junit"),
-    "github": _machine("check_github"),
+    "sarif": _machine("sarif"),
+    "junit": _machine("junit"),
+    "github": _machine("github"),
     "markdown": _told("markdown"),
     "latex": _told("latex"),
 }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import arb
 
-from garkcli.check.explained import value_text
+from garkcli.check.findings import value_text
 from garkcli.comparison.comparison import WITH_TIME, Comparison
 from garkcli.comparison.differences import BlockGap, EntryGap
 from garkcli.exact.display import decimal, to_text

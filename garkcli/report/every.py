@@ -8,11 +8,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from garkcli.check.every_facts import Fact
+from garkcli.check.every_facts import Fact, fact_text
 from garkcli.check.every_facts import told as told_value
 from garkcli.check.every_family import EveryFamily
 from garkcli.check.every_properties import find_property
-from garkcli.check.every_words import fact_text
 from garkcli.design.stability_functions import FamilyFunction, family_functions
 from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.polynomial_text import power_text

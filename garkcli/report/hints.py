@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from flint import arb, fmpq
 
-from garkcli.check.explained import names_of, repair_text
+from garkcli.check.findings import names_of, repair_text
 from garkcli.exact.display import decimal
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.suggestion import Misprint, Suggestion

@@ -8,7 +8,7 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING, TypeAlias
 
-from garkcli.check.explained import witness_text
+from garkcli.check.findings import witness_text
 from garkcli.page.cells import remark
 from garkcli.page.plain import printable
 from garkcli.page.tableau_html import tableau_lines

@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.check.deciding import Analysis, analyse
-from garkcli.check.every_family import EveryFamily, every_family
-from garkcli.check.every_ranges import Range, can_vanish
+from garkcli.check.every_family import EveryFamily, Range, can_vanish, every_family
 from garkcli.errors import MethodError
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family

@@ -44,7 +44,7 @@ VALUES = (
     "stability.two_frequencies:SlowInterval",
     "exact.cells:Interval",
     "exact.roots:RealRoot",
-    "check.proof:MethodProof",
+    "check.analysis:MethodProof",
     "order.certificate:Proof",
     "comparison.comparison:Comparison",
     "conversion.convert:Converted",

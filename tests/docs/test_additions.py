@@ -142,20 +142,20 @@ def test_a_problem_is_an_entry(copy: Copy) -> None:
                                 "--format", "json")  # fmt: skip
 
 
-def test_a_format_of_check_is_a_file_and_a_line(copy: Copy) -> None:
+def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
     """The option has it."""
     assert "`garkcli/report/check_formats.py`" in row("format of `gark check`")
-    copy.write(
-        "garkcli/report/check_names.py",
-        '"""The names of the files."""\n\n\n'
-        "def render(outcomes):\n"
+    file = copy.folder / "garkcli/report/check_findings.py"
+    file.write_text(
+        file.read_text(encoding="utf-8") + "\n\ndef names(outcomes: Sequence[Outcome]) -> str:\n"
         '    """A line a file."""\n'
         '    return "".join(f"file {x.file}\\n" for x in outcomes)\n',
+        encoding="utf-8",
     )
     copy.insert(
         "garkcli/report/check_formats.py",
-        '    "junit": _machine("check_junit"),',
-        '    "names": _machine("check_names"),\n',
+        '    "junit": _machine("junit"),',
+        '    "names": _machine("names"),\n',
     )
     assert copy.gark("check", "m.yaml", "--format", "names") == "file m.yaml\n"
     assert "names" in copy.gark("check", "--help")

@@ -22,8 +22,8 @@ from hypothesis import strategies as st
 
 import garkcli
 from garkcli import find_order, load, loads
+from garkcli.check.analysis import prove_method
 from garkcli.check.deciding import analyse
-from garkcli.check.proof import prove_method
 from garkcli.report.certificate import REPORT
 
 ROOT = Path(__file__).resolve().parents[2]

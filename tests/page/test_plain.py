@@ -10,7 +10,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
 from garkcli.page.paint import Paint
 from garkcli.page.plain import csv_cell, inert, printable
-from garkcli.report import check_github, check_junit, check_sarif, check_text
+from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 
 TURNED = "a\N{RIGHT-TO-LEFT OVERRIDE}b\x1b[2J\x9b1m"
@@ -48,10 +48,10 @@ def test_every_format_writes_faults_without_controls() -> None:
     outcome = Outcome(f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}")
     texts = [
         check_text.render([outcome], Paint()),
-        check_github.render([outcome]),
+        check_findings.github([outcome]),
         FORMATS["markdown"]([outcome], Paint(), 0, None, 80),
-        check_junit.render([outcome]),
-        check_sarif.render([outcome]),
+        check_findings.junit([outcome]),
+        check_findings.sarif([outcome]),
     ]
     for text in texts:
         assert all(x.isprintable() or x == "\n" for x in text)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import COUNT, TEXT, array, nullable
 
 
@@ -19,8 +19,8 @@ class _Stage:
 
 @dataclass(frozen=True)
 class _Method:
-    first: _Stage
-    second: _Stage | None = None
+    name: str
+    stages: tuple[_Stage, ...] = ()
 
 
 _STAGE: Record[_Stage] = Record(
@@ -28,14 +28,13 @@ _STAGE: Record[_Stage] = Record(
     Field("note", TEXT, lambda x: x.note, is_optional=True),
 )
 _METHOD: Record[_Method] = Record(
-    *inside(lambda x: x.first, [Field("number", COUNT, lambda x: x.number)]),
-    _STAGE.or_null("second", lambda x: x.second),
-    _STAGE.optional("again", lambda x: x.second),
+    Field("name", nullable(TEXT), lambda x: x.name or None),
+    _STAGE.every("stages", lambda x: x.stages),
 )
 _SAMPLES = [
-    _Method(_Stage(1)),
-    _Method(_Stage(1), _Stage(2)),
-    _Method(_Stage(1), _Stage(2, "last")),
+    _Method(""),
+    _Method("heun", (_Stage(1),)),
+    _Method("heun", (_Stage(1), _Stage(2, "last"))),
 ]
 
 
@@ -47,16 +46,10 @@ def test_documents_keep_to_their_schema(method: _Method) -> None:
 
 
 def test_what_is_missing_is_null_or_left_out() -> None:
-    """A field that may be left out is, with the fields of a part that is not there; others are
-    null.
-    """
-    assert _METHOD.data(_SAMPLES[0]) == {"number": 1, "second": None}
-    second = {"number": 2, "note": "last"}
-    full = {"number": 1, "second": second, "again": second}
-    assert _METHOD.data(_SAMPLES[2]) == full
-    parts = inside(lambda x: x.second, _STAGE.fields)
-    only: Record[_Method] = Record(*parts)
-    assert only.data(_SAMPLES[0]) == {"number": None}
+    """A field that may be left out is; others are null."""
+    assert _METHOD.data(_SAMPLES[0]) == {"name": None, "stages": []}
+    stages = [{"number": 1}, {"number": 2, "note": "last"}]
+    assert _METHOD.data(_SAMPLES[2]) == {"name": "heun", "stages": stages}
 
 
 def test_the_schema_is_closed_and_needs_its_fields() -> None:

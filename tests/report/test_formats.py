@@ -28,7 +28,7 @@ from garkcli.cli.options import command_of
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
-from garkcli.report import check_github, check_junit, check_sarif, check_text
+from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.checked import REPORT
 from tests.cli.harness import ROOT, gark
@@ -147,7 +147,7 @@ def outcome(text: str, file: str = "m.gark.yaml", limit: int = 60) -> Outcome:
 
 def sarif(*outcomes: Outcome) -> dict[str, Any]:
     """The one run of a SARIF report that has the structure of the standard."""
-    log = json.loads(check_sarif.render(outcomes))
+    log = json.loads(check_findings.sarif(outcomes))
     Draft7Validator.check_schema(SARIF)
     assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
     (run,) = log["runs"]
@@ -262,7 +262,7 @@ def test_a_file_name_is_a_uri(file: str) -> None:
 
 def junit(*outcomes: Outcome) -> ET.Element:
     """A JUnit report whose counts are those of its cases."""
-    root = ET.fromstring(check_junit.render(outcomes))
+    root = ET.fromstring(check_findings.junit(outcomes))
     assert (root.tag, {suite.tag for suite in root}) == ("testsuites", {"testsuite"})
     for part in (root, *root):
         for count, path in (
@@ -328,7 +328,7 @@ _COMMAND = re.compile(r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)
 def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
     """The annotations as the runner of GitHub reads them: properties and text, unescaped."""
     found = []
-    for line in check_github.render(outcomes).split("\n"):
+    for line in check_findings.github(outcomes).split("\n"):
         if line.startswith("::error"):
             match = _COMMAND.fullmatch(line)
             assert match, line
@@ -539,11 +539,11 @@ def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
     """The tree whose condition fails, by how much, and the entry that would mend it."""
     found = blamed(tmp_path)
     texts = {
-        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][0]["message"][
+        "sarif": json.loads(check_findings.sarif([found]))["runs"][0]["results"][0]["message"][
             "text"
         ],
-        "junit": ET.fromstring(check_junit.render([found])).find(".//failure").text,  # type: ignore[union-attr]
-        "github": check_github.render([found]).splitlines()[0],
+        "junit": ET.fromstring(check_findings.junit([found])).find(".//failure").text,  # type: ignore[union-attr]
+        "github": check_findings.github([found]).splitlines()[0],
         "markdown": FORMATS["markdown"]([found], Paint(), 0, None, 80),
         "json": json.dumps(REPORT.document([found])),
     }

@@ -17,7 +17,7 @@ from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load, loads
 from garkcli.page.paint import Paint
 from garkcli.page.tableau_latex import render as tableau_latex
-from garkcli.report import check_junit
+from garkcli.report import check_findings
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
@@ -104,7 +104,7 @@ def test_failing_claims_have_witness_and_repair(tmp_path: Path) -> None:
     assert (failed.claim, failed.found) == ("embedded-order", "0")
     text = render([outcome], Paint())
     assert "would hold with embedded b[1] = 7/24 instead of 5/24" in words(text)
-    junit = check_junit.render([outcome])
+    junit = check_findings.junit([outcome])
     assert "fails at order 1: []: 11/12 instead of 1" in junit
     data = json.loads(REPORT.json([outcome]))
     jsonschema.validate(data, REPORT.schema)

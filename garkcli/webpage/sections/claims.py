@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.check.explained import claim_hint, claim_witness
+from garkcli.check.findings import claim_hint, claim_witness
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section

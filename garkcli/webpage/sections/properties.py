@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.every_facts import told
+from garkcli.check.every_facts import fact_text, told
 from garkcli.check.every_value import EveryValue
-from garkcli.check.every_words import fact_text
 from garkcli.check.outcome import Outcome
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS, every_property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.check.explained import BOUND, SHARP_BOUND
+from garkcli.check.findings import BOUND, SHARP_BOUND
 from garkcli.order.simplifying import Simplifying
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
