@@ -127,20 +127,18 @@ REFERENCE = Kind(
 def _aliases(at: Any, node: Node, where: str) -> tuple[str, ...]:
     """Other names of a method: a list of texts, or one text."""
     source: Source = at.source
-    is_list = isinstance(node, SequenceNode)
-    items: Sequence[Node] = node.value if is_list else [node]
     aliases: list[str] = []
-    for item in items:
+    for item in node.value if isinstance(node, SequenceNode) else [node]:
         text = source.scalar(item, where)
         if text is None:
             continue
         alias = one_line(text)
         fault = _what_is_wrong(alias, aliases)
-        if fault:
+        if fault is None:
+            aliases.append(alias)
+        else:
             message, cure, code = fault
             source.fault(item, message, cure, code=code)
-        else:
-            aliases.append(alias)
     return tuple(aliases)
 
 

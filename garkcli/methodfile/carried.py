@@ -39,13 +39,12 @@ def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
     """
     for key, claims in _entries(method):
         if key.value == "expect" and isinstance(claims, MappingNode):
-            kept: list[tuple[Node, Node]] = []
-            for name, value in claims.value:
-                if name.value in names:
-                    renamed = ScalarNode(name.tag, names[name.value])
-                    kept.append((renamed, value))
-            if kept:
-                return _lines([(key, _mapping(kept))])
+            kept: list[tuple[Node, Node]] = [
+                (ScalarNode(name.tag, names[name.value]), value)
+                for name, value in claims.value
+                if name.value in names
+            ]
+            return _lines([(key, _mapping(kept))]) if kept else ""
     return ""
 
 
@@ -56,12 +55,8 @@ def parameter_names(text: str, source: str) -> list[str]:
     ['t']
     """
     root = Source(source, text).compose()
-    if not isinstance(root, MappingNode):
-        return []
-    for key, value in root.value:
-        if key.value == "parameters" and isinstance(value, MappingNode):
-            return [str(name.value) for name, _ in value.value]
-    return []
+    parameters = None if root is None else _mapping_under(root, "parameters")
+    return [] if parameters is None else [str(name.value) for name, _ in parameters.value]
 
 
 def _entries(method: MethodFile) -> list[tuple[Node, Node]]:
@@ -76,10 +71,8 @@ def _mapping(entries: list[tuple[Node, Node]]) -> MappingNode:
 
 
 def _lines(entries: list[tuple[Node, Node]]) -> str:
-    if not entries:
-        return ""
-    text = yaml.serialize(_mapping(entries), allow_unicode=True, width=_WIDTH)
-    return str(text)
+    mapping = _mapping(entries)
+    return str(yaml.serialize(mapping, allow_unicode=True, width=_WIDTH)) if entries else ""
 
 
 _DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
@@ -91,20 +84,10 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     Exact for every method: nothing is spelled out. Claims and description are left behind, as they
     are about the other method, and so are weights that only the method itself has.
     """
-    root = Source(method.source, method.text).compose()
-    if root is None:
-        raise ValueError("the text of a method file")
+    kept = [(key, _without_further(x)) for key, x in _entries(method) if key.value not in _DROPPED]
     title: tuple[Node, Node] = (_scalar("name"), _scalar(name))
-    entries = [title]
-    for key, value in root.value:
-        if key.value not in _DROPPED:
-            kept = _without_further(value)
-            entries.append((key, kept))
-    if not method.is_conjugate:
-        true = ScalarNode("tag:yaml.org,2002:bool", "true")
-        entries.append((_scalar("conjugate"), true))
-    mapping = MappingNode(root.tag, entries, flow_style=False)
-    return str(yaml.serialize(mapping, allow_unicode=True, width=110))
+    added: tuple[Node, Node] = (_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true"))
+    return _lines([title, *kept, *([] if method.is_conjugate else [added])])
 
 
 def _without_further(node: Node) -> Node:
@@ -114,10 +97,7 @@ def _without_further(node: Node) -> Node:
         return SequenceNode(node.tag, items, flow_style=node.flow_style)
     if not isinstance(node, MappingNode):
         return node
-    kept = []
-    for key, value in node.value:
-        if key.value not in BESIDE:
-            kept.append((key, _without_further(value)))
+    kept = [(key, _without_further(x)) for key, x in node.value if key.value not in BESIDE]
     return MappingNode(node.tag, kept, flow_style=node.flow_style)
 
 
@@ -153,7 +133,7 @@ def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
     """
     root = Source(source, text).compose()
     assert isinstance(root, MappingNode)
-    expect = _expect(root)
+    expect = _mapping_under(root, "expect")
     if expect is None or not expect.value:
         return _with_block(source, text, root, expect, claims)
     edits = [*_replacements(text, expect, claims), *_additions(text, expect, claims)]
@@ -163,11 +143,10 @@ def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
     return text
 
 
-def _expect(root: MappingNode) -> MappingNode | None:
-    for key, value in root.value:
-        if key.value == "expect" and isinstance(value, MappingNode):
-            return value
-    return None
+def _mapping_under(root: MappingNode, name: str) -> MappingNode | None:
+    """The mapping under a key of a file; None where there is none."""
+    found = (x for key, x in root.value if key.value == name and isinstance(x, MappingNode))
+    return next(found, None)
 
 
 def _with_block(
@@ -188,11 +167,9 @@ def _with_block(
     before, after = text[:end], text[end:]
     line_end = _line_end(text)
     margin = " " * root.start_mark.column
-    lines = [f"{INDENT}{key}: {value}" for key, value in claims.items()]
-    block = [margin + line + line_end for line in ("expect:", *lines)]
-    if not before.endswith("\n"):
-        before += line_end
-    return before + "".join(block) + after
+    lines = ["expect:", *(f"{INDENT}{key}: {value}" for key, value in claims.items())]
+    block = "".join(margin + line + line_end for line in lines)
+    return before + ("" if before.endswith("\n") else line_end) + block + after
 
 
 def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
@@ -218,9 +195,8 @@ def _additions(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Ite
         yield end, end, "".join(f", {x}" for x in new)
         return
     margin = _line_end(text) + " " * first.start_mark.column
-    place = text.find(_line_end(text), end)
-    if place < 0:
-        place = len(text)
+    line_end = text.find(_line_end(text), end)
+    place = len(text) if line_end < 0 else line_end
     yield place, place, "".join(margin + x for x in new)
 
 

@@ -31,13 +31,10 @@ def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
     >>> too_long((1 + x + u + u**2) ** 64, [u])
     u
     """
-    moving = set(velocities)
     for v in velocities:
         slope = lagrangian.diff(v)
-        is_linear = not slope.diff(v).free_symbols & moving
-        if is_linear:
-            continue
-        if _terms(_undone(slope, v), v) > MAX_TERMS:
+        is_linear = slope.diff(v).free_symbols.isdisjoint(velocities)
+        if not is_linear and _terms(_undone(slope, v), v) > MAX_TERMS:
             return v
     return None
 
@@ -68,19 +65,10 @@ def _terms(f: Expr, v: Expr) -> int:
     import sympy
 
     found = _fraction(f)
-    terms = found.terms
-    powers = f.atoms(sympy.Pow)
-    if any(_is_square_root(x, v) for x in powers):
-        terms **= 2
-    return max(terms, found.inside)
-
-
-def _is_square_root(power: Expr, v: Expr) -> bool:
-    """Whether a power is an odd one of a square root, and v stands in it."""
-    exponent = power.exp
-    if v not in power.free_symbols:
-        return False
-    return bool(exponent.is_Rational and exponent.q == 2)
+    # odd powers of square roots with v in them
+    powers = [x.exp for x in f.atoms(sympy.Pow) if v in x.free_symbols]
+    has_root = any(exponent.is_Rational and exponent.q == 2 for exponent in powers)
+    return max(found.terms**2 if has_root else found.terms, found.inside)
 
 
 Size: TypeAlias = tuple[int, int]
@@ -114,13 +102,9 @@ def _fraction(f: Expr) -> _Fraction:
     if f.is_Pow and f.exp.is_Integer:
         return _integer_power(f, parts[0], inside)
     # a root or a function: one term, whatever stands in it
-    for part in parts:
-        inside = max(inside, part.terms)
-    is_root = f.is_Pow and f.exp.is_Rational
-    if is_root and f.exp.p < 0:
-        below = f.base ** abs(f.exp)
-        return _Fraction(1, {below: (1, 1)}, inside)
-    return _Fraction(1, {}, inside)
+    inside = max(inside, *(part.terms for part in parts), 1)
+    is_below = f.is_Pow and f.exp.is_Rational and f.exp.p < 0
+    return _Fraction(1, {f.base ** abs(f.exp): (1, 1)} if is_below else {}, inside)
 
 
 def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
@@ -130,9 +114,7 @@ def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
         for base, (size, power) in part.factors.items():
             _, known = common.get(base, (size, 0))
             common[base] = size, max(power, known)
-    terms = 0
-    for part in parts:
-        terms += part.terms * _missing(common, part.factors)
+    terms = sum(part.terms * _missing(common, part.factors) for part in parts)
     return _Fraction(terms, common, inside)
 
 
@@ -142,34 +124,24 @@ def _product(parts: Sequence[_Fraction], inside: int) -> _Fraction:
         for base, (size, power) in part.factors.items():
             _, known = factors.get(base, (size, 0))
             factors[base] = size, power + known
-    terms = prod(x.terms for x in parts)
-    return _Fraction(terms, factors, inside)
+    return _Fraction(prod(x.terms for x in parts), factors, inside)
 
 
 def _integer_power(f: Expr, base: _Fraction, inside: int) -> _Fraction:
     exponent = int(f.exp)
     times = abs(exponent)
-    raised: dict[Expr, Size] = {}
-    for x, (size, n) in base.factors.items():
-        raised[x] = size, times * n
+    raised = {x: (size, times * n) for x, (size, n) in base.factors.items()}
     if exponent > 0:
-        terms = _power(base.terms, exponent)
-        return _Fraction(terms, raised, inside)
+        return _Fraction(_power(base.terms, exponent), raised, inside)
     # the denominator of the base comes into the numerator, and the other way round
-    terms = _missing(raised, {})
-    below: dict[Expr, Size] = {}
-    if f.base.free_symbols:
-        below[f.base] = base.terms, times
-    return _Fraction(terms, below, inside)
+    below = {f.base: (base.terms, times)} if f.base.free_symbols else {}
+    return _Fraction(_missing(raised, {}), below, inside)
 
 
 def _missing(all_factors: Factors, factors: Factors) -> int:
     """The terms of a denominator divided by some of its factors."""
-    found = 1
-    for x, (size, power) in all_factors.items():
-        _, present = factors.get(x, (size, 0))
-        found *= _power(size, power - present)
-    return found
+    sizes = all_factors.items()
+    return prod(_power(size, power - factors.get(x, (size, 0))[1]) for x, (size, power) in sizes)
 
 
 def _power(terms: int, exponent: int) -> int:

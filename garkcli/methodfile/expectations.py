@@ -118,8 +118,7 @@ Wanted: TypeAlias = "int | AtLeast | bool | Measure | list[Wanted] | None"
 
 def _number(at: Any, node: Node, where: str) -> Wanted:
     text = at.source.scalar(node, where) or ""
-    at_least = _AT_LEAST.fullmatch(text)
-    if at_least:
+    if at_least := _AT_LEAST.fullmatch(text):
         return AtLeast(int(at_least[1]))
     if text.isascii() and text.isdigit() and len(text) < 5:
         return int(text)

@@ -72,10 +72,8 @@ def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
     if settings:
         message = f"{source} has no free parameter left"
         return MethodError(message, "gark check --set judges one method", code="free-parameters")
-    message = f"{source} has no free parameter"
-    cure = "write parameters: {tau: free} in place of a value, "
-    cure += 'or "?" for an entry'
-    return MethodError(message, cure, code="free-parameters")
+    cure = 'write parameters: {tau: free} in place of a value, or "?" for an entry'
+    return MethodError(f"{source} has no free parameter", cure, code="free-parameters")
 
 
 def loads_family(
@@ -102,8 +100,12 @@ def loads_family(
     >>> family.tableau.block(0, 0)
     ((0, 0), (t, 0))
     """
-    reader, description = _with_unknowns(text, source, settings)
-    wishes = _wishes(reader) if is_design else Wishes()
+    reader, description = described(text, source, settings)
+    if not reader.numbers.free:
+        # where the file or a setting has a fault, that is what is told
+        loads(text, source, settings)
+        raise _without_unknowns(source, settings)
+    wishes = read_wishes(reader, reader.design) if is_design else Wishes()
     return _family(reader, description, wishes, settings, deadline)
 
 
@@ -159,39 +161,12 @@ def _family(
         unsettled=meaning.unsettled,
         wanted_at=reader.design_place(),
         settings=settings,
-        places=_places(reader),
+        places={name: extent(source.text, x, x) for name, x in reader.numbers.places.items()},
         shape=_shape(reader),
         structure=description.structure,
         left_behind=left_behind(description.content),
         claims=description.claims,
     )
-
-
-def _with_unknowns(
-    text: str, source: str, settings: Mapping[str, str]
-) -> tuple[Reader, Description]:
-    """What a file with free parameters says.
-
-    Raises:
-        MethodError: it has none.
-    """
-    reader, description = described(text, source, settings)
-    if not reader.numbers.free:
-        # where the file or a setting has a fault, that is what is told
-        loads(text, source, settings)
-        raise _without_unknowns(source, settings)
-    return reader, description
-
-
-def _wishes(reader: Reader) -> Wishes:
-    return read_wishes(reader, reader.design)
-
-
-def _places(reader: Reader) -> Mapping[str, Extent]:
-    """Where each parameter stands."""
-    text = reader.source.text
-    places = reader.numbers.places
-    return {name: extent(text, x, x) for name, x in places.items()}
 
 
 def _cancelled(
@@ -244,25 +219,20 @@ def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim:
     """
     text = family.text
     given = {**family.settings, **values}
-    changes = []
-    for name, place in family.places.items():
-        if name in given:
-            changes.append((place, _scalar(given[name])))
+    places = family.places.items()
+    changes = [(place, _scalar(given[name])) for name, place in places if name in given]
     if family.shape is not None:
         place, tableau = family.shape
-        lines = ["parameters:"]
-        for name, value in given.items():
-            lines.append(f"  {name}: {_scalar(value)}")
-        changes.append((place, "\n".join([*lines, tableau])))
+        lines = [f"  {name}: {_scalar(value)}" for name, value in given.items()]
+        changes.append((place, "\n".join(["parameters:", *lines, tableau])))
     if family.wanted_at is not None:
         # its names are those of unknowns, which the file has no more
         changes.append((family.wanted_at, ""))
     for (start, end), change in sorted(changes, reverse=True):
         text = text[:start] + change + text[end:]
-    lines = [f"# {line}" for line in head.splitlines()]
     if "expect:" not in text:
         text = f"{text.rstrip()}\nexpect: {{{claim}}}"
-    return "\n".join([*lines, text.rstrip()]) + "\n"
+    return "\n".join([*(f"# {line}" for line in head.splitlines()), text.rstrip()]) + "\n"
 
 
 def _scalar(value: str) -> str:

@@ -4,6 +4,10 @@ of their own.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain
+from math import prod
 from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly, fmpz_poly
@@ -98,12 +102,8 @@ class _FamilyDomain(Domain):
     """Evaluates expressions to rational functions of parameters."""
 
     def __init__(self, names: list[str], expressions: list[Expression]) -> None:
-        found: dict[Root | AlgebraicRoot, None] = {}
-        for expression in expressions:
-            found.update(dict.fromkeys(roots_in(expression)))
-        self._names: dict[Root | AlgebraicRoot, str] = {}
-        for i, root in enumerate(found, start=1):
-            self._names[root] = f"{ROOT}{i}"
+        found = dict.fromkeys(chain.from_iterable(map(roots_in, expressions)))
+        self._names = {root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)}
         self.ring = Parameters([*names, *self._names.values()])
         self.radicals: list[Radical] = []
         self.divisors: list[fmpq_mpoly] = []
@@ -128,10 +128,13 @@ class _FamilyDomain(Domain):
         difference = unknown**root.index - cast("Any", radicand)
         relation = cast("Parametric", difference).numerator
         is_even = root.index % 2 == 0
-        text = format_expression(root)
-        latex = format_expression(root, latex=True)
-        self.radicals.append(Radical(name, relation, is_even, text=text, latex=latex))
+        self._add(root, Radical(name, relation, is_even))
         return cast("Number", unknown)
+
+    def _add(self, root: Root | AlgebraicRoot, radical: Radical) -> None:
+        """Keep an unknown of a radical, with the radical as text."""
+        text, latex = format_expression(root), format_expression(root, latex=True)
+        self.radicals.append(replace(radical, text=text, latex=latex))
 
     def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:
         name = self._names[root]
@@ -140,9 +143,7 @@ class _FamilyDomain(Domain):
         for coefficient in reversed(root.coefficients):
             relation = relation * unknown + coefficient
         meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
-        text = format_expression(root)
-        latex = format_expression(root, latex=True)
-        self.radicals.append(Radical(name, relation, meant=meant, text=text, latex=latex))
+        self._add(root, Radical(name, relation, meant=meant))
         return cast("Number", self.ring.parameter(name))
 
     def coefficient(self, expression: Expression) -> Number:
@@ -181,15 +182,14 @@ class _FamilyDomain(Domain):
         """The terms that a polynomial has at most once powers of radicals are written out."""
         if not self.radicals:
             return len(polynomial)
-        found = 0
-        for exponents in polynomial.monoms():
-            terms = 1
-            for radical in self.radicals:
-                place = self.ring.names.index(radical.name)
-                index = radical.relation.degrees()[place]
-                terms *= terms_of_power(radical.relation, exponents[place] // index)
-            found += terms
-        return found
+
+        def written_out(radical: Radical, exponents: Sequence[int]) -> int:
+            place = self.ring.names.index(radical.name)
+            index = radical.relation.degrees()[place]
+            return terms_of_power(radical.relation, exponents[place] // index)
+
+        every = polynomial.monoms()
+        return sum(prod(written_out(x, exponents) for x in self.radicals) for exponents in every)
 
     def _limit(self, terms: int, degree: int, at: Expression) -> None:
         """Refuse what would be larger than any coefficient, before it is multiplied out."""

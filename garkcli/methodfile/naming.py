@@ -159,13 +159,12 @@ def _both(argument: str, method: Shelved) -> Fault:
 def _unknown(name: str) -> Fault:
     """Neither file nor name."""
     message = "no such file, and no method of this name in the catalogue"
-    near = nearest(name, _names())
+    cure, near = "gark list methods shows the names", nearest(name, _names())
     if near:
-        return Fault(message, f"did you mean {near!r}?", code="no-such-file")
-    begun = names_beginning(name)
-    if begun:
-        return Fault(message, f"names that begin so: {_first(begun)}", code="no-such-file")
-    return Fault(message, "gark list methods shows the names", code="no-such-file")
+        cure = f"did you mean {near!r}?"
+    elif begun := names_beginning(name):
+        cure = f"names that begin so: {_first(begun)}"
+    return Fault(message, cure, code="no-such-file")
 
 
 def _first(names: Sequence[str]) -> str:
@@ -176,12 +175,12 @@ def _first(names: Sequence[str]) -> str:
 
 def _names() -> list[str]:
     """Every name and every alias."""
-    names: list[str] = []
-    for shelf in every_shelf():
-        for methods in shelf.methods.values():
-            for method in methods:
-                names += [method.name, *shelf.called(method)]
-    return names
+    return [
+        name
+        for shelf in every_shelf()
+        for method in chain.from_iterable(shelf.methods.values())
+        for name in (method.name, *shelf.called(method))
+    ]
 
 
 def every_shelf() -> list[Shelf]:
@@ -254,8 +253,5 @@ def expanded(argument: str) -> list[str]:
     if not argument.startswith(PREFIX) or os.path.lexists(argument):
         return []
     folder = key_of(_without_prefix(argument))
-    found = []
-    for _, method in visible(every_shelf()):
-        if folder in {"", key_of(method.folder)}:
-            found.append(PREFIX + method.name)
-    return found
+    methods = (method for _, method in visible(every_shelf()))
+    return [PREFIX + x.name for x in methods if folder in {"", key_of(x.folder)}]

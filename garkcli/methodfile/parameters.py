@@ -173,10 +173,7 @@ def _value_for(name: str) -> str:
 def refuse_unknown_settings(numbers: Numbers) -> None:
     """Note values that are given for parameters that the file does not have."""
     known = list(numbers.parameters)
-    for name in numbers.settings:
-        if name not in known:
-            cure = "it has no parameters"
-            if known:
-                cure = did_you_mean(name, known)
-            message = f"no parameter {shortened(name)} to be set"
-            numbers.source.fault(None, message, cure, code="unknown-word")
+    for name in (x for x in numbers.settings if x not in known):
+        cure = did_you_mean(name, known) if known else "it has no parameters"
+        message = f"no parameter {shortened(name)} to be set"
+        numbers.source.fault(None, message, cure, code="unknown-word")

@@ -46,7 +46,7 @@ def plain(text: str) -> str:
     >>> plain("½ − √3/6"), plain(r"$\frac{1}{2}$ & \frac12 \\ \hline")
     ('1/2 - sqrt(3)/6', '1/2 & 1/2 \n \n')
     """
-    text = "".join(map(_fraction, _neighbours(text))).translate(_SIGNS)
+    text = "".join(map(_fraction, " " + text, text)).translate(_SIGNS)
     text = re.sub(rf"{_ROOT}\s*([0-9]+)", r"sqrt(\1)", text)
     text = re.sub(rf"{_ROOT}\s*\(", "sqrt(", text)
     if "\\" not in text and "$" not in text:
@@ -60,14 +60,8 @@ def plain(text: str) -> str:
     return text
 
 
-def _neighbours(text: str) -> list[tuple[str, str]]:
-    """Each sign with the one before it."""
-    return list(zip(" " + text, text, strict=False))
-
-
-def _fraction(pair: tuple[str, str]) -> str:
+def _fraction(before: str, sign: str) -> str:
     """A fraction that is one sign, written out; not behind a digit, where it would be a sum."""
-    before, sign = pair
     written = unicodedata.normalize("NFKC", sign)
     is_fraction = "\N{FRACTION SLASH}" in written and sign != written
     return written if is_fraction and not before.isdigit() else sign
@@ -136,9 +130,7 @@ def read_pasted(text: str) -> Pasted:
     if sign in _OF_TABLES and lines[-1].node:
         lines = _without_nodes(lines)
     has_bars = any(line.node is not None for line in lines)
-    if has_bars:
-        return _with_nodes(lines)
-    return _without_bars(lines)
+    return _with_nodes(lines) if has_bars else _without_bars(lines)
 
 
 def _is_rule(text: str) -> bool:
@@ -150,8 +142,7 @@ def _between_cells(text: str) -> str:
     rows = [x for x in text.splitlines() if not _is_rule(x)]
     if any(x.count("&") > 1 for x in rows):
         return "&"
-    has_bars = any(_BAR.search(x) for x in rows)
-    if has_bars or not rows:
+    if not rows or any(_BAR.search(x) for x in rows):
         return ""
     if any("\t" in x.rstrip() for x in rows):
         return "\t"
@@ -167,8 +158,7 @@ def _without_nodes(lines: list[_Line]) -> list[_Line]:
 
 def _filled(row: _Row, length: int) -> _Row:
     """A row with the zeros that were left out at its end."""
-    missing = length - len(row)
-    return row + ("0",) * missing
+    return row + ("0",) * (length - len(row))
 
 
 def _line(text: str, sign: str) -> _Line:
@@ -185,22 +175,15 @@ def _line(text: str, sign: str) -> _Line:
         return _Line(node, tuple(x or "0" for x in cells))
     stripped = text.strip().removesuffix(";").strip()
     *before, numbers = _BAR.split(stripped, maxsplit=1)
-    words = _BETWEEN.split(numbers.strip(" |"))
-    row = tuple(word for word in words if word)
-    if not before:
-        return _Line(None, row)
-    [node] = before
-    return _Line(node.strip(), row)
+    row = tuple(filter(None, _BETWEEN.split(numbers.strip(" |"))))
+    return _Line(before[0].strip() if before else None, row)
 
 
 def _with_nodes(lines: list[_Line]) -> Pasted:
     """Stages have something before the bar, weights have nothing."""
-    stages = list(takewhile(lambda x: bool(x.node), lines))
-    nodes = tuple(line.node or "" for line in stages)
-    every_row = [line.row for line in lines]
-    rows = every_row[: len(stages)]
-    weights = every_row[len(stages) :]
-    return _made(rows, weights, nodes)
+    nodes = tuple(takewhile(bool, (line.node or "" for line in lines)))
+    rows = [line.row for line in lines]
+    return _made(rows[: len(nodes)], rows[len(nodes) :], nodes)
 
 
 def _without_bars(lines: list[_Line]) -> Pasted:
@@ -208,24 +191,17 @@ def _without_bars(lines: list[_Line]) -> Pasted:
     rows = [line.row for line in lines]
     longest = max(map(len, rows))
     weights = [rows.pop()]
-    if len(rows) > 1:
-        stages = len(rows) - 1
-        last = rows[-1]
-        if len(last) == len(weights[0]) == stages:
-            weights.insert(0, rows.pop())
+    if len(rows) > 1 and len(rows[-1]) == len(weights[0]) == len(rows) - 1:
+        weights.insert(0, rows.pop())
     stages = len(rows)
-    lengths = [len(row) for row in rows]
-    growing = list(range(1, stages + 1))
-    if stages > 1 and lengths == growing:
+    if stages > 1 and [len(row) for row in rows] == list(range(1, stages + 1)):
         raise MethodError(
             "rows of 1, 2, … numbers: nodes may come first, or the diagonal last",
             "part nodes from their rows by |, or write the zeros",
             code="pasted-tableau",
         )
     if longest == stages + 1 == len(rows[-1]):
-        nodes = tuple(row[0] for row in rows)
-        without = [row[1:] for row in rows]
-        return _made(without, weights, nodes)
+        return _made([row[1:] for row in rows], weights, tuple(row[0] for row in rows))
     return _made(rows, weights, None)
 
 
@@ -259,5 +235,4 @@ def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> 
                 code="pasted-tableau",
             )
     filled = tuple(_filled(row, stages) for row in rows)
-    embedded = weights[1] if len(weights) == 2 else None
-    return Pasted(filled, weights[0], nodes, embedded)
+    return Pasted(filled, weights[0], nodes, *weights[1:])

@@ -33,14 +33,12 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
         fault = Fault("no file has such a name", "leave out what is no text", code="no-such-file")
         raise MethodFileError(path, [fault]) from None
     except NotAFile:
-        fault = Fault(
-            "not a regular file", f"give a {kind.name}, or - for standard input", code="cannot-read"
-        )
+        cure = f"give a {kind.name}, or - for standard input"
+        fault = Fault("not a regular file", cure, code="cannot-read")
         raise MethodFileError(path, [fault]) from None
     except OSError as error:  # among them names that are too long, and links in a circle
-        raise MethodFileError(
-            name, [Fault(f"cannot be read: {error.strerror}", code="cannot-read")]
-        ) from None
+        fault = Fault(f"cannot be read: {error.strerror}", code="cannot-read")
+        raise MethodFileError(name, [fault]) from None
     text = decoded(name, data)
     if not is_stream(path) and not _may_be_quoted(path, text, kind):
         raise MethodFileError(path, [_not_quoted(path, kind)])
@@ -104,25 +102,14 @@ def decoded(name: str, data: bytes) -> str:
         MethodFileError: there is too much of it, or it is no text.
     """
     if len(data) > MAX_BYTES:
-        raise MethodFileError(
-            name,
-            [
-                Fault(
-                    f"a file of more than {MAX_BYTES} bytes",
-                    "split it",
-                    1,
-                    1,
-                    code="file-too-large",
-                )
-            ],
-        )
+        message = f"a file of more than {MAX_BYTES} bytes"
+        raise MethodFileError(name, [Fault(message, "split it", 1, 1, code="file-too-large")])
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise MethodFileError(
-            name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")]
-        ) from None
+        fault = Fault("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")
+        raise MethodFileError(name, [fault]) from None
 
 
 SUFFIX = ".gark.yaml"
@@ -147,8 +134,7 @@ def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
         found.append(error.filename)
 
     for place, _, names in os.walk(folder, onerror=keep):
-        methods = [name for name in names if name.endswith(SUFFIX)]
-        found += [os.path.join(place, name) for name in methods]
+        found += [os.path.join(place, name) for name in names if name.endswith(SUFFIX)]
     # slow to import, and of no use to a check of one file
     from pathlib import Path
 

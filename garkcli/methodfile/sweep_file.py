@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from math import prod
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from flint import fmpq
@@ -35,7 +37,6 @@ from garkcli.methodfile.grammar import (
     word,
 )
 from garkcli.methodfile.nodes import one_line, shortened, unquoted
-from garkcli.methodfile.parameters import SIGNS
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.source import FileKind, Source
 from garkcli.methodfile.sweep_methods import (
@@ -46,6 +47,7 @@ from garkcli.methodfile.sweep_methods import (
     MethodsReader,
     SearchText,
     SweepText,
+    rational,
     span,
 )
 
@@ -81,19 +83,12 @@ def _value(at: Any, node: Node, text: str, where: str) -> fmpq | None:
     return value
 
 
-def _rational(at: Any, node: Node, where: str) -> fmpq | None:
+def _number(at: Any, node: Node, where: str) -> fmpq | None:
     text = at.source.scalar(node, where)
     return None if text is None else _value(at, node, text, where)
 
 
-_RATIONAL = Kind(
-    lambda: {
-        "description": "A rational number: 2, 0.1, 1/3.",
-        "type": ["number", "string"],
-        "pattern": SIGNS,
-    },
-    _rational,
-)
+_RATIONAL = rational(_number)
 _STEPS = mapping(
     Key("from: 0", _RATIONAL, "The first of equidistant values.", is_needed=True),
     Key("to: 1", _RATIONAL, "The last of equidistant values.", is_needed=True),
@@ -138,19 +133,10 @@ def _parameters(at: Any, node: Node, where: str) -> dict[str, tuple[str, ...] | 
 _GRID = Kind(
     lambda: {"anyOf": [{"const": FREE}, _STEPS.schema(), *_VALUES.schema()["anyOf"]]}, _grid
 )
-_SEEDS = Kind(
-    lambda: {
-        "anyOf": [
-            {"type": "integer", "minimum": 0},
-            {"type": "string", "pattern": r"^[0-9]{1,9}\.\.[0-9]{1,9}$"},
-        ]
-    },
-    lambda at, node, where: span(at, node, where, 0, "write 1..100"),
-)
 _SEARCH = mapping(
     Key(
         "seeds: 1..100",
-        _SEEDS,
+        span(0, 9, "write 1..100"),
         "The seeds of the searches: one number, or a range, each a method of its own.",
         is_needed=True,
     ),
@@ -175,27 +161,23 @@ _BOUND: Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s*[
 def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
     """A comparison with a number."""
     text = at.source.scalar(node, where)
-    parts = None if text is None else _CONDITION.fullmatch(text)
-    if text is None or parts is None:
-        if text is not None:
-            message = f"{where}: {shortened(text)} is no condition"
-            at.source.fault(node, message, 'write 4 or ">= 4"', code="wrong-value")
+    if text is None:
+        return None
+    parts = _CONDITION.fullmatch(text)
+    if parts is None:
+        message = f"{where}: {shortened(text)} is no condition"
+        at.source.fault(node, message, 'write 4 or ">= 4"', code="wrong-value")
         return None
     value = _value(at, node, parts[2], where)
-    bound = None if value is None else _as_float(value)
-    if value is not None and bound is None:
-        message = f"{where}: {shortened(parts[2])} is beyond the numbers of a column"
-        at.source.fault(node, message, "write 0, or a number up to 1e308", code="wrong-value")
-    return None if bound is None else (parts[1] or "=", bound)
-
-
-def _as_float(value: fmpq) -> float | None:
-    """The nearest float; None where it is infinite, or 0 and the number is not."""
-    try:
-        found = int(value.p) / int(value.q)
-    except OverflowError:
+    if value is None:
         return None
-    return found if found or not value else None
+    with suppress(OverflowError):
+        bound = int(value.p) / int(value.q)
+        if bound or not value:  # the nearest float, 0 for 0 alone
+            return parts[1] or "=", bound
+    message = f"{where}: {shortened(parts[2])} is beyond the numbers of a column"
+    at.source.fault(node, message, "write 0, or a number up to 1e308", code="wrong-value")
+    return None
 
 
 def _truth(at: Any, node: Node, where: str) -> tuple[str, bool] | None:
@@ -347,72 +329,53 @@ def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) 
     root = reading.compose()
     if root is None:
         raise reading.error()
-    found = _Reader(reading, folder).read(file_of(kinds), root)
+    said: Found = file_of(kinds).read(SimpleNamespace(source=reading), root, FILE)
+    grids = said.get("parameters", {})
+    found = SweepText(
+        one_line(said.get("name", "")) or Path(source).stem,
+        grids={name: values for name, values in grids.items() if values is not None},
+        free=tuple(name for name, values in grids.items() if values is None),
+        search=said.get("search"),
+        conditions=[(name, *made) for name, made in said.get("where", {}).items()],
+        best=said.get("best", []),
+        pareto=said.get("pareto", []),
+    )
+    conditions = [name for name, _, _ in found.conditions]
+    asked = [*conditions, *said.get("columns", []), *found.best, *found.pareto]
+    found.columns = list(dict.fromkeys(asked))
+    methods = MethodsReader(reading, found)
+    before = len(reading.faults)
+    entries = said.get("methods", [])
+    is_whole = "methods" not in said.nodes
+    is_right = all(entry.is_right for entry in entries)
+    if is_right and "methods" in said and len(entries) == len(said.nodes["methods"].value):
+        methods.read(said.nodes["methods"], entries, said.get("transfer"))
+        is_whole = True
+    if "files" in said:
+        methods.read_files(said["files"], folder)
+    if is_whole and found.templates and len(reading.faults) == before:
+        _refuse_unused(reading, said, found)
+    seeds = 1 if found.search is None else len(found.search.seeds)
+    total = sum(
+        prod(len(found.grids[x]) for x in template.parameters) * (seeds if template.order else 1)
+        for template in found.templates
+    )
+    if total > MOST_METHODS:
+        message = f"{total} methods (limit {MOST_METHODS})"
+        reading.fault(root, message, "make several sweeps", code="too-many")
     reading.close()
     return found
 
 
-class _Reader:
-    """Reads one spec file."""
-
-    def __init__(self, source: Source, folder: Path) -> None:
-        self.source = source
-        self.folder = folder
-
-    def read(self, kind: Kind, root: MappingNode) -> SweepText:
-        source = self.source
-        said: Found = kind.read(self, root, FILE)
-        grids = said.get("parameters", {})
-        found = SweepText(
-            one_line(said.get("name", "")) or Path(source.name).stem,
-            grids={name: values for name, values in grids.items() if values is not None},
-            free=tuple(name for name, values in grids.items() if values is None),
-            search=said.get("search"),
-            conditions=[(name, *made) for name, made in said.get("where", {}).items()],
-            best=said.get("best", []),
-            pareto=said.get("pareto", []),
-        )
-        conditions = [name for name, _, _ in found.conditions]
-        asked = [*conditions, *said.get("columns", []), *found.best, *found.pareto]
-        found.columns = list(dict.fromkeys(asked))
-        methods = MethodsReader(source, found)
-        before = len(source.faults)
-        entries = said.get("methods", [])
-        is_whole = "methods" not in said.nodes
-        is_right = all(entry.is_right for entry in entries)
-        if is_right and "methods" in said and len(entries) == len(said.nodes["methods"].value):
-            methods.read(said.nodes["methods"], entries, said.get("transfer"))
-            is_whole = True
-        if "files" in said:
-            methods.read_files(said["files"], self.folder)
-        if is_whole and len(source.faults) == before:
-            self._refuse_unused(said, found)
-        self._refuse_large(root, found)
-        return found
-
-    def _refuse_unused(self, said: Found, found: SweepText) -> None:
-        if not found.templates:
-            return
-        used = {name for x in found.templates for name in x.parameters}
-        for name in found.grids.keys() - used:
-            message = f"parameters: no method has {name}"
-            self.source.fault(
-                said.nodes["parameters"], message, "leave it out, or use it", code="not-together"
-            )
-        is_searched = any(x.order for x in found.templates)
-        # a parameter without a value is told already
-        is_told = not all(found.grids.values())
-        if "search" in said.nodes and not is_searched and not is_told:
-            message = "search: no method has an unknown that is left to it"
-            cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
-            self.source.fault(said.nodes["search"], message, cure, code="not-together")
-
-    def _refuse_large(self, root: Node, found: SweepText) -> None:
-        seeds = 1 if found.search is None else len(found.search.seeds)
-        total = 0
-        for template in found.templates:
-            values = prod(len(found.grids[x]) for x in template.parameters)
-            total += values * (seeds if template.order else 1)
-        if total > MOST_METHODS:
-            message = f"{total} methods (limit {MOST_METHODS})"
-            self.source.fault(root, message, "make several sweeps", code="too-many")
+def _refuse_unused(source: Source, said: Found, found: SweepText) -> None:
+    """Note parameters that no method has, and a search with nothing to look for."""
+    used = {name for x in found.templates for name in x.parameters}
+    for name in found.grids.keys() - used:
+        message, cure = f"parameters: no method has {name}", "leave it out, or use it"
+        source.fault(said.nodes["parameters"], message, cure, code="not-together")
+    is_searched = any(x.order for x in found.templates)
+    # a parameter without a value is told already
+    if "search" in said.nodes and not is_searched and all(found.grids.values()):
+        message = "search: no method has an unknown that is left to it"
+        cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
+        source.fault(said.nodes["search"], message, cure, code="not-together")

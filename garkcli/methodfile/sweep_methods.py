@@ -25,6 +25,7 @@ from garkcli.methodfile.grammar import (
     Found,
     Key,
     Kind,
+    Read,
     by_name,
     either,
     list_of,
@@ -105,42 +106,35 @@ class SweepText:
 
 _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
-_CURE_OF_STAGES = f"write 2, [1, 3] or 1..4, up to {MAX_STAGES}"
 
 
-def span(at: Any, node: Node, where: str, least: int, cure: str) -> range | None:
-    """A number, or a range of numbers such as 1..4."""
-    text = node.value if isinstance(node, ScalarNode) else ""
-    found = _SPAN.fullmatch(text)
-    if found is None:
-        whole = at.source.whole(node, where, least)
-        return None if whole is None else range(whole, whole + 1)
-    first, last = int(found[1]), int(found[2])
-    if least <= first <= last:
-        return range(first, last + 1)
-    at.source.fault(node, f"{where}: {shortened(text)} is no range", cure, code="wrong-value")
-    return None
+def span(least: int, digits: int, cure: str, most: int | None = None) -> Kind:
+    """A number, or a range of numbers such as 1..4, none of them above ``most``."""
+
+    def read(at: Any, node: Node, where: str) -> range | None:
+        text = node.value if isinstance(node, ScalarNode) else ""
+        found = _SPAN.fullmatch(text)
+        if found is None:
+            whole = at.source.whole(node, where, least)
+            return None if whole is None else range(whole, whole + 1)
+        first, last = map(int, found.groups())
+        if least <= first <= last and (most is None or last <= most or first == last):
+            return range(first, last + 1)
+        at.source.fault(node, f"{where}: {shortened(text)} is no range", cure, code="wrong-value")
+        return None
+
+    some = rf"[0-9]{{1,{digits}}}"
+    text = {"type": "string", "pattern": rf"^{some}\.\.{some}$"}
+    return Kind(lambda: {"anyOf": [{"type": "integer", "minimum": least}, text]}, read)
 
 
-def _stages(at: Any, node: Node, where: str) -> range | None:
-    found = span(at, node, where, 1, _CURE_OF_STAGES)
-    if found is None or found.stop <= MAX_STAGES + 1 or len(found) == 1:
-        return found
-    at.source.fault(
-        node, f"{where}: {shortened(node.value)} is no range", _CURE_OF_STAGES, code="wrong-value"
-    )
-    return None
+def rational(read: Read) -> Kind:
+    """A rational number, as it is read."""
+    text = "A rational number: 2, 0.1, 1/3."
+    return Kind(lambda: {"description": text, "type": ["number", "string"], "pattern": SIGNS}, read)
 
 
-_STAGES = Kind(
-    lambda: {
-        "anyOf": [
-            {"type": "integer", "minimum": 1},
-            {"type": "string", "pattern": r"^[0-9]{1,3}\.\.[0-9]{1,3}$"},
-        ]
-    },
-    _stages,
-)
+_STAGES = span(1, 3, f"write 2, [1, 3] or 1..4, up to {MAX_STAGES}", MAX_STAGES)
 _METHOD = mapping(
     Key(
         "family: [gauss, radau-iia]",
@@ -169,16 +163,6 @@ def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
     return text
 
 
-_WEIGHT = Kind(
-    lambda: {
-        "description": "A rational number: 2, 0.1, 1/3.",
-        "type": ["number", "string"],
-        "pattern": SIGNS,
-    },
-    _weight,
-)
-
-
 def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str]:
     """Rules with their weights."""
     entries = at.source.mapping(node, where, RULES)
@@ -186,7 +170,7 @@ def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str]:
     return {rule: text for rule, text in found.items() if text is not None}
 
 
-_RULES = by_name(_WEIGHT, minProperties=1, propertyNames={"enum": list(RULES)})
+_RULES = by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
 TRANSFER = one_or_more(either(word(lambda: ALL_RULES), at_mapping=Kind(_RULES.schema, _weights)))
 """Rules between methods, each tried."""
 
@@ -241,12 +225,10 @@ class MethodsReader:
         used = tuple(name for name in self.found.grids if name in names)
         free = [name for name in self.found.free if name in names]
         members = [f'{{family: "{family}", stages: {s}}}' for family, s in methods]
-        lines = [f"methods: [{', '.join(members)}]"]
-        if rule:
-            lines.append(f"transfer: {rule}")
-        if used or free:
-            given = ", ".join(f"{name}: free" for name in (*used, *free))
-            lines.insert(0, f"parameters: {{{given}}}")
+        given = ", ".join(f"{name}: free" for name in (*used, *free))
+        lines = [f"parameters: {{{given}}}"] if given else []
+        lines.append(f"methods: [{', '.join(members)}]")
+        lines += [f"transfer: {rule}"] if rule else []
         title = " + ".join(f"{family} {s}" for family, s in methods)
         name = f"{title}; {shown}" if shown else title
         order = self._order(self._at, name, free) if free else 0

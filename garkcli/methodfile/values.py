@@ -25,17 +25,14 @@ class Values:
         self._values: dict[int, Number] = {}
         self.printed: tuple[tuple[Expression, Number], ...] = ()
         # equal texts of a file share one expression, which is evaluated once
-        expressions: dict[int, Expression] = {}
-        for entry in numbers.entries:
-            expressions[id(entry.expression)] = entry.expression
+        expressions = {id(entry.expression): entry.expression for entry in numbers.entries}
         try:
             domain = Domain(expressions.values())
         except (UndefinedValue, LimitExceeded) as error:
             self._find_culprits(numbers, error)
             return
         known = self._evaluate(numbers, domain)
-        written = [(expressions[key], known[key]) for key in known]
-        self.printed = tuple(written)
+        self.printed = tuple((expressions[key], number) for key, number in known.items())
         _note_faults(numbers.source, numbers.of_parameters)
 
     def _evaluate(self, numbers: Numbers, domain: Domain) -> dict[int, Number]:

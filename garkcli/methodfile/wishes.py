@@ -206,10 +206,8 @@ def meaning_of(
         deadline: the reading of ``time.monotonic`` at which what is not worked out is left
             unsettled; None for never.
     """
-    meanings = []
-    for unknown, given in wishes.fixed:
-        difference = values.number(unknown) - values.number(given)
-        meanings.append(Meaning(zeros=(difference,)))
+    pairs = [(values.number(unknown), values.number(given)) for unknown, given in wishes.fixed]
+    meanings = [Meaning(zeros=(unknown - given,)) for unknown, given in pairs]
     for wish in wishes.wishes:
         colours = _colours_of(wish, tableau.size, source)
         if not colours:
@@ -230,6 +228,6 @@ def _together(meanings: list[Meaning]) -> Meaning:
     """What several wishes mean, together."""
     together: dict[str, Any] = {}
     for field in fields(Meaning):
-        parts = [getattr(one, field.name) for one in meanings]
+        parts = (getattr(one, field.name) for one in meanings)
         together[field.name] = tuple(chain.from_iterable(parts))
     return Meaning(**together)

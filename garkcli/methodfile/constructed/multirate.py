@@ -190,9 +190,8 @@ def _coupled(at: PartReader, found: Found) -> Make:
     """Two methods with a coupling by name, or by matrices."""
     coupling = found.get("coupling", SLOWEST_FIRST)
     steps: int = found["steps"]
-    matrices: list[list[Rows]] = []
-    if isinstance(coupling, Found):
-        matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in _BLOCKS]
+    keys = _BLOCKS if isinstance(coupling, Found) else ()
+    matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
         fast, slow = (_method(tableau_of, found[key], key) for key in ("fast", "slow"))
@@ -316,6 +315,5 @@ def coupling_of(method: MethodFile) -> Coupling | None:
     families = families_of(description)
     nodes = nodes_to_spell_out(description, families, reader.numbers)
     values = Values(reader.numbers)
-    builder = Builder(reader.source, values, families, nodes)
-    is_the_same = make(builder.part, values) == method.tableau
-    return make.coupling(builder.part, values) if is_the_same else None
+    part = Builder(reader.source, values, families, nodes).part
+    return make.coupling(part, values) if make(part, values) == method.tableau else None

@@ -115,10 +115,11 @@ def _terms(at: PartReader, found: Found, where: str) -> int:
     terms: int | None = found.get("terms")
     if isinstance(of, SequenceNode):
         count = len(of.value)
-        if count < 2 or count != (terms or count):
-            message = f"{where}, of: {count} methods for {terms or count} parts"
+        terms = terms or count
+        if count < 2 or count != terms:
+            message = f"{where}, of: {count} methods for {terms} parts"
             at.source.fault(of, message, "give one for each part", code="wrong-size")
-        return terms or count
+        return terms
     terms = terms or _largest(found.nodes.get("flows"))
     if of is None and terms > 2:
         message = f"{where}: exact flows of {terms} parts are no Runge-Kutta method"
