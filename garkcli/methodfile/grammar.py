@@ -49,6 +49,17 @@ class Kind:
     read: Read = as_it_is
     inside: Callable[[], Iterable[Key]] = tuple
 
+    def then(self, make: Callable[[Any, Found, str], Any]) -> Kind:
+        """Of a mapping the same keys, with what is made of their values; None where there are
+        faults.
+        """
+
+        def read(at: Any, node: Node, where: str) -> Any:
+            found: Found | None = self.read(at, node, where)
+            return make(at, found, where) if found is not None and found.is_right else None
+
+        return Kind(self.schema, read, self.inside)
+
 
 @dataclass(frozen=True)
 class Key:
@@ -137,6 +148,22 @@ class Together(NamedTuple):
     needed: tuple[str, ...]
     perhaps: tuple[str, ...] = ()
 
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """All of them."""
+        return self.needed + self.perhaps
+
+    def refuse(self, source: Source, where: str, entries: Entries) -> None:
+        """Note those that are missing beside others."""
+        missing = [key for key in self.needed if key not in entries]
+        there = [key for key in self.keys if key in entries]
+        if missing and there:
+            message = f"{' and '.join(missing)} missing beside {', '.join(there)}"
+            cure = f"give {' and '.join(self.needed)}"
+            if self.perhaps:
+                cure = f"give {', '.join(self.needed)} and perhaps {', '.join(self.perhaps)}"
+            source.fault(entries[there[0]], placed(where, message), cure, code="missing-key")
+
 
 @dataclass(frozen=True)
 class Ways:
@@ -156,26 +183,22 @@ class Ways:
     cure: str = ""
     is_one: bool = True
 
-    @property
-    def _keys(self) -> list[tuple[str, ...]]:
-        """The keys of each way."""
-        return [(x,) if isinstance(x, str) else x.needed + x.perhaps for x in self.ways]
-
     def given(self, entries: Entries) -> list[str]:
         """The first key of each way that a mapping has."""
-        return [key for keys in self._keys for key in [x for x in keys if x in entries][:1]]
+        found = []
+        for way in self.ways:
+            keys = (way,) if isinstance(way, str) else way.keys
+            found += [key for key in keys if key in entries][:1]
+        return found
 
     def schema(self) -> Schema:
         """What it says of a mapping."""
-        each = [_any_given(keys) for keys in self._keys]
+        each = [required(x) if isinstance(x, str) else _any_given(x.keys) for x in self.ways]
         if not self.is_one:
             return {"anyOf": each}
         choice = {"oneOf": each if self.none else [*each, {"not": {"anyOf": each}}]}
-        whole = [
-            {"if": _any_given(keys), "then": required(*way.needed)}
-            for way, keys in zip(self.ways, self._keys, strict=True)
-            if isinstance(way, Together)
-        ]
+        several = [way for way in self.ways if isinstance(way, Together)]
+        whole = [{"if": _any_given(x.keys), "then": required(*x.needed)} for x in several]
         return {"allOf": [choice, *whole]}
 
     def refuse(self, source: Source, node: Node, where: str, entries: Entries, _: str = "") -> None:
@@ -188,18 +211,8 @@ class Ways:
         if self.none and not given:
             source.fault(node, placed(where, self.none), self.cure, code="missing-key")
         for way in self.ways:
-            if given[1:] or isinstance(way, str):
-                continue
-            missing = [key for key in way.needed if key not in entries]
-            there = [key for key in way.needed + way.perhaps if key in entries]
-            if missing and there:
-                message = placed(
-                    where, f"{' and '.join(missing)} missing beside {', '.join(there)}"
-                )
-                cure = f"give {' and '.join(way.needed)}"
-                if way.perhaps:
-                    cure = f"give {', '.join(way.needed)} and perhaps {', '.join(way.perhaps)}"
-                source.fault(entries[there[0]], message, cure, code="missing-key")
+            if not given[1:] and isinstance(way, Together):
+                way.refuse(source, where, entries)
 
 
 class Values(NamedTuple):

@@ -11,7 +11,7 @@ from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
-from garkcli.methodfile.description import Description, left_behind
+from garkcli.methodfile.description import Description, PartText, left_behind
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.nodes import one_line
@@ -60,19 +60,14 @@ def _of_folder(path: str) -> Fault:
     try:
         os.scandir(path).close()
     except OSError as error:
-        return Fault(
-            f"this folder cannot be read: {error.strerror}", "name the files", code="cannot-read"
-        )
+        message = f"this folder cannot be read: {error.strerror}"
+        return Fault(message, "name the files", code="cannot-read")
     first = next(find_files([path]))
     if first == path:
-        return Fault(
-            f"no {SUFFIX} files in this directory", "name the files, or rename them", code="folder"
-        )
-    return Fault(
-        "a directory, where one method file is expected",
-        f"name one, such as {first}",
-        code="folder",
-    )
+        message, cure = f"no {SUFFIX} files in this directory", "name the files, or rename them"
+        return Fault(message, cure, code="folder")
+    message = "a directory, where one method file is expected"
+    return Fault(message, f"name one, such as {first}", code="folder")
 
 
 def loads(
@@ -152,11 +147,13 @@ class Built(Generic[V]):
         tableau: the method.
         further: its embedded weights and its dense output.
         values: of all coefficients.
+        part: gives the methods that a construction is made from.
     """
 
     tableau: Tableau
     further: Further
     values: V
+    part: Callable[[PartText], Tableau]
 
 
 def built(reader: Reader, description: Description, values_of: Callable[[Numbers], V]) -> Built[V]:
@@ -179,4 +176,4 @@ def built(reader: Reader, description: Description, values_of: Callable[[Numbers
     tableau = builder.tableau(description)
     further = builder.further(description, tableau)
     reader.source.close()
-    return Built(tableau, further, values)
+    return Built(tableau, further, values, builder.part)

@@ -36,36 +36,32 @@ def read_argument(argument: str, path: str = "") -> tuple[str, str]:
     Raises:
         MethodFileError: there is no such file or method, or no text in it, or it may mean several.
     """
-    path = path or argument
-    method = _meant(argument, path)
+    method = find_named(argument, path)
     if method is None:
-        return read_text(path, METHOD_FILE)
+        return read_text(path or argument, METHOD_FILE)
     return method.read(), method.name
 
 
-def find_named(argument: str) -> Shelved | None:
+def find_named(argument: str, path: str = "") -> Shelved | None:
     """The method of the catalogue that an argument means; None where it means a file.
+
+    Args:
+        argument: as in ``read_argument``.
+        path: as there.
 
     Raises:
         MethodFileError: it means both, several, or nothing.
     """
-    return _meant(argument, argument)
-
-
-def _meant(argument: str, path: str) -> Shelved | None:
-    """The same for an argument that as a file would be ``path``."""
     if not can_be_name(argument):
         return None
-    is_file = os.path.lexists(path)
-    name = _without_prefix(argument)
+    is_file = os.path.lexists(path or argument)
+    name = argument.removeprefix(PREFIX)
     if is_file and name != argument:
         return None
     method = look_up(name)
-    if method is None:
-        if is_file:
-            return None
+    if method is None and not is_file:
         raise MethodFileError(argument, [_unknown(name)])
-    if is_file:
+    if method is not None and is_file:
         raise MethodFileError(argument, [_both(argument, method)])
     return method
 
@@ -74,16 +70,9 @@ def can_be_name(argument: object) -> bool:
     """Whether it looks like a name, whatever exists: no file is looked for, no catalogue."""
     if not isinstance(argument, str) or argument in {STDIN, "", ".", ".."}:
         return False
-    separators = {"/", os.sep, os.altsep}
-    if any(sign in argument for sign in separators if sign):
+    if not {"/", os.sep, os.altsep, "\0"}.isdisjoint(argument):
         return False
-    if len(argument) > len(PREFIX) + MAX_WORD or "\0" in argument:
-        return False
-    return not argument.endswith(_OF_FILES)
-
-
-def _without_prefix(argument: str) -> str:
-    return argument.removeprefix(PREFIX)
+    return len(argument) <= len(PREFIX) + MAX_WORD and not argument.endswith(_OF_FILES)
 
 
 def called(argument: str) -> str:
@@ -219,7 +208,7 @@ def note_of(argument: str) -> list[str]:
     """
     if not can_be_name(argument) or os.path.lexists(argument):
         return []
-    method = look_up(_without_prefix(argument))
+    method = look_up(argument.removeprefix(PREFIX))
     hidden = hidden_by(method) if method else []
     if method is None or not hidden:
         return []
@@ -241,8 +230,7 @@ def names_beginning(start: str) -> list[str]:
     if found:
         return found
     called = chain.from_iterable(shelf.called(method) for shelf, method in visible(shelves))
-    aliases = [alias for alias in called if key_of(alias).startswith(key)]
-    return [alias for alias in aliases if len(alias.split()) == 1]
+    return [x for x in called if key_of(x).startswith(key) and len(x.split()) == 1]
 
 
 def expanded(argument: str) -> list[str]:
@@ -252,6 +240,6 @@ def expanded(argument: str) -> list[str]:
     """
     if not argument.startswith(PREFIX) or os.path.lexists(argument):
         return []
-    folder = key_of(_without_prefix(argument))
+    folder = key_of(argument.removeprefix(PREFIX))
     methods = (method for _, method in visible(every_shelf()))
     return [PREFIX + x.name for x in methods if folder in {"", key_of(x.folder)}]

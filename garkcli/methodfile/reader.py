@@ -249,13 +249,12 @@ class Reader(Reading):
     def _is_problem_file(self, root: Node) -> bool:
         """Note a file of the other kind."""
         keys = keys_of(root)
-        if not keys & {"hamiltonian", "lagrangian"} or keys & set(FORMS):
-            return False
-        message = "this is a problem file, not a method file"
-        cure = "give it beside a method file: "
-        cure += "gark converge METHOD --problem FILE"
-        self.source.fault(root, message, cure, code="other-file")
-        return True
+        is_one = bool(keys & {"hamiltonian", "lagrangian"}) and not keys & set(FORMS)
+        if is_one:
+            message = "this is a problem file, not a method file"
+            cure = "give it beside a method file: gark converge METHOD --problem FILE"
+            self.source.fault(root, message, cure, code="other-file")
+        return is_one
 
     def design_place(self) -> Extent | None:
         """From where to where ``design: …`` stands; None where there is none."""

@@ -133,19 +133,15 @@ _KEYS = mapping(
 )
 
 
-def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
+def _read(at: PartReader, found: Found, where: str) -> ConstructionText | None:
     """The methods and their substeps."""
-    source = at.source
-    before = len(source.faults)
-    found: Found | None = _KEYS.read(at, node, where)
-    if found is None or not found.is_right:
-        return None
+    before, node = len(at.source.faults), found.node
     steps = [*_steps(at, found, where)]
     if "processor" in found:
         # π after, and its inverse before: the adjoint with the step −1
         one, back = (at.numbers.written(x, node, where) for x in ("1", "-1"))
         steps = [(found["processor"], back, True), *steps, (found["processor"], one, False)]
-    if len(source.faults) > before:
+    if len(at.source.faults) > before:
         return None
     scheme = found.get("scheme")
     rounding = scheme and scheme.tolerance and read_decimal(scheme.tolerance)
@@ -219,4 +215,4 @@ def _maker(steps: Sequence[_Step]) -> Make:
     return made
 
 
-KIND = Kind(_KEYS.schema, _read, _KEYS.inside)
+KIND = _KEYS.then(_read)

@@ -122,11 +122,8 @@ _KEYS = mapping(
 )
 
 
-def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
+def _read(at: PartReader, found: Found, _: str) -> ConstructionText:
     """The method and the numbers of its substeps."""
-    found: Found | None = _KEYS.read(at, node, where)
-    if found is None or not found.is_right:
-        return None
     plan = _Plan(
         found.get("sequence", "harmonic"),
         found.get("order", 0),
@@ -138,7 +135,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     def made(tableau_of: Callable[[PartText], Tableau], _: Numbers) -> Tableau:
         return plan.made(tableau_of(found["of"]))
 
-    return at.made(node, made)
+    return at.made(found.node, made)
 
 
 @dataclass(frozen=True)
@@ -198,4 +195,4 @@ class _Plan:
         return numbers
 
 
-KIND = Kind(_KEYS.schema, _read, _KEYS.inside)
+KIND = _KEYS.then(_read)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
-from yaml.nodes import Node, SequenceNode
+from yaml.nodes import Node
 
 from garkcli.constructions.multirate import (
     Blocks,
@@ -22,7 +22,6 @@ from garkcli.constructions.multirate import (
 from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
-from garkcli.methodfile.build import Builder, families_of, nodes_to_spell_out
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.grammar import (
@@ -38,7 +37,7 @@ from garkcli.methodfile.grammar import (
     mapping,
     word,
 )
-from garkcli.methodfile.load import NO_SETTINGS, described
+from garkcli.methodfile.load import NO_SETTINGS, built, described
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
@@ -164,26 +163,20 @@ def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
     return one_field(tableau, message + "where one of one vector field is expected")
 
 
-def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
+def _mis(found: Found) -> Callable[[TableauOf, Values], Coupling]:
+    """The coupling by a constant forcing."""
+    return lambda tableau_of, _: mis_coupling(_method(tableau_of, found["mis"], "mis"))
+
+
+def _read(at: PartReader, found: Found, _: str) -> ConstructionText | None:
     """The methods, and how they are coupled."""
     before = len(at.source.faults)
-    found: Found | None = _KEYS.read(at, node, where)
-    if found is None:
-        return None
-    if not found.is_right:
-        return None
-    make: Make
     if "slow" in found:
         make = _coupled(at, found)
-    elif "mis" in found:
-        make = Infinitesimal(
-            found["fast"],
-            lambda tableau_of, _: mis_coupling(_method(tableau_of, found["mis"], "mis")),
-            found["steps"],
-        )
     else:
-        make = Infinitesimal(found["fast"], _polynomials(at, found["mri"]), found["steps"])
-    return None if len(at.source.faults) > before else at.made(node, make)
+        coupling = _mis(found) if "mis" in found else _polynomials(at, found["mri"])
+        make = Infinitesimal(found["fast"], coupling, found["steps"])
+    return None if len(at.source.faults) > before else at.made(found.node, make)
 
 
 def _coupled(at: PartReader, found: Found) -> Make:
@@ -213,13 +206,11 @@ def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None
     Raises:
         MethodError: that is the case.
     """
-    rows, columns = seeing.stages, seen.stages
-    if len(matrix) == rows and len(matrix[0]) == columns:
-        return
-    found = f"{len(matrix)} by {len(matrix[0])}"
-    message = f"{key} is {found} and should be {rows} by {columns}"
-    cure = "give a row for each stage that sees, a column for each seen"
-    raise MethodError(message, cure, code="wrong-size")
+    found, wanted = (len(matrix), len(matrix[0])), (seeing.stages, seen.stages)
+    if found != wanted:
+        message = f"{key} is {found[0]} by {found[1]} and should be {wanted[0]} by {wanted[1]}"
+        cure = "give a row for each stage that sees, a column for each seen"
+        raise MethodError(message, cure, code="wrong-size")
 
 
 def _small_steps(at: PartReader, node: Node, key: str, steps: int) -> Iterator[Rows]:
@@ -251,27 +242,18 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
 def _polynomials(at: PartReader, found: Found) -> Callable[[TableauOf, Values], Coupling]:
     """Polynomial couplings between nodes, of the explicit part before the implicit one."""
     c: Row = found["c"]
-    parts = [
-        [
-            _whole(at, rows, item, f"{key}, matrix {k}", len(c))
-            for k, (rows, item) in _each(found, key)
-        ]
-        for key in ("omega", "gamma")
-        if key in found
-    ]
+    parts = []
+    for key in ("omega", "gamma"):
+        if key in found:
+            each = enumerate(zip(found[key], found.nodes[key].value, strict=True), start=1)
+            whole = (_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each)
+            parts.append([*whole])
 
     def coupling(_: TableauOf, values: Values) -> Coupling:
         matrices = tuple(tuple(map(values.matrix, part)) for part in parts)
         return Coupling(values.vector(c), matrices)
 
     return coupling
-
-
-def _each(found: Found, key: str) -> Iterator[tuple[int, tuple[Rows, Node]]]:
-    """The matrices under a key, numbered, and where each stands."""
-    node = found.nodes[key]
-    assert isinstance(node, SequenceNode)
-    return enumerate(zip(found[key], node.value, strict=True), start=1)
 
 
 def _whole(at: PartReader, rows: Rows, node: Node, name: str, count: int) -> Rows:
@@ -294,7 +276,7 @@ def _is_nonzero(entry: Entry) -> bool:
     return not (isinstance(expression, Literal) and not expression.value)
 
 
-KIND = Kind(_KEYS.schema, _read, _KEYS.inside)
+KIND = _KEYS.then(_read)
 
 
 def coupling_of(method: MethodFile) -> Coupling | None:
@@ -307,13 +289,9 @@ def coupling_of(method: MethodFile) -> Coupling | None:
         return None
     reader, description = described(method.text, method.source, NO_SETTINGS)
     content = description.content
-    if not isinstance(content, ConstructionText):
+    if not isinstance(content, ConstructionText) or description.is_conjugate:
         return None
-    make = content.make
-    if not isinstance(make, Infinitesimal) or description.is_conjugate:
+    made = built(reader, description, Values)
+    if not isinstance(content.make, Infinitesimal) or made.tableau != method.tableau:
         return None
-    families = families_of(description)
-    nodes = nodes_to_spell_out(description, families, reader.numbers)
-    values = Values(reader.numbers)
-    part = Builder(reader.source, values, families, nodes).part
-    return make.coupling(part, values) if make(part, values) == method.tableau else None
+    return content.make.coupling(made.part, made.values)
