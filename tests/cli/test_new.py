@@ -14,6 +14,7 @@ from garkcli import load, loads
 from garkcli.check.check_file import check_file
 from garkcli.cli.new import of_tableau_text
 from garkcli.errors import MethodError, MethodFileError
+from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.pasted import Pasted, read_pasted
 from tests.cli.harness import gark
 
@@ -46,6 +47,16 @@ def test_a_tableau_of_a_book(tmp_path: Path) -> None:
     assert ("order", "4") in {(x.claim, x.found) for x in outcome.claims}
     assert outcome.ok
     assert method.tableau == load("methods/rk4.gark.yaml").tableau
+
+
+def test_comments_say_what_keys_mean() -> None:
+    """They are the first words of what is declared of each key."""
+    run = gark("new", "--tableau", "0 |; 1/2 | 1/2; | 0 1; | 1 0")
+    lines = run.out.splitlines()
+    assert "# the matrix of a Butcher tableau, row by row" in lines
+    told = {line.partition(":")[0]: line.partition("# ")[2] for line in lines if "  # " in line}
+    assert set(told) == {"b", "c", "embedded"}
+    assert all(KEYS[key].text.lower().startswith(comment) for key, comment in told.items())
 
 
 def test_a_line_on_standard_input() -> None:

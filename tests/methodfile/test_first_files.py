@@ -9,6 +9,7 @@ from time import process_time
 import pytest
 
 from garkcli.errors import Fault, MethodFileError
+from garkcli.methodfile.file_keys import KEYS, elsewhere
 from garkcli.methodfile.load import loads
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.hostile import hostile_files
@@ -397,3 +398,25 @@ def test_hostile_files_are_refused_soon(name: str) -> None:
     found = faults(hostile_files()[name])
     assert process_time() - start < SECONDS
     assert all(fault.message for fault in found)
+
+
+def test_a_key_that_belongs_elsewhere_is_shown_there() -> None:
+    """Every key that has its place below another one, and is none of the top, is written where it
+    belongs, by an example that is declared with it.
+    """
+    found = elsewhere()
+    assert {"order", "symplectic"} <= {key for key, home in found.items() if home.key == "expect"}
+    assert found["stages"].key == "methods"
+    for key, home in found.items():
+        (fault,) = faults(f'A: [[0]]\nb: [1]\n"{key}": 1')
+        assert fault.code == "unknown-key"
+        assert fault.help == f"write {home.key}: {{{home.line}}}"
+
+
+def test_other_words_for_keys_are_understood() -> None:
+    """What people call a key besides its name is read as this key, with one fault."""
+    words = [(word, key) for key in KEYS.values() for word in key.also]
+    assert ("weights", KEYS["b"]) in words
+    for word, key in words:
+        said = [x for x in faults(f'"{word}": 1') if x.code == "unknown-key"]
+        assert [x.help for x in said] == [f"did you mean {key.name!r}?"]
