@@ -217,5 +217,4 @@ def _end(text: str, node: Node) -> int:
 
 def _says(node: Node, value: str) -> bool:
     """Whether a value is written already, in quotes or without."""
-    plain = value.strip('"')
-    return isinstance(node, ScalarNode) and node.value == plain
+    return isinstance(node, ScalarNode) and bool(node.value == value.strip('"'))

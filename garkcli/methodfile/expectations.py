@@ -208,7 +208,6 @@ def highest_order(claims: tuple[ClaimText, ...]) -> int:
 
 def _largest(wanted: object) -> int:
     if isinstance(wanted, list):
-        return max((_largest(x) for x in wanted), default=0)
-    if isinstance(wanted, AtLeast):
-        return wanted.least
-    return wanted if isinstance(wanted, int) else 0
+        return max(map(_largest, wanted), default=0)
+    found = wanted.least if isinstance(wanted, AtLeast) else wanted
+    return found if isinstance(found, int) else 0

@@ -103,7 +103,7 @@ def _read(at: Any, node: Node, _: str) -> None:
             source.fault(key, message, "use letters, digits and _", code="name-taken")
         elif name in numbers.settings:
             value = numbers.given(name, value_node, where)
-        elif _is_free(value_node):
+        elif isinstance(value_node, MappingNode) or value_node.value == "free":
             value = Name(name)
             numbers.free[name] = _free(at, value_node, where)
         else:
@@ -113,25 +113,14 @@ def _read(at: Any, node: Node, _: str) -> None:
         numbers.places[name] = value_node
 
 
-def _is_free(node: Node) -> bool:
-    """Whether a parameter has no value: ``free``, or a mapping that says so."""
-    if isinstance(node, ScalarNode):
-        return bool(node.value == "free")
-    return isinstance(node, MappingNode)
-
-
 def _free(at: Any, node: Node, where: str) -> Free:
     """A free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
     if isinstance(node, ScalarNode):
         return Free(node)
     found: Found = _FREE.read(at, node, where)
     if "free" in found.nodes and "free" not in found:
-        at.source.fault(
-            node,
-            f"{where} is a mapping that does not say free: true",
-            _FREE_FORM,
-            code="mapping-expected",
-        )
+        message = f"{where} is a mapping that does not say free: true"
+        at.source.fault(node, message, _FREE_FORM, code="mapping-expected")
     return Free(node, found.get("range", ()))
 
 

@@ -153,8 +153,8 @@ def read_wishes(at: Any, node: Node | None) -> Wishes:
     found: Found | None = None if node is None else DESIGN.read(at, node, "design")
     if found is None:
         return Wishes()
-    every = [found[key] for key in found if key not in {"order", "fix", "range"}]
-    return Wishes(found.get("order"), tuple(found.get("fix", ())), tuple(chain(*every)))
+    order, fixed = found.pop("order", None), found.pop("fix", ())
+    return Wishes(order, tuple(fixed), tuple(chain.from_iterable(found.values())))
 
 
 def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:

@@ -94,7 +94,14 @@ class PartReader(Reading):
     def _named(self, node: ScalarNode, where: str, why: str) -> PartText | None:
         """A single method of a family, or one of the catalogue."""
         name = self.source.scalar(node, where)
-        if name is None or self._refused(node, where, name):
+        if name is None:
+            return None
+        if not name:
+            self.source.fault(node, f"{where}: a method is missing", _FORM, code="missing-key")
+            return None
+        if name.endswith((".yaml", ".yml")) or {"/", "\\"} & set(name):
+            message = f"{where}: a name is expected here, not a file"
+            self.source.fault(node, message, _NO_FILE, code="value-expected")
             return None
         family = FAMILIES.get(name)
         if family is not None and family.is_single and not family.options:
@@ -116,17 +123,6 @@ class PartReader(Reading):
             return None
         self.parts.append(part)
         return part
-
-    def _refused(self, node: Node, where: str, name: str) -> bool:
-        """Note what is no name: nothing at all, or a file."""
-        if not name:
-            self.source.fault(node, f"{where}: a method is missing", _FORM, code="missing-key")
-        elif name.endswith((".yaml", ".yml")) or {"/", "\\"} & set(name):
-            message = f"{where}: a name is expected here, not a file"
-            self.source.fault(node, message, _NO_FILE, code="value-expected")
-        else:
-            return False
-        return True
 
     def _of_catalogue(self, name: str, why: str) -> PartText:
         """A method of the catalogue, its coefficients among those of this file.
