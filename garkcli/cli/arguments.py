@@ -5,8 +5,9 @@ completion.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -109,9 +110,16 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         return [CompletionItem(name) for name in (*found, *files)]
 
 
-def completed(words: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
-    """Completion: those of some words that begin so."""
-    return lambda _context, _parameter, start: [x for x in words() if x.startswith(start)]
+def named(place: str) -> Any:
+    """What a module of the package calls so; of a function, what it returns."""
+    file, _, name = place.partition(":")
+    found = getattr(import_module(f"garkcli.{file}"), name)
+    return found() if callable(found) else found
+
+
+def completed(place: str) -> Callable[..., list[str]]:
+    """Completion: the words of that name that begin so."""
+    return lambda _context, _parameter, start: [x for x in named(place) if x.startswith(start)]
 
 
 def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:

@@ -83,7 +83,7 @@ def import_(given: Given, output: Output) -> None:
     for table in left_out:
         # of a folder one expects other arrays of such names
         if table.source in given.sources:
-            output.note(f"{_other(table)}; {_take_it(table)}")
+            output.note("; ".join(_other(table)))
     files = {} if given.folder is None else _written(results, given.folder)
     if output.format == "yaml":
         output.write(yaml_text(results))
@@ -91,16 +91,13 @@ def import_(given: Given, output: Output) -> None:
         output.tell(REPORT, all_found(results, files))
 
 
-def _other(table: FoundTable) -> str:
-    """What is told of arrays that may be no method."""
+def _other(table: FoundTable) -> tuple[str, str]:
+    """What is told of arrays that may be no method, and the cure."""
     place = f"{printable(table.source)}:{table.line}"
+    cure = f"--from {table.format} takes them for one"
     if table.c[0] is None:
-        return f"{place}: A and b without nodes may be no method"
-    return f"{place}: A, b and c are no method, by their sums"
-
-
-def _take_it(table: FoundTable) -> str:
-    return f"--from {table.format} takes them for one"
+        return f"{place}: A and b without nodes may be no method", cure
+    return f"{place}: A, b and c are no method, by their sums", cure
 
 
 def _nothing(
@@ -116,7 +113,8 @@ def _nothing(
             message = f"{place}: {name} is no method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read", code="cannot-import")
     for table in left_out:
-        return UsageProblem(_other(table), _take_it(table), code="cannot-import")
+        message, cure = _other(table)
+        return UsageProblem(message, cure, code="cannot-import")
     known = ", ".join(all_readers())
     message = _no_table(sources, files)
     return UsageProblem(message, f"--from FORMAT says what it is: {known}", code="cannot-import")

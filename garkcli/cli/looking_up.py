@@ -55,13 +55,7 @@ def certificate(given: Given, output: Output) -> None:
     output.tell(REPORT, prove_method(given.method()))
 
 
-def _known_words() -> list[str]:
-    from garkcli.check.meanings import known_words
-
-    return known_words()
-
-
-@declared("explain", FORMATS, WORD={"shell_complete": completed(_known_words)})
+@declared("explain", FORMATS, WORD={"shell_complete": completed("check.meanings:known_words")})
 def explain(given: Given, output: Output) -> None:
     """What a word of a report or of a file means: its definition, its formula, its source.
 

@@ -36,7 +36,8 @@ def new(given: Given, output: Output) -> None:
         raise UsageProblem("--tableau and --family at once", "give one", code="options-clash")
     if given.tableau is None and not given.families:
         _ask(given)
-    name = given.name or _title(given.file)
+    stem = os.path.basename(given.file or "").removesuffix(".yaml").removesuffix(".gark")
+    name = given.name or stem or "a new method"
     if given.tableau is None:
         members = [_member(text) for text in given.families]
         text = of_families(name, members, given.transfer or "collocation")
@@ -73,13 +74,6 @@ def _place(given: Given, output: Output) -> str | None:
             f"{place} is there already", "--force writes over it", code="cannot-write"
         )
     return place
-
-
-def _title(place: str | None) -> str:
-    if place is None:
-        return "a new method"
-    base = os.path.basename(place)
-    return base.removesuffix(".yaml").removesuffix(".gark") or base
 
 
 def of_tableau_text(name: str, text: str) -> str:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from garkcli.cli import arguments
-from garkcli.cli.arguments import INPUT, PATH, completed, read_by
+from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
 from garkcli.cli.streams import complain, put, safe_pieces, say, wants_colour
 from garkcli.cli.table import COMMANDS, Option, option_of, options_of
 from garkcli.doing import hush
@@ -63,11 +63,8 @@ KINDS: dict[str, dict[str, Any]] = {
     "ratios": {"callback": read_by(arguments.ratio)},
     "square": {"callback": read_by(arguments.square)},
     "seconds": {"type": click.FloatRange(min=0, min_open=True), "callback": arguments.finite},
-    "target": {
-        "required": True,
-        "shell_complete": completed(lambda: _named("bridges.registry:bridges")()),
-    },
-    "report": {"shell_complete": completed(lambda: _named("report.schemas:REPORTS"))},
+    "target": {"required": True, "shell_complete": completed("bridges.registry:bridges")},
+    "report": {"shell_complete": completed("report.schemas:REPORTS")},
 }
 """What values of options are, by the words of the table."""
 WORDS = {
@@ -76,12 +73,6 @@ WORDS = {
     "objectives": "design.minimise.objectives:OBJECTIVES",
 }
 """Where the words are that an option takes one of."""
-
-
-def _named(place: str) -> Any:
-    """What a module of the package calls so."""
-    file, _, name = place.partition(":")
-    return getattr(import_module(f"garkcli.{file}"), name)
 
 
 def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -236,7 +227,7 @@ def _option(row: Option, formats: Sequence[str]) -> click.Option:
             settings |= KINDS[word]
         elif key == "words":
             settings["type"] = click.Choice(
-                _named(WORDS[value]) if value in WORDS else value.split(",")
+                named(WORDS[value]) if value in WORDS else value.split(",")
             )
         elif key == "default":
             settings["default"] = value or None

@@ -265,7 +265,9 @@ def conditions(given: Given, output: Output) -> None:
     With --symplectic one condition of each class of those that are equivalent for symplectic
     methods; with FILE for its symplectic pair, unless it is symplectic itself.
     """
+    from garkcli.order.conditions import all_conditions
     from garkcli.report import conditions as report
+    from garkcli.report.conditions_data import ConditionRow
 
     kind = _kind_asked(given, output.format)
     _check(given, kind)
@@ -278,7 +280,8 @@ def conditions(given: Given, output: Output) -> None:
             valued = replace(valued, method=subject.method)
         rows = _independent(subject, given.members, valued)
     elif valued is not None:
-        rows = _with_values(valued, orders)
+        found = (x for n in orders for x in all_conditions(valued.method, n))
+        rows = (ConditionRow(x.tree, False, x) for x in found)
     else:
         rows = _table(given, orders, output.format)
     rows = counting("conditions", _arranged(rows, given.sort, given.digits))
@@ -363,16 +366,6 @@ def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iter
     for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
         yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
-
-
-def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
-    """A row for each condition of a method."""
-    from garkcli.order.conditions import all_conditions
-    from garkcli.report.conditions_data import ConditionRow
-
-    for n in orders:
-        for condition in all_conditions(valued.method, n):
-            yield ConditionRow(condition.tree, False, condition)
 
 
 def _table(given: Given, orders: range, format: str) -> Iterator[ConditionRow]:
