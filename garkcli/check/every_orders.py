@@ -16,11 +16,10 @@ from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible
 from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
-from garkcli.exact.field import Number
 from garkcli.exact.roots import RealRoot
+from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 
 SECONDS = 10.0
 """After so many it is left open for which values the next order is reached."""
@@ -34,8 +33,8 @@ class EveryOrder:
         tableau: whose order it is, for every value.
         fact: the order for every value, with the single values that have another; ``zeros`` are
             the polynomials whose common zeros have a higher one.
-        witness: a tree whose condition is not met by every value; None where the limit was reached.
-        value: its elementary weight, a rational function of the parameters.
+        witness: a tree whose condition is not met by every value, its elementary weight a rational
+            function of the parameters; None where the limit was reached.
         dimension: of the set of values, real and complex, with the next order; −1 where it is
             empty, None where that was not decided.
         poles: polynomials: where one is zero a weight is, and there is no conjugate.
@@ -43,8 +42,7 @@ class EveryOrder:
 
     tableau: Tableau
     fact: Fact
-    witness: Tree | None
-    value: Number | None
+    witness: Witness | None
     dimension: int | None
     poles: tuple[str, ...]
 
@@ -54,13 +52,6 @@ class EveryOrder:
         found = self.fact.value
         assert isinstance(found, int)
         return found
-
-    @property
-    def residual(self) -> Number:
-        """By how much the condition of the witness is missed, a function of the parameters."""
-        assert self.witness is not None
-        assert self.value is not None
-        return self.value - fmpq(1, self.witness.density)
 
 
 def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
@@ -92,11 +83,11 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
         zeros = [condition.polynomial for condition in missed]
         fact, dimension = _higher(family, whose, k - 1, start, zeros)
         fact = _without(family, fact, lost)
-        witness = missed[0].tree
-        value = elementary_weight(tableau, witness)
-        return EveryOrder(tableau, fact, witness, value, dimension, poles)
+        tree = missed[0].tree
+        witness = Witness(tree, elementary_weight(tableau, tree), fmpq(1, tree.density))
+        return EveryOrder(tableau, fact, witness, dimension, poles)
     fact = _without(family, Fact(limit), lost)
-    return EveryOrder(tableau, fact, None, None, None, poles)
+    return EveryOrder(tableau, fact, None, None, poles)
 
 
 def _without(family: EveryFamily, fact: Fact, lost: Sequence[fmpq_mpoly]) -> Fact:

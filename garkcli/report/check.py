@@ -655,10 +655,11 @@ def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
     is_open = (
         Reason(f"order {found.order + 1} is too much to decide") if found.undecided else NO_REASON
     )
-    reason = NO_REASON
-    if found.witness is not None:
-        reason = dense_witness_text(found.witness, has_colours)
-    return Answer(found.order, Status(found.tolerance, found.is_lower_bound, is_open), reason)
+    status = Status(found.tolerance, found.is_lower_bound, is_open)
+    if found.witness is None:
+        return Answer(found.order, status)
+    reason = dense_witness_text(found.witness, has_colours)
+    return Answer(found.order, status, reason, more=found.witness.witness)
 
 
 DENSE = Section(

@@ -36,9 +36,9 @@ from garkcli.tell.kinds import (
     interval_data,
     numbers_from_one,
     record,
+    witness_data,
 )
 from garkcli.tell.report import Report
-from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
     from garkcli.check.every_orders import EveryOrder
@@ -107,8 +107,8 @@ WITNESS = record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
 def _witness(o: EveryOrder, _: Any = None) -> dict[str, Any] | None:
     if o.witness is None:
         return None
-    residual = to_text(o.residual)
-    return {"order": o.witness.order, "tree": format_tree(o.witness), "residual": residual}
+    data = witness_data(o.witness)
+    return {key: data[key] for key in WITNESS["properties"]}
 
 
 ORDER_PARTS = Section(
@@ -120,7 +120,7 @@ ORDER_PARTS = Section(
 )
 
 
-def higher_text(o: EveryOrder, name: str) -> str:
+def _higher_text(o: EveryOrder, name: str) -> str:
     """For which values the order is higher."""
     higher = o.order + 1
     if o.dimension is not None and o.dimension < 0:
@@ -140,14 +140,8 @@ def _order_words(answer: Answer, d: Plain) -> str:
     o = answer.value
     if o.witness is None:
         return f"{d.known(str(o.order), Status(at_least=True))}: no further was looked"
-    key = (o.witness, to_text(o.residual))
-    missed = f"{o.order}; order {o.witness.order} fails"
-    if key in d.told:
-        text = f"{missed} as above"
-    else:
-        d.told.append(key)
-        text = f"{missed} at {d.tree(o.witness)} by {d.number(o.residual)}"
-    text += f"; {d.prose(higher_text(o, d.parameter))}"
+    higher = d.prose(_higher_text(o, d.parameter))
+    text = f"{o.order}; {d.failure(o.witness)}; {higher}"
     if o.poles:
         zero = " or ".join(f"{p} = 0" for p in o.poles[:MOST])
         text += f"; none where a weight is zero: {d.prose(zero)}"

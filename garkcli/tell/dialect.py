@@ -246,9 +246,10 @@ class Plain:
 
     def failure(self, witness: Witness, is_rounded: bool = False) -> str:
         """The tree whose condition fails, and by how much; told once."""
-        if witness in self.told:
+        condition = (witness.tree, to_text(witness.residual))
+        if condition in self.told:
             return f"order {witness.tree.order} fails as above"
-        self.told.append(witness)
+        self.told.append(condition)
         residual = to_decimal(witness.residual, 4) if is_rounded else self.number(witness.residual)
         return f"order {witness.tree.order} fails at {self.tree(witness.tree)} by {residual}"
 

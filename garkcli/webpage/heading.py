@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from garkcli.check.analysis import Analysis
-from garkcli.check.every_value import EveryValue
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
-from garkcli.exact.display import decimal
-from garkcli.report.check import METHOD
+from garkcli.report.check import METHOD, verdict_words
+from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.outputs import words
+from garkcli.tell.outputs import cell, phrase, words
 from garkcli.webpage.reported import Reported
-from garkcli.webpage.sections.orders import order_number, said
+from garkcli.webpage.sections.orders import how
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
 """The class of a verdict, by the exit code of ``gark check``."""
@@ -72,23 +70,13 @@ def _verdict(outcome: Outcome) -> str:
 
 
 def _found(outcome: Outcome) -> str:
-    every = outcome.every
-    if every is not None:
-        names = ", ".join(every.parameters)
-        return f"Order {every.order.order} for every value of {names}."
-    analysis = outcome.analysis
-    assert analysis is not None
-    number = order_number(analysis.order)
-    text, _ = said(analysis.order)
-    return f"Order {number}. {text} {_symplectic(analysis)}"
-
-
-def _symplectic(analysis: Analysis) -> str:
-    if not analysis.symplectic:
-        return "Not symplectic."
-    if analysis.tolerance is None:
-        return "Symplectic."
-    return f"Symplectic within {decimal(analysis.tolerance)}."
+    """The order and whether the method is symplectic, as ``gark check`` tells it."""
+    d = REPORT.dialect(outcome, "text")
+    facts = REPORT.form(outcome).named(outcome, ("order", "symplectic"))
+    if outcome.every is not None:
+        return f"Order {cell(facts['order'], d)} of {', '.join(outcome.every.parameters)}."
+    said, symplectic = phrase(facts["order"], d), phrase(facts["symplectic"], d)
+    return f"{said[:1].upper()}{said[1:]}. {symplectic[:1].upper()}{symplectic[1:]}."
 
 
 def claims_text(outcome: Outcome) -> str:
@@ -105,70 +93,39 @@ def claims_text(outcome: Outcome) -> str:
     return f"All {claims} of its file hold."
 
 
+COLUMNS = {
+    "claims": "",
+    "order": "order",
+    "how": "",
+    "embedded": "embedded_order",
+    "conjugate": "conjugate_order",
+    "pair": "pair_order",
+    "symplectic": "symplectic",
+    "symmetric": "",
+    "stage order": "stage_order",
+    "stages": "",
+}
+"""Of the comparison, with the rows of ``gark check`` that they have; the first has the verdict."""
+
+
 def comparison_row(method: Reported) -> dict[str, Any]:
-    """A method among others: its numbers, as ``gark check --format json`` has them."""
-    data = method.data
-    outcome = method.outcome
-    analysis = outcome.analysis
+    """A method among others: its numbers, as ``gark check`` has them."""
+    outcome, tableau = method.outcome, method.tableau
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")
-    if outcome.every is not None:
-        cells |= _of_family(outcome.every)
-    if analysis is not None:
-        cells |= _cells(data)
-        cells["order"] = order_number(analysis.order)
-        cells["how"] = said(analysis.order)[1]
     cells["claims"] = _claims(outcome)
-    return {
-        "title": outcome.name,
-        "mark": "none" if outcome.makes_no_claim else _mark(outcome),
-        "cells": cells,
-    }
-
-
-COLUMNS = (
-    "claims",
-    "order",
-    "how",
-    "embedded",
-    "conjugate",
-    "pair",
-    "symplectic",
-    "symmetric",
-    "stage order",
-    "stages",
-)
-"""Of the comparison; the first has the verdict."""
-_WORDS = {True: "yes", False: "no", None: "–"}
-
-
-def _cells(data: dict[str, Any]) -> dict[str, str]:
-    properties = data["properties"]
-    found = {
-        "embedded": data["embedded_order"],
-        "conjugate": data["conjugate_order"],
-        "pair": data["pair_order"],
-        "stage order": properties["stage_order"],
-    }
-    cells = {key: "–" if number is None else str(number) for key, number in found.items()}
-    stages = [str(colour["stages"]) for colour in data["colours"]]
-    cells["stages"] = ", ".join(stages)
-    cells["symplectic"] = _WORDS[data["symplectic"]]
-    cells["symmetric"] = _WORDS[properties["symmetric"]]
-    return cells
-
-
-def _of_family(every: EveryValue) -> dict[str, str]:
-    """Orders for every value of the parameters."""
-    found = {
-        "order": every.order,
-        "embedded": every.embedded,
-        "conjugate": every.conjugate,
-        "pair": every.pair,
-    }
-    cells = {key: "–" if order is None else str(order.order) for key, order in found.items()}
-    tableau = every.tableau
-    stages = [str(tableau.space(l).stages) for l in range(tableau.size)]
-    return {**cells, "how": "for every value", "stages": ", ".join(stages)}
+    if tableau is not None:
+        d = REPORT.dialect(outcome, "text")
+        facts = REPORT.form(outcome).named(outcome, COLUMNS.values())
+        for column, key in COLUMNS.items():
+            if key in facts and facts[key].value is not None:
+                cells[column] = cell(facts[key], d)
+        cells["how"] = how(facts["order"])
+        stages = [str(tableau.space(l).stages) for l in range(tableau.size)]
+        cells["stages"] = ", ".join(stages)
+    if outcome.analysis is not None:
+        cells["symmetric"] = verdict_words(outcome.analysis.subject.verdict("symmetric"))
+    mark = "none" if outcome.makes_no_claim else _mark(outcome)
+    return {"title": outcome.name, "mark": mark, "cells": cells}
 
 
 def _claims(outcome: Outcome) -> str:

@@ -46,7 +46,7 @@ def render(methods: Sequence[Reported]) -> str:
         has_several=has_several,
         compared=compared,
         pictures=of_several(methods),
-        columns=COLUMNS,
+        columns=list(COLUMNS),
         dots=dots(sizes),
         style=Markup(_static("page.css") + STYLE),
         script=Markup(script),
