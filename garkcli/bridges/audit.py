@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.importing import orders_of, read
-from garkcli.bridges.judging import Judged, judged
+from garkcli.bridges.judging import Judged, digits_of, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
 from garkcli.bridges.sources import source_text
@@ -18,6 +18,7 @@ from garkcli.doing import doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
+from garkcli.order.rounded import find_order_within
 from garkcli.order.tolerance import within
 from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
@@ -25,6 +26,11 @@ from garkcli.tableau.tableau import Tableau
 
 Level: TypeAlias = Literal["error", "warning", "note"]
 """Errors fail an audit; warnings and notes are told."""
+HIGH = 10
+"""A declared order from which on no higher one is looked for."""
+CARELESS = 1_000
+"""Units of the last place that a careless rounding may be off by."""
+_BY_DIGITS = frozenset({"order", "weights", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is looked for."""
 _SHAPE = re.compile(r"[0-9]+ (?:numbers|entries|rows) for|rows of|takes|has")
@@ -145,12 +151,40 @@ def audit(table: FoundTable) -> Audited | None:
         return Audited(table, findings=(finding,))
     if not is_plausible(table, method):
         return None
-    order, embedded_order = orders_of(method, table)
+    declared = table.order or 0
+    # of high orders it takes long to see that a method has not one more than it declares
+    order, embedded_order = orders_of(method, table, declared if declared >= HIGH else None)
     subject = Subject(table, method, order, embedded_order)
     findings: list[AuditFinding] = []
     for check in CHECKS:
-        findings += check(subject)
+        findings += [_weighed(x, subject) for x in check(subject)]
     return Audited(table, method, order, embedded_order, subject.nonautonomous, tuple(findings))
+
+
+def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
+    """An error as what it is: a doubt where the table was put together from single numbers, a note
+    where careless rounding explains it.
+    """
+    if finding.level != "error":
+        return finding
+    if finding.code in _BY_DIGITS and _is_explained(finding.code, subject):
+        message = f"{finding.message}: {CARELESS} units of the last digits explain it"
+        return AuditFinding("open", message, level="note")
+    if subject.table.is_assembled:
+        message = f"{finding.message}; in doubt, as the table is put together from single numbers"
+        return replace(finding, message=message, level="warning")
+    return finding
+
+
+def _is_explained(code: str, subject: Subject) -> bool:
+    """Whether rounding by many units of the last digits might be why an order is missed."""
+    tableau, method, table = subject.tableau, subject.method, subject.table
+    wanted = table.order or 1
+    if code.startswith("embedded"):
+        tableau = with_weights(tableau, method.embedded or ())
+        wanted = table.embedded_order or 1 if code == "embedded-order" else 1
+    rounded = digits_of(method, tableau, CARELESS)
+    return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
 
 
 def _of_trouble(table: FoundTable) -> AuditFinding:
@@ -286,7 +320,7 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     text = "; ".join(rows[:3])
     if len(rows) > 3:
         text += f"; and {len(rows) - 3} more"
-    if _is_turned(subject):
+    if (loses or declared is None or _is_upper(subject)) and _is_turned(subject):
         yield AuditFinding("transposed", "the columns have the nodes for sums")
     elif loses and timed is not None:
         message = f"order {timed.order} where f depends on t, and else {wanted}"
@@ -294,6 +328,12 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     else:
         level: Level = "error" if declared is None else "note"
         yield AuditFinding("nodes", text, level=level)
+
+
+def _is_upper(subject: Subject) -> bool:
+    """Whether the matrix is that of an explicit method, transposed."""
+    block = subject.tableau.block(0, 0) or ()
+    return not any(any(row[: i + 1]) for i, row in enumerate(block))
 
 
 def _is_turned(subject: Subject) -> bool:

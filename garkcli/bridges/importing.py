@@ -82,14 +82,18 @@ def read(table: FoundTable, name: str = "") -> MethodFile:
     return loads(written(table, name, None, {}), place_of(table))
 
 
-def orders_of(method: MethodFile, table: FoundTable) -> tuple[Judged, Judged | None]:
-    """The order of a method and that of its embedded weights, within what their digits say."""
+def orders_of(
+    method: MethodFile, table: FoundTable, limit: int | None = None
+) -> tuple[Judged, Judged | None]:
+    """The order of a method and that of its embedded weights, within what their digits say, up to
+    ``limit``.
+    """
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
-    order = judged(method, method.tableau, table.order, tolerance=admitted)
+    order = judged(method, method.tableau, table.order, limit, admitted)
     if method.embedded is None:
         return order, None
     other = with_weights(method.tableau, method.embedded)
-    embedded = judged(method, other, table.embedded_order, tolerance=admitted)
+    embedded = judged(method, other, table.embedded_order, limit, admitted)
     return order, embedded
 
 

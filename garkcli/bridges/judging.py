@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.printed import approximant_units
@@ -24,16 +25,26 @@ class Judged:
         order: as far as conditions hold, exactly or within the rounding.
         is_open: whether the next order is left open: rounding may be why it fails.
         witness: a tree whose condition fails; None where none is known.
-        tolerance: the power of ten that a method file has to admit for this order; None where
-            the conditions hold exactly.
+        missed: the tableau and its largest residual up to this order; None where the conditions
+            hold exactly.
         is_limited: whether the search stopped at its limit.
     """
 
     order: int
     is_open: bool = False
     witness: Witness | None = None
-    tolerance: fmpq | None = None
+    missed: tuple[Tableau, arb] | None = None
     is_limited: bool = False
+
+    @cached_property
+    def tolerance(self) -> fmpq | None:
+        """The power of ten that a method file has to admit for this order; None where the
+        conditions hold exactly.
+        """
+        if self.missed is None:
+            return None
+        tableau, residual = self.missed
+        return fmpq(10) ** enough(tableau, self.order, residual)
 
     @property
     def claim(self) -> str:
@@ -45,7 +56,7 @@ def judged(
     method: MethodFile,
     tableau: Tableau,
     declared: int | None = None,
-    limit: int = DEFAULT_LIMIT,
+    limit: int | None = None,
     tolerance: fmpq | None = None,
 ) -> Judged:
     """The order of a tableau that is made of the numbers of a file.
@@ -58,10 +69,10 @@ def judged(
         method: the file, for how its numbers are written.
         tableau: the method, or the same with embedded weights.
         declared: the order that its source declares; the search goes one further at least.
-        limit: where the search stops.
+        limit: where the search stops; None for one order beyond the declared one at least.
         tolerance: the rounding that the source admits; None where it says none.
     """
-    reach = max(limit, (declared or 0) + 1)
+    reach = limit or max(DEFAULT_LIMIT, (declared or 0) + 1)
     exact = find_order(tableau, reach)
     if exact.is_lower_bound:
         return Judged(exact.order, is_limited=True)
@@ -83,12 +94,12 @@ def judged(
     return _judged(found, exact, tableau)
 
 
-def digits_of(method: MethodFile, tableau: Tableau) -> RoundedTableau:
+def digits_of(method: MethodFile, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:
     """A tableau with what the digits of a file leave open: ten units of the last place of each
-    decimal.
+    decimal, or ``slack`` of them.
     """
     units = approximant_units(method.printed)
-    wide = {value: SLACK * unit for value, unit in units.items()}
+    wide = {value: slack * unit for value, unit in units.items()}
     return RoundedTableau.printed(tableau, wide)
 
 
@@ -96,5 +107,4 @@ def _judged(found: RoundedOrder, exact: Order, tableau: Tableau) -> Judged:
     is_open = found.witness is None
     if found.order == exact.order:
         return Judged(found.order, is_open, found.witness or exact.witness)
-    exponent = enough(tableau, found.order, found.largest_residual)
-    return Judged(found.order, is_open, found.witness, fmpq(10) ** exponent)
+    return Judged(found.order, is_open, found.witness, (tableau, found.largest_residual))

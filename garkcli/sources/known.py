@@ -23,7 +23,6 @@ from garkcli.sources.values import (
     computed,
     integer,
     literal,
-    negative,
     real,
     root,
     transposed,
@@ -176,13 +175,8 @@ def _of_text(text: str, line: int) -> Value:
     above, bar, below = text.strip().partition("/")
     if not set(above + below) <= set("0123456789.eE+- "):
         return Word(text)
-    numbers = [_signed(x.strip(), line) for x in (above, below or "1")]
+    numbers = [literal(x, line) for x in (above, below or "1")]
     return computed("/", numbers[0], numbers[1], line) if bar else numbers[0]
-
-
-def _signed(text: str, line: int) -> Value:
-    found = literal(text.lstrip("+-"), line)
-    return negative(found, line) if text.startswith("-") else found
 
 
 def _converted(call: Call) -> Value | None:

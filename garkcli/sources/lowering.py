@@ -23,6 +23,9 @@ MAX_NESTING = 60
 """Deepest nesting of what is lowered."""
 
 
+TOO_DEEP = ir.Opaque("an expression that is nested too deep")
+
+
 class Lowering:
     """From a syntax tree to statements.
 
@@ -92,7 +95,7 @@ class Lowering:
         if node is None:
             return ir.Nothing()
         if self._depth >= MAX_NESTING:
-            return ir.Opaque("an expression that is nested too deep")
+            return TOO_DEEP
         self._depth += 1
         try:
             return self.expression(node)

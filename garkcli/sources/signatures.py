@@ -78,7 +78,7 @@ OTHER_KINDS = (
     (re.compile(r"LowStorage|2[NR]S?\+?(?:$|_)|3S\*?|LSRK"), "low-storage"),
     (re.compile(r"SplittingStep|SplittingCoefficients"), "splitting"),
     (re.compile(r"ExpRK|ETDRK|Exponential(?!ly)"), "exponential"),
-    (re.compile(r"TSIRK|IMEXBDF|BDF(?![a-z])|Adams"), "multistep"),
+    (re.compile(r"TSIRK|(?<!TR)BDF(?![a-z0-9]*Tableau)|Adams"), "multistep"),
 )
 """Tables of other methods, by the names of the calls that make them."""
 MAKER = re.compile(r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI)\w*")

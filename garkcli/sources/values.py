@@ -177,9 +177,11 @@ def integer(n: int) -> Number:
 
 def literal(text: str, line: int, is_whole: bool = False) -> Value:
     """The number that is printed, exactly as it is printed."""
-    plain = text.lower().replace("_", "")
+    plain = text.strip().lower().replace("_", "").removeprefix("+")
+    if plain.startswith("-"):
+        return negative(literal(plain[1:], line, is_whole), line)
     try:
-        value = read_decimal(plain.lstrip("+-"))
+        value = read_decimal(plain)
     except (ExpressionError, ValueError):
         return Unknown(f"the number {text[:20]}", line)
     digits, _, exponent = plain.partition("e")
@@ -214,12 +216,10 @@ def computed(sign: str, x: Value, y: Value, line: int) -> Value:
             return Unknown("a number that is too long", line)
         if x.written is None and y.written is None:
             return exact(value, is_whole)
-    elif (x.is_zero and sign in "*/") or (y.is_zero and sign == "*"):
-        return ZERO
-    elif x.is_zero and sign == "+":
-        return y
-    elif y.is_zero and sign in "+-":
-        return x
+    if x.is_zero:
+        return ZERO if sign in "*/" else y if sign == "+" else negative(y, line)
+    if y.is_zero:
+        return ZERO if sign == "*" else x
     return _written(sign, x, y, Number(value, near, unit), line)
 
 
@@ -308,8 +308,8 @@ def _power(x: Number, y: Number, line: int) -> Value:
     if abs(p) > MAX_POWER:
         return Unknown("a power that is too high", line)
     base: Value = x if q == 1 else root(x, q, line)
-    found: Value = ONE
-    for _ in range(abs(p)):
+    found: Value = base if p else ONE
+    for _ in range(abs(p) - 1):
         found = computed("*", found, base, line)
     return found if p >= 0 else computed("/", ONE, found, line)
 

@@ -148,7 +148,9 @@ def _calls(reader: str, text: str) -> int:
     return count
 
 
-@pytest.mark.parametrize(("reader", "piece"), [("julia", "Tableau("), ("matlab", "x = zeros(")])
+@pytest.mark.parametrize(
+    ("reader", "piece"), [("mathematica", "x = Sqrt["), ("matlab", "x = zeros(")]
+)
 def test_what_is_read_again_is_counted(
     reader: str, piece: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

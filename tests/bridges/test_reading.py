@@ -42,7 +42,7 @@ FOUND = {
     ("table.json", 1): ("midpoint", 1, 2, None),
     ("tableaus.jl", 10): ("constructRalston", 1, 2, 1),
     ("tableaus.jl", 20): ("constructBig", 1, 2, None),
-    ("tableaus.jl", 22): ("constructBig", 2, 2, None),
+    ("tableaus.jl", 22): ("imex", 2, 2, None),
 }
 """By file and line: the name, the colours, the order, the embedded order."""
 
