@@ -35,37 +35,21 @@ _LEVELS = {
 """How tightly operators hold; a sign is between the product and the power."""
 _SIGN_LEVEL = 7
 _PASSED = frozenset(
-    [
-        "@big",
-        "@SVector",
-        "@SMatrix",
-        "@SArray",
-        "@MVector",
-        "@MMatrix",
-        "@dd",
-        "@df64",
-        "@.",
-        "@view",
-        "@views",
-        "@inbounds",
-        "@fastmath",
-    ]
+    {
+        *("@big", "@SVector", "@SMatrix", "@SArray", "@MVector", "@MMatrix", "@dd", "@df64"),
+        *("@.", "@view", "@views", "@inbounds", "@fastmath"),
+    }
 )
+"""Macros that give what they get."""
 _BLOCKS = frozenset(
-    [
-        "source_file",
-        "module_definition",
-        "begin_block",
-        "compound_statement",
-        "block",
-        "let_statement",
-        "toplevel",
-        "const_statement",
-        "global_statement",
-        "local_statement",
-        "try_statement",
-        "ERROR",
-    ]
+    {
+        *("source_file", "module_definition", "begin_block", "compound_statement", "block"),
+        *("let_statement", "toplevel", "const_statement", "global_statement"),
+        *("local_statement", "try_statement", "ERROR"),
+    }
+)
+_DEFINITIONS = frozenset(
+    {"function_definition", "struct_definition", "assignment", "if_statement", *_BLOCKS}
 )
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
 
@@ -128,15 +112,11 @@ class JuliaLowering(Lowering):
         """A macro before a definition is passed over."""
         inside = self.children(node)
         args = self.children(inside[1]) if len(inside) > 1 else []
-        last = args[-1].type if args else ""
-        if last in {"function_definition", "struct_definition", "assignment", "if_statement"}:
-            if self.text(inside[0]) not in {"@unpack", "@pack"}:
-                yield from self.block(args[-1:])
-                return
-        if last in _BLOCKS:
+        is_taken_apart = self.text(inside[0]) == "@unpack"
+        if args and args[-1].type in _DEFINITIONS and not is_taken_apart:
             yield from self.block(args[-1:])
             return
-        if self.text(inside[0]) == "@unpack" and args:
+        if is_taken_apart and args:
             parts = self.children(self.children(args[0])[0]) if self.children(args[0]) else []
             for part in parts or self.children(args[0])[:1]:
                 yield ir.Assign(ir.Name(self.text(part)), ir.Name(_ARGUMENT), line_of(node))
