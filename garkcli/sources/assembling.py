@@ -8,9 +8,10 @@ from typing import TypeAlias
 
 from garkcli.sources.blocks import assembled, table_of_blocks
 from garkcli.sources.found import MAX_STAGES, FoundTable, Row, Rows, Unreadable, troubled
+from garkcli.sources.known import conversion
 from garkcli.sources.scalars import Value as Plain
 from garkcli.sources.scalars import rows_of
-from garkcli.sources.shaping import difference, is_zero, square, symplectic, weights
+from garkcli.sources.shaping import difference, is_zero, square, symplectic, total, weights
 from garkcli.sources.signatures import Signature
 from garkcli.sources.values import (
     Array,
@@ -77,7 +78,7 @@ def plain(value: Value | None) -> Plain:
         case Word(text=text):
             return text
         case Array(items=items):
-            return [plain(x) for x in items]
+            return [plain(conversion([x], 0) if isinstance(x, Word) else x) for x in items]
         case Unknown(reason=reason, line=line):
             raise Unreadable(f"{reason}, line {line}, is not known")
     raise Unreadable(f"{described(value)} is not known")
@@ -109,7 +110,7 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
     if signature and signature.counts and meant.arguments not in signature.counts:
         counts = " or ".join(map(str, signature.counts))
         return troubled(empty, f"{meant.maker} takes {counts} arguments")
-    if meant.maker == "":
+    if not signature and not meant.is_sure:
         _refuse_uses(roles)
     try:
         return _built(meant, roles, empty)
@@ -305,7 +306,11 @@ def _embedded(
         return none
     if is_error and all(map(is_zero, row)):
         return A, b, c, None
-    return A, b, c, difference(b, row) if is_error else row
+    if not is_error:
+        return A, b, c, row
+    # E is b̂ − b in the classes of SciPy; the other sign, which others have, changes no order
+    made = total if any("RungeKutta" in x for x in meant.bases) else difference
+    return A, b, c, made(b, row)
 
 
 def _dense(roles: Roles, stages: int) -> tuple[Rows, ...] | None:

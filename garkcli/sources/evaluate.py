@@ -342,7 +342,7 @@ class Evaluator:
             case ir.Name(name=name):
                 old = space.get(name)
                 are_arrays = isinstance(old, Array) and isinstance(value, Array)
-                if old is not None and are_arrays and _shown(old) != _shown(value):
+                if old is not None and are_arrays and _is_replaced(old, value):
                     self._finder.replaced(self._scopes[-1], space, name)
                 space[name] = value
                 space.lines[name] = line
@@ -558,7 +558,7 @@ class Evaluator:
         if plain in CONSTANTS:
             return CONSTANTS[plain]
         if plain in CONVERSIONS:
-            return Type()
+            return Type(plain)
         return self.unknown(f"the name {name}")
 
     def _listed(self, items: Sequence[ir.Expr], space: Space) -> Value:
@@ -695,6 +695,8 @@ class Evaluator:
         if isinstance(target, Function) and len(target.parameters) == len(args):
             return self._applied(target, args)
         plain = name.rpartition("::")[2]
+        if isinstance(target, Type) and target.name:
+            plain, target = target.name, None
         if isinstance(target, Type) or (_is_an_argument(target, name) and len(args) == 1):
             return conversion(args, self.line) if args else self.unknown(f"the call {name}")
         if plain in CALLS and not isinstance(target, Array):
@@ -857,6 +859,13 @@ def _targets(bodies: Iterable[ir.Body]) -> Iterator[tuple[ir.Expr, int]]:
                 case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
                     if name in _METHODS:
                         yield of, line
+
+
+def _is_replaced(old: Value, value: Value) -> bool:
+    """Whether an array that somebody wrote gets other entries."""
+    assert isinstance(old, Array)
+    is_written = any(isinstance(x, Number) and x.is_given for x in old.flat())
+    return is_written and _shown(old) != _shown(value)
 
 
 def _distinct(spaces: Sequence[Space]) -> list[Space]:

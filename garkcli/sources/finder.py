@@ -12,6 +12,7 @@ from garkcli.sources.assembling import Meant, NoTable, Roles, table_of
 from garkcli.sources.evaluate import Space
 from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES, role_of
+from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
 from garkcli.sources.signatures import SIGNATURES, other_kind
 from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, integer
@@ -63,7 +64,7 @@ class TableFinder:
                 table = table_of(meant, self._source, self._format)
             except NoTable:
                 continue
-            key = (table.A, table.b, table.c, table.line if table.is_sure else 0, table.name)
+            key = (table.A, table.b, table.c, table.line, table.name)
             if key not in found:
                 found[key] = self._allowance.table(table)
         tables = [*found.values(), *self._other.values()]
@@ -167,7 +168,7 @@ class TableFinder:
                 self._name(record, scope),
                 line,
                 roles,
-                record.kind,
+                record.kind or "record",
                 signature,
                 is_sure,
                 is_counted=bool(signature and signature.counts),
@@ -193,6 +194,13 @@ class TableFinder:
     def _named(
         self, values: Mapping[str, Value], lines: Mapping[str, int], scope: ir.Scope
     ) -> None:
+        for name, value in values.items():
+            roles = block_roles(value) if name.upper().startswith("B") else None
+            if roles is not None:
+                line = lines.get(name, scope.line)
+                meant = Meant(scope.name or name, line, dict(roles), "B", None, is_sure=True)
+                self._meant.append(meant)
+                return
         groups: dict[str, Roles] = {}
         blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}
         begins: dict[str, int] = {}

@@ -21,10 +21,12 @@ from garkcli.sources.values import (
     Value,
     Word,
     computed,
+    copied,
     integer,
     literal,
     real,
     root,
+    size,
     transposed,
     whole,
 )
@@ -335,6 +337,15 @@ def _stacked(call: Call) -> Value | None:
     return call.evaluator.array(items)
 
 
+def _repeated(call: Call) -> Value | None:
+    """A list so many times, one behind the other."""
+    values, count = call.args[0], whole(call.args[1])
+    if not isinstance(values, Array) or count is None or count > MAX_STAGES:
+        return call.unknown()
+    call.evaluator.allowance.spend(size(values) * max(count, 0))
+    return call.evaluator.array(copied(x) for _ in range(count) for x in values.items)
+
+
 def _mapped(call: Call) -> Value | None:
     if len(call.args) != 2:
         return None
@@ -382,12 +393,9 @@ def _diagonal(call: Call) -> Value | None:
 
 
 def _record(call: Call) -> Value | None:
-    """``dict(A=…, b=…)``, ``struct('A', …)``."""
-    fields = dict(call.named)
-    if call.name == "struct":
-        pairs = zip(call.args[::2], call.args[1::2], strict=False)
-        fields |= {key.text: x for key, x in pairs if isinstance(key, Word)}
-    return Record("", fields, (), call.line)
+    """``struct('A', …)``."""
+    pairs = zip(call.args[::2], call.args[1::2], strict=False)
+    return Record("", {key.text: x for key, x in pairs if isinstance(key, Word)}, (), call.line)
 
 
 def _butcher_table(call: Call) -> Value | None:
@@ -414,13 +422,14 @@ _BY_FUNCTION: Mapping[Known, str] = {
     _transposed: "transpose permutedims adjoint",
     _reshaped: "reshape",
     _stacked: "vcat concatenate hstack vstack",
+    _repeated: "repeated",
     _mapped: "map",
     _power: "power pow",
     _quotient: "rdivide",
     _square: "PetscSqr SUNSQR",
     _length: "length len size",
     _diagonal: "diag",
-    _record: "dict struct",
+    _record: "struct",
     _butcher_table: "ARKodeButcherTable_Alloc",
 }
 CALLS: Mapping[str, Known] = {

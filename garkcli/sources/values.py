@@ -135,7 +135,9 @@ class Null:
 
 @dataclass(frozen=True, slots=True)
 class Type:
-    """A type: to call it is to convert."""
+    """A type: to call it is to convert. Its name is that of a known function, or empty."""
+
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)

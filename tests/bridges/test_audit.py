@@ -92,6 +92,8 @@ PLANTED = {
     "rklab, q": ("rklab.m", "2, b; 1, b2", "3, b; 1, b2", "order"),
     "rklab, p": ("rklab.m", "2, b; 1, b2", "2, b; 2, b2", "embedded-order"),
     "rklab, a node": ("rklab.m", "c = [gamma; 1]", "c = [gamma; 1/2]", "nodes"),
+    "fortran, a digit": ("kutta.f90", "2*third", "3*third", "nodes"),
+    "fortran, the order": ("kutta.f90", "order = 2", "order = 3", "order"),
     "matlab, a sign": ("kutta.m", "-1 2 0]", "-1 -2 0]", "order"),
     "matlab, a cell": ("kutta.m", "m.b{2} = [0 1]", "m.b{2} = [1 0]", "order"),
     "julia, a node": ("tableaus.jl", "c = [0; 2 // 3]", "c = [0; 3 // 2]", "nodes"),
@@ -169,7 +171,7 @@ def test_none_is_invented() -> None:
     """The sources as they are have no finding of any level, and all their tables are seen."""
     report = audit(SOURCES)
     assert findings(report) == []
-    summary = {"tables": 29, "wrong": 0, "unread": 0}
+    summary = {"tables": 31, "wrong": 0, "unread": 0}
     assert report["summary"] == summary
 
 

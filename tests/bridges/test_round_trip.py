@@ -50,6 +50,7 @@ READERS = {
     "mathematica": "mathematica",
     "latex": "latex",
     "c": "c",
+    "fortran": "fortran",
     "petsc": "petsc",
     "sundials": "c",
 }
