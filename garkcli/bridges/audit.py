@@ -154,6 +154,9 @@ def audit(table: FoundTable) -> Audited | None:
     declared = table.order or 0
     # of high orders it takes long to see that a method has not one more than it declares
     order, embedded_order = orders_of(method, table, declared if declared >= HIGH else None)
+    if table.is_assembled and order.order < 2 and not declared:
+        message = "numbers with the names of coefficients whose roles are not recognised"
+        return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
     subject = Subject(table, method, order, embedded_order)
     findings: list[AuditFinding] = []
     for check in CHECKS:
@@ -326,7 +329,8 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
         message = f"order {timed.order} where f depends on t, and else {wanted}"
         yield AuditFinding("nodes", f"{message}: {text}")
     else:
-        level: Level = "error" if declared is None else "note"
+        is_error = declared is None and not subject.is_slightly_off
+        level: Level = "error" if is_error else "note"
         yield AuditFinding("nodes", text, level=level)
 
 

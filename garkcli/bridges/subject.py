@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from garkcli.bridges.judging import Judged, digits_of, judged
-from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.display import to_ball, to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.simplifying import RoundedDefects
@@ -14,6 +15,9 @@ from garkcli.sources.found import FoundTable
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
+
+SLIGHT = 1e-10
+"""Nodes that are off by less are no misprints: coefficients of ten digits and more are rounded."""
 
 
 @dataclass(frozen=True)
@@ -42,19 +46,30 @@ class Subject:
         """The method with what its digits leave open."""
         return digits_of(self.method, self.tableau)
 
-    @cached_property
+    @property
     def wrong_rows(self) -> tuple[str, ...]:
         """The nodes that are no row sums, beyond what rounding explains, in words."""
+        return tuple(self._wrong)
+
+    @property
+    def is_slightly_off(self) -> bool:
+        """Whether these nodes differ by so little that fractions may be cut short."""
+        return bool(self._wrong) and all(abs(to_ball(x)) < SLIGHT for x in self._wrong.values())
+
+    @cached_property
+    def _wrong(self) -> Mapping[str, Number]:
+        """These nodes in words, with by how much they are off."""
         defects = RoundedDefects(self.rounded)
-        found: dict[str, None] = {}
+        found: dict[str, Number] = {}
         for l, m in self.tableau.edges():
             block = self.tableau.block(l, m) or ()
             nodes = self.tableau.colours[l].c
             rows = zip(block, nodes, defects.C(l, m, 1), strict=True)
             for i, (row, node, defect) in enumerate(rows, start=1):
                 if not defects.vanish([defect]):
-                    found[_row_text(i, sum(row, ZERO), node)] = None
-        return tuple(found)
+                    total = sum(row, ZERO)
+                    found[_row_text(i, total, node)] = total - node
+        return found
 
     @cached_property
     def nonautonomous(self) -> Judged | None:

@@ -52,6 +52,8 @@ MAX_INLINED = 8
 """Deepest nesting of calls of functions of one expression."""
 _SELF = frozenset({"self", "this", "cls"})
 _GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
+_SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
+"""Methods that give the array or the number itself."""
 _METHODS = _GROWING | {"resize", "reserve", "clear", "reinit"}
 
 
@@ -707,7 +709,7 @@ class Evaluator:
             return self._sliced(target, call.args, space)
         if isinstance(callee, ir.Field) and isinstance(target := self.value(callee, space), Array):
             return self._sliced(target, call.args, space)
-        if isinstance(callee, ir.Field) and plain in {"copy", "astype", "tolist", "to", "clone"}:
+        if isinstance(callee, ir.Field) and plain in _SAME:
             return self.value(callee.of, space)
         if plain.endswith("!"):
             for arg in call.args:

@@ -55,11 +55,15 @@ class TableFinder:
         self._facts = facts
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
+        self._orders: dict[tuple[str, int], Number] = {}
 
     def tables(self) -> list[FoundTable]:
         """All of them, each once; arrays that a call takes are found with it."""
         found: dict[object, FoundTable] = {}
         for meant in self._meant:
+            declared = self._orders.get((meant.maker, meant.line))
+            if declared is not None:
+                meant.roles.setdefault("order", declared)
             try:
                 table = table_of(meant, self._source, self._format)
             except NoTable:
@@ -116,9 +120,7 @@ class TableFinder:
         if not isinstance(order, Number):
             return
         used = {(x.kind, x.line) for x in space.values() if isinstance(x, Record)}
-        for meant in self._meant:
-            if (meant.maker, meant.line) in used:
-                meant.roles.setdefault("order", order)
+        self._orders |= dict.fromkeys(used, order)
 
     # records and calls
 

@@ -92,7 +92,7 @@ PLANTED = {
     "rklab, q": ("rklab.m", "2, b; 1, b2", "3, b; 1, b2", "order"),
     "rklab, p": ("rklab.m", "2, b; 1, b2", "2, b; 2, b2", "embedded-order"),
     "rklab, a node": ("rklab.m", "c = [gamma; 1]", "c = [gamma; 1/2]", "nodes"),
-    "fortran, a digit": ("kutta.f90", "2*third", "3*third", "nodes"),
+    "fortran, a digit": ("kutta.f90", "2*third", "3*third", "order"),
     "fortran, the order": ("kutta.f90", "order = 2", "order = 3", "order"),
     "matlab, a sign": ("kutta.m", "-1 2 0]", "-1 -2 0]", "order"),
     "matlab, a cell": ("kutta.m", "m.b{2} = [0 1]", "m.b{2} = [1 0]", "order"),

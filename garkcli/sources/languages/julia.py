@@ -322,6 +322,8 @@ class JuliaLowering(Lowering):
                 return self._tuple(node, inside)
             case "matrix_expression":
                 return self._matrix(inside)
+            case "unary_expression" if len(inside) == 2 and self.text(inside[0]) == "√":
+                return ir.Call(ir.Name("sqrt"), (self.expr(inside[1]),))
             case "call_expression" | "broadcast_call_expression" if inside:
                 return self._call(inside)
             case "field_expression" if len(inside) > 1:

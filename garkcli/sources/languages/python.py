@@ -25,6 +25,8 @@ _SIGNS = {"**": "^", "//": "÷"}
 class PythonLowering(Lowering):
     """Assignments, classes, functions, lists and dictionaries of Python."""
 
+    comments = frozenset({"comment", "line_continuation"})
+
     def __init__(self, text: str) -> None:
         super().__init__(text, PYTHON)
 
