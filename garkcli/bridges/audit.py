@@ -97,6 +97,11 @@ class Audited:
         return self.method is not None
 
     @property
+    def looks_like(self) -> bool:
+        """Whether it looks like a table, and is neither judged nor wrong in itself."""
+        return not (self.is_read or self.has_errors or self.table.kind)
+
+    @property
     def has_errors(self) -> bool:
         """Whether a finding is an error."""
         return any(x.level == "error" for x in self.findings)

@@ -146,8 +146,8 @@ def audit(given: Given, output: Output) -> int:
     not, whether its weights have the sum 1. Nothing in a source is executed. The format auto is
     github in GitHub Actions and text elsewhere.
 
-    Exit code: 0 nothing is wrong, 1 a finding is an error, 2 there is no table, or none that can be
-    read.
+    Exit code: 0 nothing is wrong, 1 a finding is an error, or with --strict something that looks
+    like a table was not read, 2 there is no table, or none that can be read.
     """
     from garkcli.bridges.audit import audited, unlike
     from garkcli.bridges.sources import source_files
@@ -161,6 +161,6 @@ def audit(given: Given, output: Output) -> int:
     output.suit()
     render = RENDERERS[output.format]
     output.write(render(found, output.paint, output.verbosity, output.width))
-    if any(x.has_errors for x in found):
+    if any(x.has_errors for x in found) or (given.strict and any(x.looks_like for x in found)):
         return 1
     return 0 if any(x.is_read for x in found) else 2

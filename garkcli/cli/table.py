@@ -221,6 +221,7 @@ export --digits N 1..1000 = export.digits
 --from FORMAT name=source_format = import_methods.format
     | What SOURCE is; else the ending of its name says, or what is found in it.
 --recognise = import_methods.is_recognising
+--strict | Fail where something looks like a table and was not read.
     | Exact numbers in place of decimals, where the order does not fall.
 
 report --order -n n 1..100 = report_page.order
@@ -301,6 +302,7 @@ exchange: import SOURCE... | methods out of C, Python, MATLAB, Julia, LaTeX, JSO
     --from --recognise
 exchange: audit PATH... | the tables of a source tree against what they declare
     = audit
+    --strict
 looking_up: certificate FILE | what proves the orders, to be checked without gark
     = certificate prove_method
     --set

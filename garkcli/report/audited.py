@@ -62,10 +62,22 @@ def _finding_rows(findings: Sequence[AuditFinding], d: Plain) -> list[tuple[str,
 def _answer(x: Audit, _: Plain) -> str:
     """How many tables are wrong."""
     wrong, unread = _errors(x.tables), _unread(x.tables)
-    texts = [counted(len(x.tables), "table")]
-    if wrong or unread < len(x.tables):
-        texts.append(f"{wrong} wrong" if wrong else "none wrong")
-    return ", ".join([*texts, f"{unread} could not be read"] if unread else texts)
+    others = sum(bool(found.table.kind) for found in x.tables)
+    judged = [found for found in x.tables if found.is_read or found.has_errors]
+    sources = {found.table.source for found in judged}
+    where = f" in {counted(len(sources), 'file')}" if len(sources) > 1 else ""
+    told = "no table is read"
+    if judged:
+        result = f"{wrong} wrong" if wrong else "none wrong"
+        told = f"{counted(len(judged), 'table')}{where}, {result}"
+    texts = [told]
+    if others:
+        texts.append(f"{others} of other methods are not judged")
+    if unread:
+        verbs = "looks like a table and was" if unread == 1 else "look like tables and were"
+        more = f"{unread} more" if judged else str(unread)
+        texts.append(f"{more} {verbs} not read: -v lists them, --strict fails on them")
+    return "; ".join(texts)
 
 
 def _errors(tables: Sequence[Audited]) -> int:
@@ -74,7 +86,7 @@ def _errors(tables: Sequence[Audited]) -> int:
 
 def _unread(tables: Sequence[Audited]) -> int:
     """How many tables are neither judged nor wrong in themselves."""
-    return sum(not (x.is_read or x.has_errors) for x in tables)
+    return sum(x.looks_like for x in tables)
 
 
 def _number(order: Judged | None) -> int | None:

@@ -262,11 +262,16 @@ def test_a_table_that_cannot_be_read_is_counted(tmp_path: Path) -> None:
     (tmp_path / "m.c").write_text(call, encoding="utf-8")
     run = gark("audit", "m.c", cwd=tmp_path)
     assert run.code == 2
-    assert run.out.startswith("1 table, 1 could not be read\n")
+    assert run.out.startswith("no table is read; 1 looks like a table and was not read: ")
     (tmp_path / "n.c").write_text(text, encoding="utf-8")
     run = gark("audit", ".", cwd=tmp_path)
     assert run.code == 0
-    assert run.out.splitlines()[0].endswith(", none wrong, 1 could not be read")
+    told = " ".join(run.out.split())
+    assert "none wrong; 1 more looks like a table and was not read: -v lists them" in told
+    assert gark("audit", ".", "--strict", cwd=tmp_path).code == 1
+    (tmp_path / "m.c").unlink()
+    assert gark("audit", ".", "--strict", cwd=tmp_path).code == 0
+    (tmp_path / "m.c").write_text(call, encoding="utf-8")
     summary = audit(tmp_path)["summary"]
     assert isinstance(summary, dict)
     assert (summary["wrong"], summary["unread"]) == (0, 1)
@@ -295,7 +300,7 @@ def test_text_names_the_place_and_the_culprit(wrong: Path) -> None:
     run = gark("audit", "kutta.m", "register.cpp", cwd=wrong)
     assert run.code == 1
     answer, place, finding, *_ = run.out.splitlines()
-    assert (answer, place) == ("6 tables, 1 wrong", "  kutta.m:3 kutta: order 1")
+    assert (answer, place) == ("6 tables in 2 files, 1 wrong", "  kutta.m:3 kutta: order 1")
     assert finding.startswith("    error  order 1, declared 3;")
     assert "    help   row 3 has the sum 3, its node is 1" in run.out
     assert run.out.count("order ") < gark(

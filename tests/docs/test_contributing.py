@@ -44,7 +44,7 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/webpage/sections/orders.py", "SECTION"),
         ("garkcli/glossary/terms/orders.py", "TERMS"),
         ("garkcli/bridges/targets/mfem.py", "BRIDGES"),
-        ("garkcli/bridges/readers/julia.py", "READER"),
+        ("garkcli/sources/languages/julia.py", "READER"),
     ):
         assert f"`{name}`" in TEXT
         text = (ROOT / folder).read_text(encoding="utf-8")

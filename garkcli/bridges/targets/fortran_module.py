@@ -18,6 +18,7 @@ BRIDGES = (
         summary="a Fortran module with constant arrays",
         kinds=("rk", "ark", "prk", "gark"),
         suffix=".f90",
+        reads_back=True,
         style=STYLE,
         values=lambda payload: {"arrays": named_arrays(payload, "_")},
     ),
