@@ -130,10 +130,17 @@ def _refuse_uses(roles: Roles) -> None:
     if len(written) < 2:
         raise NoTable
     assert isinstance(matrix, Array)
-    numbers = sum(isinstance(x, Number) and x.is_given for x in matrix.flat())
+    numbers = sum(_is_number(x) for x in matrix.flat())
     unknown = sum(isinstance(x, Unknown) for x in matrix.flat())
     if unknown and not numbers:
         raise NoTable
+
+
+def _is_number(value: Value) -> bool:
+    """Whether a number is written there, or was before it was changed."""
+    if isinstance(value, Unknown):
+        return value.was_written
+    return isinstance(value, Number) and value.is_given
 
 
 def _is_unread(roles: Roles) -> bool:

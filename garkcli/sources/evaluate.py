@@ -8,6 +8,7 @@ own; where these are too many, what it assigns is unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Protocol, TypeAlias
 
 from garkcli.sources import ir
@@ -268,7 +269,10 @@ class Evaluator:
             is_array = isinstance(old, Array) and bool(old.items)
             if is_array:
                 assert isinstance(old, Array)
-                space[target.name] = old.map(lambda _: unknown)
+                written = replace(unknown, was_written=True)
+                space[target.name] = old.map(
+                    lambda x: written if isinstance(x, Number) and x.is_given else unknown
+                )
             else:
                 space[target.name] = unknown
 

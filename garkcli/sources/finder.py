@@ -207,7 +207,7 @@ class TableFinder:
         blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}
         begins: dict[str, int] = {}
         for name, value in values.items():
-            plain = name.rpartition("::")[2]
+            owner, _, plain = name.rpartition("::")
             told = role_of(plain)
             numbered = _NUMBERED.fullmatch(plain)
             line = lines.get(name, scope.line)
@@ -217,7 +217,8 @@ class TableFinder:
                 role = ROLES[numbered["word"]]
                 blocks.setdefault(stem, {}).setdefault(role, {})[at] = value
             elif told is not None and _fits(told[1], value):
-                stem = told[0]
+                # RK6Solver::a belongs to its class
+                stem = told[0] or owner
                 groups.setdefault(stem, {})[told[1]] = value
             else:
                 continue

@@ -32,10 +32,17 @@ MAX_POWER = 200
 
 @dataclass(frozen=True, slots=True)
 class Unknown:
-    """What is not known, and why: whatever is computed from it is unknown for the same reason."""
+    """What is not known, and why: whatever is computed from it is unknown for the same reason.
+
+    Attributes:
+        reason: why.
+        line: where.
+        was_written: whether a number was written there before.
+    """
 
     reason: str
     line: int = 0
+    was_written: bool = False
 
 
 @dataclass(frozen=True, eq=False)

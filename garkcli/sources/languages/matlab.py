@@ -46,6 +46,9 @@ class MatlabLowering(Lowering):
                 target = self.expr(left)
                 if left is not None and left.type == "multioutput_variable":
                     target = ir.Items(self.exprs(left.named_children))
+                if isinstance(target, ir.Call):
+                    # A(2, 1) = …
+                    target = ir.Index(target.callee, target.args)
                 yield ir.Assign(target, self.expr(field("right")), line)
             case "if_statement":
                 yield self._if(inside, line)

@@ -1,0 +1,119 @@
+"""Constants of sources: exact values, and what is not known, never anything in between."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli.sources.found import FoundTable
+from garkcli.sources.languages import c, fortran, julia, matlab, python
+
+FIND = {"c": c.find, "f90": fortran.find, "jl": julia.find, "m": matlab.find, "py": python.find}
+RALSTON = ((("0", "0"), ("2/3", "0")),)
+SAME = {
+    "c, wrappers and macros": (
+        "#define T (RCONST(2.0)/RCONST(3.0))\n#define R PetscRealConstant\n"
+        "double A[2][2] = {{0}, {T}}, b[2] = {R(0.25), 1 - R(0.25)};"
+    ),
+    "c, loops": (
+        "void f(void) { double A[2][2] = {{0}}, b[2]; A[1][0] = 2./3;\n"
+        "  for (int i = 0; i < 2; i++) b[i] = (2*i + 1)/4.; }"
+    ),
+    "jl, entries of other arrays": (
+        "c = [0, 2//3]\nA = zeros(2, 2)\nA[2, 1] = c[end]\nb = [1//4; 3//4]\n"
+    ),
+    "jl, rows and conversions": "A = T[0 0; big(2)//3 0]\nb = map(BigFloat, [1//4, 3//4])\n",
+    "py, slices": (
+        "import numpy as np\nc = np.array([0, 2/3])\nA = np.zeros((2, 2))\n"
+        "A[1, :1] = c[1:]\nb = [1/4, 1 - 1/4]\n"
+    ),
+    "py, a transpose": "A = np.array([[0, 2/3], [0, 0]]).T\nb = (0.25, 0.75)\n",
+    "py, newer than the Python that reads it": (
+        "type X = int\nA = [[], [2/3]]\nb = [1/4, 3/4]\nmatch A:\n    case _:\n        pass\n"
+    ),
+    "f90, columns first": (
+        "module m\nreal, parameter :: A(2,2) = reshape([0.0, 2.0/3.0, 0.0, 0.0], [2, 2])\n"
+        "real, parameter :: b(2) = [0.25, 0.75]\nend module\n"
+    ),
+    "m, a column and a transpose": "A = [0 0; 2/3 0];\nb = [1/4; 3/4]';\n",
+}
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_the_same_table(name: str) -> None:
+    """The method of Ralston in many ways."""
+    table = one(name, SAME[name])
+    assert table.trouble == ""
+    assert table.A[0] == RALSTON
+    assert table.b == (("1/4", "3/4"),)
+
+
+def one(name: str, text: str) -> FoundTable:
+    """The only table of a source in the language that a name begins with."""
+    suffix = name.partition(",")[0]
+    (table,) = FIND[suffix](text, f"x.{suffix}")
+    return table
+
+
+UNKNOWN = {
+    "c, a whole quotient": ("double A[2][2] = {{0}, {1/2}}, b[2] = {0, 1};", None),
+    "c, a loop": (
+        "void f(int n) { double A[2][2] = {{0}, {0.5}}, b[2] = {0, 1.0};\n"
+        "  while (n) { A[1][0] = g(n); } }",
+        "assigned in a loop, line 2, is not known",
+    ),
+    "jl, a function that changes an array": (
+        "A = [0 0; 1//2 0]\nb = [0, 1]\nscale!(A)\n",
+        "changed by scale!, line 3, is not known",
+    ),
+    "py, a call": (
+        "A = [[0, 0], [alpha(1), 0.5]]\nb = [0, 1]\n",
+        "the call alpha, line 1, is not known",
+    ),
+    "m, an unknown place": (
+        "A = [0 0; 0.5 0];\nA(k, 1) = 2;\nb = [0 1];\n",
+        "an entry at an unknown place, line 2, is not known",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_what_is_not_known_is_told(name: str) -> None:
+    """The first place and the reason; no entry becomes zero. In C 1/2 is 0, and is read so."""
+    text, trouble = UNKNOWN[name]
+    table = one(name, text)
+    if trouble is None:
+        assert table.A[0][0] == (("0", "0"), ("0", "0"))
+    else:
+        assert (table.trouble, table.b) == (trouble, ())
+
+
+def test_printed_digits_are_kept() -> None:
+    """A long decimal is what was printed, in sums too; short ones are exact."""
+    text = "double g = 0.29289321881345254, A[2][2] = {{g}, {1 - g, 0.1 + 0.2}}, b[2] = {0.5, .5};"
+    table = one("c", text)
+    first, second = table.A[0][0] or ()
+    assert first[0] == "0.29289321881345254"
+    assert second == ("1 - 0.29289321881345254", "3/10")
+
+
+def test_the_order_of_a_class_is_that_of_its_table() -> None:
+    """A table above a class, which says of which order it is."""
+    text = (
+        "T = _ButcherTableau(alpha=[1.0], beta=[[1.0]], c_sol=[0.5, 0.5], c_error=[0.5, -0.5])\n"
+        "class Heun(Solver):\n    order = 3\n    tableau = T\n"
+    )
+    assert one("py", text).order == 3
+
+
+@pytest.mark.parametrize(
+    ("call", "kind"),
+    [
+        ("TSRosWRegister(R, 2, 2, A, G, b, NULL, 0, NULL);", "Rosenbrock"),
+        ("MRIStepCoupling_Create(A, b, 2, 3, W);", "multirate"),
+        ("TSGLEERegister(G, 2, 2, 2, 1.0, A, B, U, V, S, F, c);", "general linear"),
+    ],
+)
+def test_other_methods_are_named(call: str, kind: str) -> None:
+    """Their tables are no tables of Runge–Kutta methods."""
+    table = one("c", f"void f(void) {{ double A[4] = {{0, 0, 1, 0}}, b[2] = {{0.5, .5}}; {call} }}")
+    assert (table.kind, table.b) == (kind, ())
