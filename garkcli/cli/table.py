@@ -221,8 +221,8 @@ export --digits N 1..1000 = export.digits
 --from FORMAT name=source_format = import_methods.format
     | What SOURCE is; else the ending of its name says, or what is found in it.
 --recognise = import_methods.is_recognising
---strict | Fail where something looks like a table and was not read.
     | Exact numbers in place of decimals, where the order does not fall.
+audit --strict | Fail where something looks like a table and was not read.
 
 report --order -n n 1..100 = report_page.order
 --pictures/--no-pictures = report_page.pictures

@@ -422,7 +422,6 @@ _BY_FUNCTION: Mapping[Known, str] = {
     _transposed: "transpose permutedims adjoint",
     _reshaped: "reshape",
     _stacked: "vcat concatenate hstack vstack",
-    _repeated: "repeated",
     _mapped: "map",
     _power: "power pow",
     _quotient: "rdivide",
@@ -433,6 +432,8 @@ _BY_FUNCTION: Mapping[Known, str] = {
     _butcher_table: "ARKodeButcherTable_Alloc",
 }
 CALLS: Mapping[str, Known] = {
+    "list *": _repeated,
+    "list +": _stacked,
     **dict.fromkeys(CONVERSIONS, _converted),
     **{name: known for known, names in _BY_FUNCTION.items() for name in names.split()},
 }

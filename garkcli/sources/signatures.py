@@ -78,10 +78,11 @@ OTHER_KINDS = (
     (re.compile(r"LowStorage|2[NR]S?\+?(?:$|_)|3S\*?|LSRK"), "low-storage"),
     (re.compile(r"SplittingStep|SplittingCoefficients"), "splitting"),
     (re.compile(r"ExpRK|ETDRK|Exponential(?!ly)"), "exponential"),
+    (re.compile(r"Rossler|(?:SRI|SRA)\w*(?:Tableau|Cache)"), "stochastic"),
     (re.compile(r"TSIRK|(?<!TR)BDF(?![a-z0-9]*Tableau)|Adams"), "multistep"),
 )
 """Tables of other methods, by the names of the calls that make them."""
-MAKER = re.compile(r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI)\w*")
+MAKER = re.compile(r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI|Rossler)\w*")
 """Calls that make tables, by their names."""
 
 

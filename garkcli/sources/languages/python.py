@@ -17,7 +17,7 @@ PYTHON = Language(tree_sitter_python.language())
 _BLOCKS = frozenset(
     {"module", "block", "with_statement", "try_statement", "else_clause", "decorated_definition"}
 )
-_OF_LISTS = {"*": "repeated", "+": "vcat"}
+_OF_LISTS = {"*": "list *", "+": "list +"}
 """What signs behind a list do."""
 _SIGNS = {"**": "^", "//": "÷"}
 
