@@ -100,7 +100,7 @@ def _one_of(schema: Any) -> str:
     return f" One of: {', '.join(named)}."
 
 
-_MOST_WORDS = 12
+_MOST_WORDS = 13
 
 
 def _cell(text: str) -> str:
