@@ -376,10 +376,12 @@ class Output:
 
     @property
     def paint(self) -> Paint:
-        """Colour, where it is asked for or the report goes to a terminal."""
-        if self._color != "auto":
-            return Paint(self._color == "always")
-        return Paint(self.path is None and wants_colour(sys.stdout))
+        """Colour, where it is asked for or the report goes to a terminal, and its encoding."""
+        has_colour = self._color == "always"
+        if self._color == "auto":
+            has_colour = self.path is None and wants_colour(sys.stdout)
+        encoding = None if self.path else getattr(sys.stdout, "encoding", None)
+        return Paint(has_colour, encoding or "utf-8")
 
     @property
     def width(self) -> int:
@@ -409,6 +411,21 @@ class Output:
     def tell(self, report: Report[Any], *wholes: Any) -> None:
         """Write results in the format that is asked for."""
         self.write(report.render(wholes, self.format, self.paint, self.verbosity, width=self.width))
+
+    def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
+        """Write a result while it is found.
+
+        Args:
+            report: its rows.
+            whole: the result.
+            is_document: whether LaTeX has its preamble, or names it; None for neither.
+        """
+        pieces = report.pieces(whole, self.format, self.paint, self.verbosity, width=self.width)
+        if self.format == "latex" and is_document is not None:
+            from garkcli.page.latex import fragment
+
+            pieces = fragment(pieces, is_document)
+        self.write(pieces)
 
     def suit(self) -> None:
         """Take for the format ``auto`` the one that suits where the command runs."""

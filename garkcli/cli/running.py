@@ -463,7 +463,6 @@ def modified(given: Given, output: Output) -> None:
     from garkcli.api.modified import backward_analysis
     from garkcli.backward.series import possible_order
     from garkcli.methodfile.naming import called
-    from garkcli.page.latex import fragment
     from garkcli.report.modified import REPORT, ModifiedReport
 
     check_document(given.document, output.format)
@@ -486,10 +485,7 @@ def modified(given: Given, output: Output) -> None:
         given.equation,
         formula,
     )
-    if output.format == "latex":
-        output.write(fragment([REPORT.render([report], "latex")], given.document))
-    else:
-        output.tell(REPORT, report)
+    output.stream(REPORT, report, given.document)
 
 
 def _formula(method: GarkMethod, given: Given) -> ModifiedFormula:

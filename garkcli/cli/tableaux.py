@@ -79,18 +79,10 @@ def write_tableau(
     Raises:
         UsageProblem: no preamble belongs to the format.
     """
-    from garkcli.page import tableau_latex
-    from garkcli.page.plain import printable
     from garkcli.report.tableau import REPORT, of_method
 
     check_document(is_document, output.format)
-    shown = of_method(method, digits)
-    if output.format == "latex":
-        name = printable(method.name)
-        text = tableau_latex.render(method.tableau, shown.readable, name, is_document)
-        output.write(text)
-    else:
-        output.tell(REPORT, shown)
+    output.stream(REPORT, of_method(method, digits), is_document or None)
 
 
 def _method_file(method: GarkMethod, digits: int | None) -> str:

@@ -18,7 +18,7 @@ from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.order.conditions import Condition
-    from garkcli.report.conditions_data import ConditionRow, Valued
+    from garkcli.report.conditions import ConditionRow, Valued
     from garkcli.report.symplectic_subject import Subject
     from garkcli.report.trees import Query, TreeRow
     from garkcli.trees.symplectic import Kind
@@ -32,7 +32,7 @@ BLOCK_SIZE = 1 << 14
 """So many trees are made at a time."""
 
 
-@declared("trees", ["text", "json", "ndjson", "csv", "latex"])
+@declared("trees", ["text", "json", "ndjson", "csv", "markdown", "latex"])
 def trees(given: Given, output: Output) -> None:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
 
@@ -64,8 +64,7 @@ def trees(given: Given, output: Output) -> None:
                 "--count knows no --colours-used", "leave one of them out", code="options-clash"
             )
         with _any_digits():
-            counts = counts_of(query)
-            output.write(report.render_counts(query, counts, output.format, output.paint))
+            output.stream(report.REPORT, report.TreeList(query, None, counts_of(query)))
     elif given.svg is not None:
         listed = (parse_tree(row.tree) for row in rows_of(query, orders))
         _draw_sheet(given.svg, listed, colours > 1, output)
@@ -73,12 +72,10 @@ def trees(given: Given, output: Output) -> None:
         totals = None if used else counts_of(query)
         lines = None
         if totals is not None:
-            lines = sum(sum(report.kept(query, by_root)) for _, by_root in totals)
+            lines = sum(query.total(by_root) for _, by_root in totals)
         _refuse_millions(lines, given.yes)
         rows = counting("trees", rows_of(query, orders), lines)
-        output.write(
-            report.render(query, rows, totals, output.format, output.paint, given.document)
-        )
+        output.stream(report.REPORT, report.TreeList(query, rows, totals), given.document)
 
 
 def _kind_asked(given: Given, format: str) -> Kind | None:
@@ -187,10 +184,9 @@ def _free_trees(kind: Kind, given: Given, output: Output) -> None:
         cure = "leave out --root, --colours-used and --tree"
         raise UsageProblem("free trees have no root", cure, code="options-clash")
     subject = subject_of_kind(kind, given.colours, _orders(given))
-    format, paint = output.format, output.paint
     if given.count:
         with _any_digits():
-            output.write(report.render_class_counts(subject, format, paint))
+            output.stream(report.REPORT, report.FreeList(subject, None))
     elif given.svg is not None:
         listed = (found.representative for found in subject.classes())
         _draw_sheet(given.svg, listed, subject.has_colours, output)
@@ -198,9 +194,8 @@ def _free_trees(kind: Kind, given: Given, output: Output) -> None:
         lines = subject.independent
         _refuse_millions(lines, given.yes)
         classes = counting("trees", subject.classes(), lines)
-        output.write(
-            report.render_classes(subject, classes, format, paint, given.members, given.document)
-        )
+        found = report.FreeList(subject, classes, given.members)
+        output.stream(report.REPORT, found, given.document)
 
 
 def _single(given: Given, output: Output) -> None:
@@ -221,7 +216,7 @@ def _single(given: Given, output: Output) -> None:
     row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
     counts = [(tree.order, tuple(int(l == tree.root) for l in range(colours)))]
     query = report.Query(colours, tree.order, False, tree.root + 1)
-    output.write(report.render(query, [row], counts, output.format, output.paint, given.document))
+    output.stream(report.REPORT, report.TreeList(query, [row], counts), given.document)
 
 
 @contextmanager
@@ -266,29 +261,30 @@ def conditions(given: Given, output: Output) -> None:
     methods; with FILE for its symplectic pair, unless it is symplectic itself.
     """
     from garkcli.order.conditions import all_conditions
-    from garkcli.report import conditions as report
-    from garkcli.report.conditions_data import ConditionRow
+    from garkcli.report.conditions import REPORT, ConditionRow, Conditions
 
     kind = _kind_asked(given, output.format)
     _check(given, kind)
     orders = range(given.order if given.only else 1, given.order + 1)
     valued = None if given.file is None else _valued(given)
     subject = None
+    colours = 0
     if kind is not None:
         subject = _subject(kind, given, orders, valued)
         if valued is not None and subject.method is not None:
             valued = replace(valued, method=subject.method)
         rows = _independent(subject, given.members, valued)
     elif valued is not None:
-        found = (x for n in orders for x in all_conditions(valued.method, n))
-        rows = (ConditionRow(x.tree, False, x) for x in found)
+        met = (x for n in orders for x in all_conditions(valued.method, n))
+        rows = (ConditionRow(x.tree, False, x) for x in met)
     else:
-        rows = _table(given, orders, output.format)
-    rows = counting("conditions", _arranged(rows, given.sort, given.digits))
-    pieces = report.render(
-        rows, output.format, output.paint, output.width, given.document, subject, valued
-    )
-    output.write(pieces)
+        colours = _coloured(given, output.format)
+        rows = _table(colours, orders)
+    if given.sort == "worst":
+        rows = iter(sorted(rows, key=_badness, reverse=True))
+    rows = counting("conditions", rows)
+    found = Conditions(rows, colours, subject, valued, given.members, given.digits)
+    output.stream(REPORT, found, given.document)
 
 
 def _check(given: Given, kind: Kind | None) -> None:
@@ -325,7 +321,7 @@ def _valued(given: Given) -> Valued:
     functions of them.
     """
     from garkcli.methodfile.load import load
-    from garkcli.report.conditions_data import Valued
+    from garkcli.report.conditions import Valued
     from garkcli.tableau.meant import derived
 
     which = given.which or ""
@@ -356,7 +352,7 @@ def _subject(kind: Kind, given: Given, orders: range, valued: Valued | None) -> 
 def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
     """A row for each class, with its value where there is a method."""
     from garkcli.order.conditions import conditions
-    from garkcli.report.conditions_data import ConditionRow
+    from garkcli.report.conditions import ConditionRow
 
     classes, again = tee(subject.classes())
     listed = (found.representative for found in again)
@@ -368,31 +364,25 @@ def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iter
         yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
 
 
-def _table(given: Given, orders: range, format: str) -> Iterator[ConditionRow]:
-    """A row for each tree: of each shape for people, of each colouring for programs that say how
-    many colours there are.
+def _coloured(given: Given, format: str) -> int:
+    """How many colours rows have: 0 where each is for all colourings of a shape, as people read
+    them, and programs that do not say how many colours there are.
     """
-    from garkcli.report.conditions_data import ConditionRow
-    from garkcli.trees.blocks import iter_blocks
-
     coloured = given.coloured
     if coloured is None:
         coloured = format in {"json", "csv"} and given.colours is not None
-    colours = (given.colours or 1) if coloured else 1
+    return (given.colours or 1) if coloured else 0
+
+
+def _table(colours: int, orders: range) -> Iterator[ConditionRow]:
+    """A row for each tree, or for each shape."""
+    from garkcli.report.conditions import ConditionRow
+    from garkcli.trees.blocks import iter_blocks
+
     for n in orders:
-        for block in iter_blocks(colours, n, block_size=BLOCK_SIZE):
+        for block in iter_blocks(colours or 1, n, block_size=BLOCK_SIZE):
             for tree in block.trees():
-                yield ConditionRow(tree, is_shape=not coloured)
-
-
-def _arranged(
-    rows: Iterator[ConditionRow], sort: str, digits: int | None
-) -> Iterator[ConditionRow]:
-    """The rows as they are to be shown: the worst first, in decimals."""
-    if sort == "worst":
-        rows = iter(sorted(rows, key=_badness, reverse=True))
-    for row in rows:
-        yield row if digits is None else replace(row, digits=digits)
+                yield ConditionRow(tree, is_shape=not colours)
 
 
 def _badness(row: ConditionRow) -> float:

@@ -29,6 +29,7 @@ LABELS = {
     "phase_order": "phase lag",
     "real_interval": "real axis",
     "sdirk": "SDIRK",
+    "sigma": "σ",
     "springs": "two springs",
     "ssp": "SSP coefficient",
     "ssp_radii": "additive SSP radii",

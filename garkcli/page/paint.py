@@ -102,7 +102,7 @@ def shown_width(text: str) -> int:
     >>> shown_width(Paint(True)("good", "yes"))
     3
     """
-    return len(_STYLE.sub("", text))
+    return len(_STYLE.sub("", text)) if "\x1b" in text else len(text)
 
 
 def folded(text: str, width: int, indent: str = "      ") -> list[str]:

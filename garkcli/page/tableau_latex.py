@@ -12,28 +12,13 @@ from dataclasses import dataclass
 from flint import arb
 
 from garkcli.exact.display import to_latex
-from garkcli.page.cells import cell_text, distinct_rows, remark
-from garkcli.page.latex import fragment, number
+from garkcli.page.cells import cell_text, distinct_rows
+from garkcli.page.latex import number
 from garkcli.tableau.pointwise import Cell, Entries, Row
 from garkcli.tableau.tableau import Tableau
 
 MAX_BESIDE = 8
 """Most columns of two arrays that stand beside each other."""
-
-
-def render(tableau: Tableau, entries: Entries, name: str, is_document: bool = False) -> str:
-    """The arrays, with a comment that names them.
-
-    Args:
-        tableau: for its colours, and for what they drive.
-        entries: its entries, see ``garkcli.tableau.pointwise``.
-        name: one line.
-        is_document: whether the text is a document that compiles as it stands.
-    """
-    comments = (name, remark(entries))
-    lines = [f"% {comment}\n" for comment in comments if comment]
-    lines += [f"{line}\n" for line in tableau_lines(tableau, entries)]
-    return "".join(fragment(lines, is_document) if is_document else lines)
 
 
 def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:

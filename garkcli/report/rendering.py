@@ -119,11 +119,8 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
 
 
 def _method(method: GarkMethod, format: str, _: str) -> str:
-    from garkcli.page import tableau_latex
     from garkcli.report.tableau import REPORT, of_method
 
-    if format == "latex":
-        return tableau_latex.render(method.tableau, method.entries, method.name, False)
     return REPORT.render([of_method(method)], format)
 
 

@@ -18,7 +18,7 @@ REPORTS = {
     "claims": "garkcli.report.claims:REPORT",
     "explain": "garkcli.report.meaning:REPORT",
     "trees": "garkcli.report.symplectic:trees_report_schema",
-    "conditions": "garkcli.report.conditions_data:conditions_report_schema",
+    "conditions": "garkcli.report.conditions:REPORT",
     "tableau": _TABLEAU,
     "conjugate": _TABLEAU,
     "reduce": _TABLEAU,

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
 from garkcli.page.paint import counted
-from garkcli.page.record import Field, Record
-from garkcli.page.schema import COUNT, POSITION, TEXT, array
 from garkcli.tableau.meant import printed
+from garkcli.tell.facts import Level, Row, Section
+from garkcli.tell.kinds import COUNT, POSITION, TEXTS, choice
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.free import Structure
 from garkcli.trees.notation import format_tree
@@ -145,14 +145,13 @@ class Subject:
         return _PROBLEMS[self.kind]
 
 
-SUBJECT: Record[Subject] = Record(
-    Field("kind", {"enum": [*KINDS]}, lambda x: x.kind),
-    Field("terms", POSITION, lambda x: len(x.structure.leaders)),
-    Field("colours", array(TEXT), lambda x: list(x.names)),
-    Field("count", COUNT, lambda x: x.independent),
-    Field("instead_of", COUNT, lambda x: x.all_conditions),
+SUBJECT = Section(
+    Row("kind", choice(*KINDS), level=Level.DATA),
+    Row("terms", POSITION, lambda x: len(x.structure.leaders), Level.DATA),
+    Row("colours", TEXTS, lambda x: x.names, Level.DATA),
+    Row("count", COUNT, lambda x: x.independent, Level.DATA),
+    Row("instead_of", COUNT, lambda x: x.all_conditions, Level.DATA),
 )
-"""The same for JSON."""
 
 
 def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:

@@ -20,7 +20,7 @@ from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
-from garkcli.tell.facts import SAID, Kind, Level, Row, Section, drawing, part, parts, via
+from garkcli.tell.facts import Kind, Level, Row, Section, drawing, part, parts, sentence, via
 from garkcli.tell.kinds import TEXT, TRUTH, constant
 from garkcli.tell.report import Report
 
@@ -88,7 +88,7 @@ TABLEAU = Section(
     Row("name", TEXT, level=DATA),
     Row("derivation", Kind(DERIVATION), level=DATA),
     Row("exact", TRUTH, lambda x: x.entries.is_exact, DATA),
-    Row("exact", SAID, lambda x: remark(x.readable), label="", line="remark"),
+    sentence(lambda x: remark(x.readable)),
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
     *via(lambda x: x.entries, _entries(NUMERAL, lambda every, x: cell_text(x, every.digits))),
     Row("float", part(FLOATS), lambda x: x.entries, DATA),
@@ -97,7 +97,10 @@ TABLEAU = Section(
 )
 SCHEMA = "gark/tableau/1"
 REPORT: Report[Shown] = Report.only(
-    SCHEMA, "tableau of gark tableau, conjugate, convert and reduce", TABLEAU
+    SCHEMA,
+    "tableau of gark tableau, conjugate, convert and reduce",
+    TABLEAU,
+    lambda _: {"is_inserted": True},
 )
 DOCUMENT = Section(Row("schema", constant(SCHEMA), lambda _: SCHEMA), *TABLEAU.rows)
 """The same within another document."""

@@ -1,30 +1,26 @@
-"""``gark trees``: a stream of rows in every format, so that the first lines appear at once."""
+"""``gark trees``: the rows of lists and of counts of rooted trees."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
-from garkcli.page.json_text import to_json
-from garkcli.page.latex import fragment
-from garkcli.page.paint import Paint, counted, folded
-from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, counts_of
-from garkcli.trees.drawing import draw_text, tikz
-from garkcli.trees.notation import format_latex, parse_tree
+from garkcli.page.paint import counted
+from garkcli.page.schema import TEXT, array, counts_of
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Kind, Level, Row, Section, rows_of, sentence, stream, told
+from garkcli.tell.kinds import COUNT, POSITION, TRUTH
+from garkcli.tell.report import Report
+from garkcli.trees.drawing import draw_text
+from garkcli.trees.notation import parse_tree
 from garkcli.trees.tree import Tree
 
-SCHEMA = "gark/trees/1"
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
-WIDTH = 80
-"""Columns of a terminal that nobody has made wider."""
 DRAWN_ORDER = 4
-"""Up to this order the text shows the drawn trees too."""
-DRAWING = 54
-"""The column of the drawings, with room for sigma and gamma in letters."""
+"""Up to this order a terminal shows the drawn trees too."""
+DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 @dataclass(frozen=True)
@@ -37,6 +33,15 @@ class Query:
     root: int | None
     used: tuple[int, ...] = ()
 
+    def roots(self, by_root: Sequence[int]) -> list[tuple[int, int]]:
+        """The root colours that were asked for, from 1, with their numbers of trees."""
+        numbered = enumerate(by_root, start=1)
+        return [(l, count) for l, count in numbered if self.root in {None, l}]
+
+    def total(self, by_root: Sequence[int]) -> int:
+        """The trees of all these root colours."""
+        return sum(count for _, count in self.roots(by_root))
+
 
 class TreeRow(NamedTuple):
     """One tree: its text, root colour from 0, order, symmetry σ and density γ."""
@@ -48,206 +53,163 @@ class TreeRow(NamedTuple):
     gamma: int
 
 
-def render(
-    query: Query,
-    rows: Iterable[TreeRow],
-    counts: Counts | None,
-    format: str,
-    paint: Paint,
-    is_document: bool = False,
-) -> Iterator[str]:
-    """The rows as pieces of text, each a whole line or more."""
-    if format == "json":
-        yield from _json(query, rows, counts)
-    elif format == "ndjson":
-        for row in rows:
-            line = _json_line(row)
-            yield f"{line}\n"
-    elif format == "csv":
-        yield "tree,root,order,sigma,gamma\n"
-        for row in rows:
-            root = row.root + 1
-            sizes = f"{row.order},{row.sigma},{row.gamma}"
-            yield f'"{row.tree}",{root},{sizes}\n'
-    elif format == "latex":
-        yield from fragment(_latex(rows, query.colours > 1), is_document)
-    else:
-        yield from _text(query, rows, counts, paint)
+@dataclass
+class TreeList:
+    """The trees that were asked for.
 
-
-def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> Iterator[str]:
-    """The counts alone."""
-    if format in {"json", "ndjson"}:
-        head = _COUNTED.data(_Found(query, counts))
-        indent = None if format == "ndjson" else 2
-        yield to_json(head, indent=indent, ascii_only=True) + "\n"
-        return
-    if format == "csv":
-        yield "order,root,count\n"
-        for n, by_root in counts:
-            for root, count in _roots(query, by_root):
-                yield f"{n},{root},{count}\n"
-        return
-    for n, by_root in counts:
-        total = sum(kept(query, by_root))
-        if format == "latex":
-            yield f"{n} & {total} \\\\\n"
-            continue
-        painted = paint("strong", str(total))
-        yield f"order {n}: {painted}\n"
-        if query.colours > 1:
-            for root, count in _roots(query, by_root):
-                yield f"  root colour {root}: {count}\n"
-
-
-def _roots(query: Query, by_root: Sequence[int]) -> list[tuple[int, int]]:
-    numbered = enumerate(by_root, start=1)
-    return [(l, count) for l, count in numbered if query.root in {None, l}]
-
-
-def kept(query: Query, by_root: Sequence[int]) -> list[int]:
-    """The numbers of the root colours that were asked for."""
-    return [count for _, count in _roots(query, by_root)]
-
-
-class _Found(NamedTuple):
-    """What was asked for, and how many trees there are."""
+    Attributes:
+        query: what was asked for.
+        rows: the trees; None where they are counted alone.
+        known: their numbers; None where these are not known before the trees.
+    """
 
     query: Query
-    counts: Counts
+    rows: Iterable[TreeRow] | None
+    known: Counts | None
+
+    @property
+    def counts(self) -> Counts:
+        """The numbers of trees, of those listed where nothing else tells them."""
+        if self.known is None:
+            assert self.rows is not None
+            self.rows = [*self.rows]
+            first = 1 if self.query.upto else self.query.order
+            found = {n: [0] * self.query.colours for n in range(first, self.query.order + 1)}
+            for row in self.rows:
+                found[row.order][row.root] += 1
+            self.known = [(n, tuple(by_root)) for n, by_root in found.items()]
+        return self.known
 
     @property
     def by_root(self) -> dict[str, int]:
         """The trees of each root colour."""
         total: dict[str, int] = {}
-        for _, row in self.counts:
-            for root, count in _roots(self.query, row):
-                key = str(root)
-                total[key] = total.get(key, 0) + count
+        for _, by_root in self.counts:
+            for root, count in self.query.roots(by_root):
+                total[str(root)] = total.get(str(root), 0) + count
         return total
 
     @property
-    def by_order(self) -> dict[str, int] | None:
-        """The trees of each order, where there are several."""
-        if not self.query.upto:
-            return None
-        totals = {}
-        for n, row in self.counts:
-            totals[str(n)] = sum(kept(self.query, row))
-        return totals
+    def by_order(self) -> dict[str, int]:
+        """The trees of each order."""
+        return {str(n): self.query.total(by_root) for n, by_root in self.counts}
 
     @property
     def total(self) -> int:
         """All trees."""
-        return sum(self.by_root.values())
+        return sum(self.by_order.values())
 
 
-_ROW: Record[TreeRow] = Record(
-    Field("tree", TEXT, lambda x: x.tree),
-    Field("root", POSITION, lambda x: x.root + 1),
-    Field("order", POSITION, lambda x: x.order),
-    Field("sigma", POSITION, lambda x: x.sigma),
-    Field("gamma", POSITION, lambda x: x.gamma),
+# the rows of any list of trees
+
+
+def pictures(tree: Callable[[Any], Tree]) -> tuple[Row, Row]:
+    """The drawn tree of a part: in LaTeX, and on a terminal where it is small."""
+
+    def small(x: Any, d: Plain) -> str:
+        found = tree(x)
+        return "\n".join(d.drawing(draw_text(found, d.has_colours(found))))
+
+    return (
+        Row("picture", told(lambda x, d: d.sketch(tree(x))), lambda x: x, DETAIL, label=""),
+        Row(
+            "drawn",
+            told(small),
+            lambda x: x if x.order <= DRAWN_ORDER else None,
+            label="",
+            is_short=True,
+        ),
+    )
+
+
+BRACKETS = Kind(TEXT, lambda tree, d: d.tree(tree), lambda tree, d: d.tree(tree))
+TREES = Kind(
+    array(TEXT),
+    words=lambda trees, d: "  ".join(map(d.tree, trees)),
+    csv=lambda trees: " ".join(trees),
 )
-_HEAD: Record[_Found] = Record(
-    schema_named(SCHEMA),
-    Field("colours", POSITION, lambda x: x.query.colours),
-    Field("order", POSITION, lambda x: x.query.order),
-    Field("upto", FLAG, lambda x: x.query.upto),
-    Field("count", COUNT, lambda x: x.total),
-    Field("by_root", counts_of("root colour"), lambda x: x.by_root),
+"""Trees in brackets."""
+SIZES = (
+    Row("root", POSITION, lambda x: x.tree.root + 1, DATA),
+    Row("order", POSITION, lambda x: x.tree.order, DETAIL),
+    Row("sigma", POSITION, lambda x: x.tree.symmetry),
+    Row("gamma", POSITION, lambda x: x.tree.density),
 )
-_BY_ORDER: Field[_Found] = Field(
-    "by_order", counts_of("order"), lambda x: x.by_order, is_optional=True
+
+
+# rooted trees
+
+
+def _heading(row: TreeRow, d: Plain) -> str:
+    heading = f"order {row.order}"
+    return f"{heading}, root colour {row.root + 1}" if len(d.colours) > 1 else heading
+
+
+def _count_rows(found: TreeList, _: Plain) -> Iterator[tuple[str, str]]:
+    for n, by_root in found.counts:
+        yield f"order {n}", str(found.query.total(by_root))
+        if found.query.colours > 1:
+            for root, count in found.query.roots(by_root):
+                yield f"  root colour {root}", str(count)
+
+
+_PICTURE, _DRAWN = pictures(lambda x: parse_tree(x.tree))
+TREE = Section(
+    _PICTURE,
+    Row("tree", BRACKETS),
+    Row("root", POSITION, lambda x: x.root + 1, DATA),
+    Row("order", POSITION, level=DETAIL),
+    Row("sigma", POSITION),
+    Row("gamma", POSITION),
+    _DRAWN,
 )
-_COUNTED: Record[_Found] = Record(*_HEAD.fields, _BY_ORDER)
+HEAD = (
+    Row("colours", POSITION, lambda x: x.query.colours, DATA),
+    Row("order", POSITION, lambda x: x.query.order, DATA),
+    Row("upto", TRUTH, lambda x: x.query.upto, DATA),
+    Row("count", COUNT, lambda x: x.total, DATA),
+    Row("by_root", Kind(counts_of("root colour")), level=DATA),
+)
+LISTED = Section(
+    *HEAD,
+    Row("trees", stream(TREE, _heading), lambda x: x.rows),
+    sentence(lambda x: counted(x.total, "tree") if x.known else ""),
+)
+COUNTS = Section(
+    *HEAD,
+    Row(
+        "by_order",
+        Kind(counts_of("order")),
+        lambda x: x.by_order if x.query.upto else None,
+        DATA,
+        is_optional=True,
+    ),
+    Row("counts", rows_of(lambda x, d: [*_count_rows(x, d)]), lambda x: x),
+)
+COUNTED = Section(*(Row(key, COUNT) for key in ("order", "root", "count")))
 
 
-def rooted_schemas() -> list[Schema]:
-    """The JSON Schemas of lists and of counts of rooted trees."""
-    return [_HEAD.with_rows("trees", _ROW), _COUNTED.schema]
+@dataclass(frozen=True)
+class Counted:
+    """How many trees an order and a root colour have."""
+
+    order: int
+    root: int
+    count: int
 
 
-def _json(query: Query, rows: Iterable[TreeRow], counts: Counts | None) -> Iterator[str]:
-    if counts is None:
-        rows = list(rows)
-        counts = _counted(query, rows)
-    found = _HEAD.data(_Found(query, counts))
-    head = to_json(found, indent=None, ascii_only=True)
-    unclosed = head.removesuffix("}")
-    yield f'{unclosed}, "trees": ['
-    separator = "\n"
-    for row in rows:
-        yield separator + _json_line(row)
-        separator = ",\n"
-    yield "\n]}\n"
+def _count_lines(found: TreeList) -> tuple[Section, Iterator[Counted]]:
+    query = found.query
+    lines = (Counted(n, *pair) for n, by_root in found.counts for pair in query.roots(by_root))
+    return COUNTED, lines
 
 
-def _json_line(row: TreeRow) -> str:
-    data = _ROW.data(row)
-    return to_json(data, indent=None, ascii_only=True)
-
-
-def _counted(query: Query, rows: Sequence[TreeRow]) -> Counts:
-    first = 1 if query.upto else query.order
-    orders = range(first, query.order + 1)
-    found = {n: [0] * query.colours for n in orders}
-    for row in rows:
-        found[row.order][row.root] += 1
-    return [(n, tuple(by_root)) for n, by_root in found.items()]
-
-
-def _text(
-    query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: Paint
-) -> Iterator[str]:
-    many = query.colours > 1
-    groups = groupby(rows, key=lambda row: (row.order, row.root))
-    for (n, root), group in groups:
-        heading = f"order {n}"
-        if many:
-            heading += f", root colour {root + 1}"
-        painted = paint("strong", heading)
-        yield f"{painted}\n"
-        for row in group:
-            yield from map(paint.dots, _entry(row, many))
-    if counts is not None:
-        total = 0
-        for _, by_root in counts:
-            total += sum(kept(query, by_root))
-        trees = counted(total, "tree")
-        yield f"{trees}\n"
-
-
-def _entry(row: TreeRow, many: bool) -> Iterator[str]:
-    text = f"  {row.tree:<28} σ = {row.sigma:<4} γ = {row.gamma}"
-    if row.order > DRAWN_ORDER:
-        lines = [text]
-        if len(text.rstrip()) > WIDTH:
-            sizes = text[len(row.tree) + 2 :]
-            lines = folded(f"  {row.tree}", WIDTH, "    ")
-            lines.append(f"     {sizes}")
-        for line in lines:
-            yield line.rstrip() + "\n"
-        return
-    first, *rest = draw_text(parse_tree(row.tree), many)
-    line = f"{text:<{DRAWING}}{first}"
-    yield line.rstrip() + "\n"
-    for line in rest:
-        yield f"{'':<{DRAWING}}{line}\n"
-
-
-def _latex(rows: Iterable[TreeRow], many: bool) -> Iterator[str]:
-    yield "\\begin{longtable}{clccc}\n  \\hline\n"
-    yield "  & $u$ & $\\rho(u)$ & $\\sigma(u)$ & $\\gamma(u)$ \\\\ \\hline\n"
-    for row in rows:
-        tree = parse_tree(row.tree)
-        formula = format_latex(tree, many)
-        sizes = f"{row.order} & {row.sigma} & {row.gamma}"
-        yield f"  {picture(tree)} &\n"
-        yield f"  ${formula}$ & {sizes} \\\\\n"
-    yield "  \\hline\n\\end{longtable}\n"
-
-
-def picture(tree: Tree, colours: bool = True) -> str:
-    """A drawing for a cell of a LaTeX table whose rows are indented by two."""
-    return tikz(tree, colours=colours).strip().replace("\n", "\n  ")
+REPORT: Report[TreeList] = Report(
+    "gark/trees/1",
+    "report of gark trees",
+    lambda: [LISTED, COUNTS],
+    lambda x: COUNTS if x.rows is None else LISTED,
+    lambda x: {"colours": range(x.query.colours), "is_inserted": True},
+    key="",
+    lines=_count_lines,
+)

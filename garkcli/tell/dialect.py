@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import zip_longest
+from itertools import islice, zip_longest
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
@@ -23,8 +23,9 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
-from garkcli.page.paint import Paint, folded, shown_width
+from garkcli.page.paint import Paint, folded, indented, shown_width
 from garkcli.page.plain import inert, printable
+from garkcli.page.plaintext import plain_text
 from garkcli.reason import Place, Reason
 from garkcli.trees.notation import format_tree
 
@@ -50,6 +51,8 @@ CUT = 8
 """Columns that are enough for the beginning of words."""
 NAME = 26
 """Longer names have a line of their own where a table is wide."""
+AT_ONCE = 100
+"""So many rows of a stream are shown at a time."""
 FEW = 4
 """So many of a list are named; the others are counted."""
 
@@ -57,28 +60,41 @@ FEW = 4
 _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
 
 
-def _broken(text: str, width: int) -> Iterator[str]:
+def _broken(text: str, width: int) -> list[str]:
     """A cell in lines; a word that is too long for it, such as a path, goes on below too."""
+    if "\n" in text:
+        return [x for line in text.split("\n") for x in _broken(line, width)]
+    if shown_width(text) <= width:
+        return [text]
+    lines: list[str] = []
     for line in folded(text, width, ""):
         is_long = shown_width(line) == len(line) > width
-        yield from (line[i : i + width] for i in range(0, len(line), width)) if is_long else [line]
+        lines += [line[i : i + width] for i in range(0, len(line), width)] if is_long else [line]
+    return lines
 
 
-def _beside(columns: Sequence[Sequence[str]], widths: Sequence[int]) -> Iterator[str]:
+def _cell_width(text: str) -> int:
+    """The columns of a cell, which may have several lines."""
+    return max(map(shown_width, text.split("\n"))) if "\n" in text else shown_width(text)
+
+
+def _beside(
+    columns: Sequence[Sequence[str]], widths: Sequence[int], heads: int = 1
+) -> Iterator[str]:
     """The lines of a table, numbers by their ends. Long cells are folded, a long name has its own
     line.
     """
-    are_right = [all(_NUMBER.match(x) for x in column[1:]) for column in columns]
+    are_right = [all(_NUMBER.match(x) for x in column[heads:]) for column in columns]
     for row in zip(*columns, strict=True):
         if len(row) > 1 and shown_width(row[0]) > widths[0]:
-            yield row[0]
+            yield from folded(row[0], sum(widths) + 2 * len(widths), "  ")
             row = ("", *row[1:])
-        cells = [[*_broken(x, width)] for x, width in zip(row, widths, strict=True)]
+        cells = [_broken(x, width) for x, width in zip(row, widths, strict=True)]
         for texts in zip_longest(*cells, fillvalue=""):
-            padded = (
-                " " * (w - shown_width(x)) + x if right else x + " " * (w - shown_width(x))
-                for x, w, right in zip(texts, widths, are_right, strict=True)
-            )
+            padded = []
+            for x, width, is_right in zip(texts, widths, are_right, strict=True):
+                gap = " " * (width - shown_width(x))
+                padded.append(gap + x if is_right else x + gap)
             yield "  ".join(padded).rstrip()
 
 
@@ -95,6 +111,9 @@ class Plain:
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
         told: failures that were told: the second time they are "as above".
+        encoding: of the output: signs that it lacks are spelt.
+        is_inserted: whether LaTeX goes into a document that has words of its own: its tables and
+            drawings alone, the words as comments.
     """
 
     digits: int = 12
@@ -105,8 +124,12 @@ class Plain:
     is_brief: bool = True
     places: int | None = None
     told: list[Any] = field(default_factory=list)
+    encoding: str = "utf-8"
+    is_inserted: bool = False
 
     infinity = "∞"
+    columns = Level.USUAL
+    """How deep the rows are that a part of a stream has as columns."""
 
     # words
 
@@ -231,10 +254,13 @@ class Plain:
         names = [self.colours[l] for l in colours] if len(self.colours) > 1 else []
         return self.place(Place(letter, tuple(names)))
 
-    def tree(self, tree: Tree) -> str:
-        """A tree in brackets; with one colour that is not named."""
-        has_colours = len(self.colours) > 1 or bool({*tree.colours} - {0})
-        return self.code(format_tree(tree, has_colours))
+    def tree(self, tree: Tree | str) -> str:
+        """A tree in brackets, or these; with one colour that is not named."""
+        return self.code(tree if isinstance(tree, str) else format_tree(tree, self.has_colours(tree)))
+
+    def has_colours(self, tree: Tree) -> bool:
+        """Whether the colours of a tree are named."""
+        return len(self.colours) > 1 or bool({*tree.colours} - {0})
 
     def code(self, text: str) -> str:
         """What is quoted, such as a tree."""
@@ -299,29 +325,34 @@ class Plain:
 
     # pages
 
+    def spelt(self, text: str) -> str:
+        """A text in the signs that the output has: widths are those of what is written."""
+        return text if text.isascii() else plain_text(text, self.encoding)
+
     def headline(self, text: str) -> list[str]:
         """The answer."""
-        return [self.strong(line) for line in folded(text, self.width, "  ")]
+        return [self.strong(line) for line in folded(self.spelt(text), self.width, "  ")]
 
     def subtitle(self, text: str) -> list[str]:
         """What the answer is about, below it."""
-        return folded(f"  {text}", self.width, "    ")
+        return folded(self.spelt(f"  {text}"), self.width, "    ")
 
     def title(self, text: str, depth: int) -> list[str]:
         """Above a part."""
-        return [f"{'  ' * depth}{self.strong(text)}"]
+        return [f"{'  ' * depth}{self.strong(self.spelt(text))}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
         """Facts that share a line."""
         margin = "  " * depth
-        return folded(margin + text, self.width, margin + "  ")
+        return folded(margin + self.spelt(text), self.width, margin + "  ")
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         """Labels and what is said of each."""
-        room = max((shown_width(label) for label, _ in rows), default=0) + 2
+        spelt = [(self.spelt(label), self.spelt(text)) for label, text in rows]
+        room = max((shown_width(label) for label, _ in spelt), default=0) + 2
         margin = "  " * depth
         lines = []
-        for label, text in rows:
+        for label, text in spelt:
             first, *rest = folded(text, max(self.width - len(margin) - room, 20), "") or [""]
             gap = " " * (room - shown_width(label))
             lines.append(f"{margin}{label}{gap}{first}".rstrip())
@@ -331,15 +362,26 @@ class Plain:
     def grid(
         self,
         head: Sequence[str],
-        rows: Sequence[Sequence[str]],
+        rows: Iterable[Sequence[str]],
         depth: int = 0,
         is_cut: bool = False,
-    ) -> list[str]:
+        is_stream: bool = False,
+    ) -> Iterator[str]:
         """A table. A last column of words is folded where it does not fit, or cut where that may
-        be; other columns that do not fit continue below, each time beside the first one.
+        be; other columns that do not fit continue below, each time beside the first one. Of a
+        stream columns are as wide as its rows so far ask for.
         """
-        columns = [*zip(head, *rows, strict=True)]
-        widths = [max(map(shown_width, column)) for column in columns]
+        found = self._stream(head, rows, depth)
+        if not is_stream:
+            found = self._whole(head, rows, depth, is_cut)
+        for line in found:
+            yield "  " * depth + line
+
+    def _whole(
+        self, head: Sequence[str], rows: Iterable[Sequence[str]], depth: int, is_cut: bool
+    ) -> Iterator[str]:
+        columns = self._columns([head, *rows])
+        widths = [max(map(_cell_width, column)) for column in columns]
         room = self.width - 2 * depth
         is_cut = is_cut and self.is_brief
         if is_cut:
@@ -352,25 +394,49 @@ class Plain:
                     x if len(x) <= last else f"{x[: last - 1]}…" for x in columns[-1]
                 )
         widths[-1] = min(widths[-1], max(room - widths[0] - 2, WORDS))
-        lines: list[str] = []
         start = 1
-        while start < len(columns) or not lines:
+        is_begun = False
+        while start < len(columns) or not is_begun:
             end = start + 1
             while end < len(columns) and sum(widths[start : end + 1]) + widths[0] <= room - 2 * (
                 end + 1 - start
             ):
                 end += 1
-            lines += _beside([columns[0], *columns[start:end]], [widths[0], *widths[start:end]])
+            yield from _beside([columns[0], *columns[start:end]], [widths[0], *widths[start:end]])
             start = end
-        return self.indent(lines, depth)
+            is_begun = True
+
+    def _stream(
+        self, head: Sequence[str], rows: Iterable[Sequence[str]], depth: int
+    ) -> Iterator[str]:
+        """Where a table is too wide, long names have lines of their own, and the last column is as
+        wide as words need.
+        """
+        room = self.width - 2 * depth - 2 * (len(head) - 1)
+        heads = [head]
+        widest = [0] * len(head)
+        left = iter(rows)
+        while some := [*islice(left, AT_ONCE)]:
+            columns = self._columns([*heads, *some])
+            widest = [
+                max(x, *map(_cell_width, column)) for x, column in zip(widest, columns, strict=True)
+            ]
+            widths = [*widest]
+            if sum(widths) > room:
+                widths[-1] = min(widths[-1], max(room - sum(widths[:-1]), WORDS))
+            if sum(widths) > room:
+                widths[0] = min(widths[0], NAME)
+                widths[-1] = min(widest[-1], max(room - sum(widths[:-1]), WORDS))
+            yield from _beside(columns, widths, len(heads))
+            heads = []
+
+    def _columns(self, rows: Iterable[Sequence[str]]) -> list[tuple[str, ...]]:
+        """The columns of a table in the signs of the output."""
+        return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 
     def more(self, count: int, depth: int) -> list[str]:
         """So many rows of a table are left out."""
-        return self.indent([f"… {count} more with -v"], depth)
-
-    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
-        """Lines of a part."""
-        return ["  " * depth + line for line in lines]
+        return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         """A tableau."""
@@ -380,8 +446,9 @@ class Plain:
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         """A drawing in signs."""
-        return self.indent(lines, depth)
+        return indented(lines, "  " * depth)
 
-    def page(self, lines: Iterable[str]) -> str:
-        """The whole text."""
-        return inert("\n".join(lines)) + "\n"
+    def page(self, lines: Iterable[str]) -> Iterator[str]:
+        """The whole text, in pieces."""
+        for line in lines:
+            yield f"{inert(line)}\n"

@@ -123,6 +123,8 @@ class Kind:
         beside: further fields of JSON.
         section: of a value that has facts of its own.
         is_list: whether the value is a list of such.
+        is_stream: whether that is told while it is found.
+        by: the heading of a part of such a list, where parts have headings on a terminal.
         is_never_empty: whether that has an entry at least.
         most: of a list that is always a table, so many rows of it are usual; 0 for all.
         absent: what a table has where there is no value.
@@ -142,6 +144,8 @@ class Kind:
     beside: tuple[Beside, ...] = ()
     section: Section | None = None
     is_list: bool = False
+    is_stream: bool = False
+    by: Callable[[Any, Plain], str] | None = None
     is_never_empty: bool = False
     most: int | None = None
     absent: str = ""
@@ -150,7 +154,8 @@ class Kind:
     @property
     def is_below(self) -> bool:
         """Whether it has lines of its own, below the other facts."""
-        return not (self.lines is None and self.draw is None and self.most is None)
+        is_shown = self.lines is not None or self.draw is not None or self.most is not None
+        return is_shown or self.is_stream
 
     def __call__(self, value: Any) -> Said:
         """A value of this kind in a reason."""
@@ -206,10 +211,14 @@ class Row:
     line: str = ""
     is_short: bool = False
 
-    def fact(self, whole: Any) -> Fact:
+    def answer(self, whole: Any) -> Answer:
         """What is so of a result."""
         found = getattr(whole, self.key) if self.get is None else self.get(whole)
-        answer = found if isinstance(found, Answer) else Answer(found)
+        return found if isinstance(found, Answer) else Answer(found)
+
+    def fact(self, whole: Any) -> Fact:
+        """The same with the level where it is told."""
+        answer = self.answer(whole)
         level = answer.level
         if level is None:
             level = self.level(answer) if callable(self.level) else self.level
@@ -243,7 +252,7 @@ class Row:
         kind = self.kind
         if not kind.is_data:
             return {}
-        answer = self.fact(whole).answer
+        answer = self.answer(whole)
         if answer.value is None and self.is_optional:
             return {}
         found = {self.key: None if answer.value is None else self._plain(answer.value, dialect)}
@@ -311,6 +320,14 @@ class Section:
             found.update(row.data(whole, dialect))
         return found
 
+    def columns_of(self, level: Level) -> list[Row]:
+        """The rows that a part of a stream has as columns, down to a level."""
+        if level == Level.DATA:
+            return [row for row in self.rows if row.kind.is_data]
+        is_deep = level >= Level.DETAIL
+        found = [x for x in self.rows if not (x.is_short and is_deep)]
+        return [x for x in found if not callable(x.level) and x.level <= level]
+
     @property
     def schema(self) -> Schema:
         """The JSON Schema of such data."""
@@ -376,6 +393,16 @@ def drawing(draw: Callable[[Any, Plain], list[str]]) -> Kind:
     return Kind({}, draw=draw, is_data=False)
 
 
+def sentence(words: Callable[[Any], str]) -> Row:
+    """What is told above or below a list, when it is its turn."""
+
+    def lines(x: Any, d: Plain) -> list[str]:
+        text = words(x)
+        return d.sentence(d.prose(text), 0) if text else []
+
+    return Row("sentence", drawing(lines), lambda x: x)
+
+
 def parts(section: Section, words: Words | None = None) -> Kind:
     """A list of such values."""
     return Kind({}, section=section, is_list=True, words=words)
@@ -387,6 +414,17 @@ def table(section: Section, most: int, is_data: bool = True) -> Kind:
     columns of their own.
     """
     return Kind({}, section=section, is_list=True, most=most, is_data=is_data)
+
+
+def stream(section: Section, by: Callable[[Any, Plain], str] | None = None) -> Kind:
+    """A list of flat parts that is told while it is found; memory does not grow with it. A terminal
+    shows the usual rows of a part, LaTeX those of details too, Markdown those that programs get.
+
+    Args:
+        section: of a part.
+        by: the heading above parts that have the same.
+    """
+    return Kind({}, section=section, is_list=True, is_stream=True, by=by)
 
 
 def via(get: Callable[[Any], Any], rows: Iterable[Row]) -> list[Row]:

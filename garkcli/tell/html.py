@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ from garkcli.exact.display import to_latex
 from garkcli.page.exactly import polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Level
 from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 class Html(Plain):
     """Fragments of HTML; every text of a file is escaped."""
+
+    columns = Level.DATA
 
     def prose(self, text: str) -> str:
         return escape(printable(text))
@@ -75,20 +78,22 @@ class Html(Plain):
     def grid(
         self,
         head: Sequence[str],
-        rows: Sequence[Sequence[str]],
+        rows: Iterable[Sequence[str]],
         depth: int = 0,
         is_cut: bool = False,
-    ) -> list[str]:
+        is_stream: bool = False,
+    ) -> Iterator[str]:
         def row(cells: Sequence[str], tag: str) -> str:
             return f"<tr>{''.join(f'<{tag}>{x}</{tag}>' for x in cells)}</tr>"
 
-        return ["<table>", row(head, "th"), *(row(x, "td") for x in rows), "</table>"]
+        yield "<table>"
+        yield row(head, "th")
+        for cells in rows:
+            yield row(cells, "td")
+        yield "</table>"
 
     def more(self, count: int, depth: int) -> list[str]:
         return [f"<p>… {count} more</p>"]
-
-    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
-        return list(lines)
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         from garkcli.page.tableau_html import tableau_lines
@@ -98,5 +103,8 @@ class Html(Plain):
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return [f"<pre>{escape(chr(10).join(lines))}</pre>"]
 
-    def page(self, lines: Iterable[str]) -> str:
-        return "<div>\n{}\n</div>\n".format("\n".join(lines))
+    def page(self, lines: Iterable[str]) -> Iterator[str]:
+        yield "<div>\n"
+        for line in lines:
+            yield f"{line}\n"
+        yield "</div>\n"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_latex
@@ -10,6 +10,8 @@ from garkcli.exact.polynomial_text import root_text
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Level
+from garkcli.trees.notation import format_latex, parse_tree
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -53,6 +55,7 @@ class Latex(Plain):
     """LaTeX."""
 
     infinity = r"$\infty$"
+    columns = Level.DETAIL
 
     def prose(self, text: str) -> str:
         return "".join(SIGNS.get(sign, sign) for sign in printable(text).replace("q\u0308", "¨"))
@@ -103,6 +106,10 @@ class Latex(Plain):
             base += f"_{{{','.join(str(i + 1) for i in place.indices)}}}"
         return f"${base}$"
 
+    def tree(self, tree: Tree | str) -> str:
+        found = parse_tree(tree) if isinstance(tree, str) else tree
+        return f"${format_latex(found, self.has_colours(found))}$"
+
     def code(self, text: str) -> str:
         return rf"\texttt{{{self.prose(text)}}}"
 
@@ -124,16 +131,16 @@ class Latex(Plain):
         return self.prose(super().capped(number, limit))
 
     def headline(self, text: str) -> list[str]:
-        return [rf"\subsection*{{{text}}}"]
+        return [f"% {text}" if self.is_inserted else rf"\subsection*{{{text}}}"]
 
     def subtitle(self, text: str) -> list[str]:
-        return [text, ""]
+        return self.sentence(text)
 
     def title(self, text: str, depth: int) -> list[str]:
         return [rf"\paragraph{{{text}}}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
-        return [f"{text.removesuffix('.')}.", ""]
+        return [f"% {text}"] if self.is_inserted else [f"{text.removesuffix('.')}.", ""]
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         body = [rf"{label} & {text} \\" for label, text in rows]
@@ -144,21 +151,21 @@ class Latex(Plain):
     def grid(
         self,
         head: Sequence[str],
-        rows: Sequence[Sequence[str]],
+        rows: Iterable[Sequence[str]],
         depth: int = 0,
         is_cut: bool = False,
-    ) -> list[str]:
-        body = [rf"{' & '.join(row)} \\" for row in rows]
-        return [
-            rf"\begin{{tabular}}{{{'l' * len(head)}}}",
-            r"\hline",
-            rf"{' & '.join(head)} \\",
-            r"\hline",
-            *body, r"\hline", r"\end{tabular}", "",
-        ]  # fmt: skip
-
-    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
-        return list(lines)
+        is_stream: bool = False,
+    ) -> Iterator[str]:
+        kind = "longtable" if is_stream else "tabular"
+        yield rf"\begin{{{kind}}}{{{'l' * len(head)}}}"
+        yield r"\hline"
+        yield rf"{' & '.join(head)} \\"
+        yield r"\hline"
+        for row in rows:
+            yield rf"{' & '.join(row)} \\"
+        yield r"\hline"
+        yield rf"\end{{{kind}}}"
+        yield ""
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         from garkcli.page.tableau_latex import tableau_lines
@@ -168,5 +175,5 @@ class Latex(Plain):
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return []
 
-    def page(self, lines: Iterable[str]) -> str:
-        return "\n".join(lines) + "\n"
+    def page(self, lines: Iterable[str]) -> Iterator[str]:
+        return (f"{line}\n" for line in lines)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Level
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
 class Markdown(Plain):
     """Markdown, as code hosts read it."""
+
+    columns = Level.DATA
 
     def prose(self, text: str) -> str:
         for sign in "\\|*_`[]<":
@@ -53,22 +56,19 @@ class Markdown(Plain):
     def grid(
         self,
         head: Sequence[str],
-        rows: Sequence[Sequence[str]],
+        rows: Iterable[Sequence[str]],
         depth: int = 0,
         is_cut: bool = False,
-    ) -> list[str]:
-        return [
-            f"| {' | '.join(head)} |",
-            "|---" * len(head) + "|",
-            *(f"| {' | '.join(row)} |" for row in rows),
-            "",
-        ]
+        is_stream: bool = False,
+    ) -> Iterator[str]:
+        yield f"| {' | '.join(head)} |"
+        yield "|---" * len(head) + "|"
+        for row in rows:
+            yield f"| {' | '.join(row)} |"
+        yield ""
 
     def more(self, count: int, depth: int) -> list[str]:
         return [*super().more(count, 0), ""]
-
-    def indent(self, lines: Iterable[str], depth: int) -> list[str]:
-        return list(lines)
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         return self.picture(super().tableau(tableau, entries)[1:], 0)
@@ -76,5 +76,5 @@ class Markdown(Plain):
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return ["```text", *lines, "```", ""]
 
-    def page(self, lines: Iterable[str]) -> str:
-        return "\n".join(lines) + "\n"
+    def page(self, lines: Iterable[str]) -> Iterator[str]:
+        return (f"{line}\n" for line in lines)

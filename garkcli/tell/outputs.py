@@ -6,11 +6,12 @@ Nothing here knows a command or a kind.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
+from itertools import groupby
 from typing import Any, TypeAlias
 
 from garkcli.glossary.labels import label_of
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Fact, Level, Section
+from garkcli.tell.facts import Fact, Level, Row, Section
 
 Form: TypeAlias = Callable[[Any], Section]
 """Which section tells a result: one of several where results differ in shape."""
@@ -63,8 +64,12 @@ def phrase(fact: Fact, d: Plain) -> str:
 
 def label(fact: Fact, d: Plain) -> str:
     """What a fact is called."""
-    own = fact.row.label
-    return d.prose(label_of(fact.row.key) if own is None else own)
+    return named(fact.row, d)
+
+
+def named(row: Row, d: Plain) -> str:
+    """What the facts of a row are called."""
+    return d.prose(label_of(row.key) if row.label is None else row.label)
 
 
 def cell(fact: Fact, d: Plain) -> str:
@@ -83,7 +88,8 @@ def one(section: Section, whole: Any, d: Plain, level: Level = Level.USUAL) -> I
     """A result: the answer first."""
     headline = "; ".join(phrases(section, whole, d, Level.HEADLINE))
     subject = section.title(whole, d) if section.title else ""
-    yield from d.headline(f"{subject}: {headline}" if subject and headline else subject or headline)
+    if subject or headline:
+        yield from d.headline(": ".join(filter(None, [subject, headline])))
     yield from body(section, whole, d, level, 1)
 
 
@@ -152,6 +158,8 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     section = kind.section
     if kind.draw is not None:
         yield from kind.draw(value, d)
+    elif kind.is_stream:
+        yield from stream(fact, d, depth)
     elif section is None:
         assert kind.lines is not None
         yield from d.picture(kind.lines(value, d), depth)
@@ -168,6 +176,20 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
                 yield from lines
         if more := len(values) - len(shown):
             yield from d.more(more, depth)
+
+
+def stream(fact: Fact, d: Plain, depth: int) -> Iterator[str]:
+    """A list of flat parts, a line each, while it is found."""
+    section, by = fact.row.kind.section, fact.row.kind.by
+    assert section is not None
+    rows = section.columns_of(d.columns)
+    heads = [named(row, d) for row in rows]
+    is_grouped = by is not None and d.columns == Level.USUAL
+    for heading, parts in groupby(fact.value, lambda x: by(x, d) if by and is_grouped else ""):
+        if heading:
+            yield from d.title(heading, depth - 1)
+        lines = ([cell(row.fact(part), d) for row in rows] for part in parts)
+        yield from d.grid(heads, lines, depth, is_stream=True)
 
 
 def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeAlias, TypeVar
 
@@ -112,13 +112,73 @@ class Report(Generic[Whole]):
         texts = (self._told(x, format, level, paint=paint, **signs) for x in wholes)
         return ("" if level == Level.HEADLINE and format == "text" else "\n").join(texts)
 
+    def pieces(
+        self,
+        whole: Whole,
+        format: str = "text",
+        paint: Paint = PLAIN,
+        verbosity: int = 0,
+        **signs: Any,
+    ) -> Iterator[str]:
+        """A result with a stream in pieces, while it is found, also as JSON a line a part.
+
+        Args:
+            whole: the result.
+            format: one of ``FORMATS``, ``csv`` or ``ndjson``.
+            paint: colour or none.
+            verbosity: 1 for everything.
+            signs: as in ``render``.
+        """
+        form = self.form(whole)
+        streams = [row for row in form.rows if row.kind.is_stream]
+        if not streams and format == "ndjson":
+            yield _json_line(self.document([whole])) + "\n"
+        elif not streams:
+            yield self.render([whole], format, paint, verbosity, **signs)
+        elif format == "json":
+            yield from self._json_pieces(form, whole)
+        elif format in ("csv", "ndjson"):
+            from garkcli.tell.csv import csv_lines
+
+            (row,) = streams
+            section, parts = row.kind.section, row.fact(whole).value
+            assert section is not None
+            d = Plain(**self.signs(whole))
+            if format == "csv":
+                yield from csv_lines(section, parts, d)
+            else:
+                yield from (_json_line(section.data(x, d)) + "\n" for x in parts)
+        else:
+            level = Level.DETAIL if verbosity > 0 or format == "latex" else Level.USUAL
+            d = self.dialect(whole, format, paint=paint, is_brief=level < Level.DETAIL, **signs)
+            yield from d.page(one(form, whole, d, level))
+
+    def _json_pieces(self, form: Section, whole: Whole) -> Iterator[str]:
+        """The document, a line a part of its stream."""
+        d = Plain(**self.signs(whole))
+        yield f'{{"schema": "{self.schema_name}"'
+        for row in form.rows:
+            if not row.kind.is_stream:
+                if fields := row.data(whole, d):
+                    yield f", {_json_line(fields)[1:-1]}"
+                continue
+            section = row.kind.section
+            assert section is not None
+            yield f', "{row.key}": ['
+            separator = "\n"
+            for part in row.fact(whole).value:
+                yield separator + _json_line(section.data(part, d))
+                separator = ",\n"
+            yield "\n]"
+        yield "}\n"
+
     def dialect(self, whole: Whole, format: str, **signs: Any) -> Plain:
         """The signs of a format for a result."""
         return _dialect(format)(**{**self.signs(whole), **signs})
 
     def _told(self, whole: Whole, format: str, level: Level, **signs: Any) -> str:
         d = self.dialect(whole, format, is_brief=level < Level.DETAIL, **signs)
-        return d.page(one(self.form(whole), whole, d, level))
+        return "".join(d.page(one(self.form(whole), whole, d, level)))
 
     def columns(self, whole: Whole) -> Sequence[str]:
         """The keys that tell a result in a line of a table."""
@@ -127,7 +187,7 @@ class Report(Generic[Whole]):
     def table(self, wholes: Sequence[Whole], format: str) -> str:
         """A line a result."""
         signs = self.dialect(wholes[0], format)
-        return signs.page(many(self.form, wholes, lambda x: self.dialect(x, format)))
+        return "".join(signs.page(many(self.form, wholes, lambda x: self.dialect(x, format))))
 
     def html(self, whole: Whole) -> str:
         """A fragment of a page, for notebooks."""
@@ -177,6 +237,10 @@ class Report(Generic[Whole]):
             "properties": {"schema": {"const": self.schema_name}, **fields["properties"]},
         }
         return schema if self.is_open else {**schema, **CLOSED}
+
+
+def _json_line(data: dict[str, Any]) -> str:
+    return to_json(data, indent=None)
 
 
 def one_or_more(schemas: Sequence[Schema]) -> Schema:

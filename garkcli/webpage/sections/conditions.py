@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
-from garkcli.report.conditions import is_parametric
-from garkcli.report.conditions_data import ConditionRow, row_data
+from garkcli.report.conditions import ConditionRow, is_parametric, row_of
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
+from garkcli.tell.dialect import Plain
 from garkcli.trees.notation import format_tree
 from garkcli.webpage.mathml import typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
@@ -81,7 +81,7 @@ def _rows(found: list[Condition], has_colours: bool) -> Iterator[Content]:
     """What ``gark conditions`` says of each, with the tree drawn and the formulas typeset."""
     for condition in found:
         row = ConditionRow(condition.tree, False, condition)
-        data = row_data(row)
+        data = row_of(has_values=True).data(row, Plain())
         name = format_tree(condition.tree, has_colours)
         title = f"tree of order {condition.tree.order}, {name}"
         yield {
