@@ -19,9 +19,15 @@ _DOTS = (34, 33, 32, 35, 36, 31)
 
 @dataclass(frozen=True)
 class Paint:
-    """Marks text for a terminal when ``color`` is on; nothing is told by colour alone."""
+    """Marks text for a terminal when ``color`` is on; nothing is told by colour alone.
+
+    Attributes:
+        color: whether there is any.
+        encoding: of where the text goes: signs that it lacks are spelt before columns are made.
+    """
 
     color: bool = False
+    encoding: str = "utf-8"
 
     def __call__(self, style: str, text: str) -> str:
         """``text`` in one of the styles good, bad, strong, faint, note."""

@@ -20,7 +20,7 @@ from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Row, Section, part, sentence, stream, told
+from garkcli.tell.facts import Kind, Level, Row, Section, part, sentence, stream, told
 from garkcli.tell.kinds import POSITION, TEXTS, TOLERANCE, choice
 from garkcli.tell.report import Report
 from garkcli.trees.notation import condition_latex, condition_text, format_tree, vertex_letters
@@ -188,21 +188,28 @@ def is_parametric(number: object) -> bool:
     return isinstance(number, Parametric)
 
 
-def _number(x: Number, d: Plain) -> str:
-    """A number, in decimals where it is long or these are asked for."""
+def _text(x: Number, d: Plain) -> str:
+    return to_text(x) if d.places is None else to_decimal(x, d.places)
+
+
+def _number(condition: Condition, key: str, d: Plain) -> str:
+    """A number of a condition, in decimals where one is long or these are asked for."""
+    x = getattr(condition, key)
     if d.places is not None:
-        text = to_decimal(x, d.places)
+        return d.formula(number(_text(x, d)), _text(x, d))
+    longest = max(len(to_text(condition.value)), len(to_text(condition.residual)))
+    if not x or longest <= MOST_DIGITS or is_parametric(x):
+        return d.expression(to_text(x), lambda: to_latex(x))
+    if key == "residual":
+        text = to_decimal(x, 4)
         return d.formula(number(text), text)
-    text = to_text(x)
-    if len(text) <= MOST_DIGITS or is_parametric(x):
-        return d.expression(text, lambda: to_latex(x))
-    about = to_decimal(x, 8)
-    return d.formula(rf"\approx {number(about)}", f"about {about}")
+    text = to_decimal(x, 8)
+    return d.formula(rf"\approx {number(text)}", f"about {text}")
 
 
-NUMBER = Kind(
-    S.NUMERAL, lambda x, d: to_text(x) if d.places is None else to_decimal(x, d.places), _number
-)
+def _numeral(key: str, level: Level) -> Row:
+    kind = Kind(S.NUMERAL, lambda x, d: _text(getattr(x, key), d), lambda x, d: _number(x, key, d))
+    return Row(key, kind, lambda x: x.condition, level)
 
 
 def _state(condition: Condition, d: Plain) -> str:
@@ -225,7 +232,7 @@ def _in_words(row: ConditionRow, d: Plain) -> str:
     condition = row.condition
     if condition is not None and not condition.is_exact:
         kind = "coupling" if condition.is_coupling else "diagonal"
-        value, residual = _number(condition.value, d), _number(condition.residual, d)
+        value, residual = _number(condition, "value", d), _number(condition, "residual", d)
         lines.append(f"is {value}, off by {residual}  ({kind} condition)")
     if row.members:
         lines.append("  ".join(map(d.tree, row.members)))
@@ -239,6 +246,11 @@ def _multiplicity(row: ConditionRow) -> str:
     if row.condition is not None and row.condition.twins:
         return f"({len(row.condition.trees)} times)"
     return f"∀ {','.join(row.letters)}" if row.letters else ""
+
+
+def _for_all(letters: Sequence[str], d: Plain) -> str:
+    text = ",".join(letters)
+    return d.formula(rf"\forall\, {text}", text)
 
 
 _PICTURE, _ = pictures(lambda x: x.tree)
@@ -255,16 +267,16 @@ _TREE = (
     Row("condition", Kind(S.TEXT, lambda x, _: x.text(), _formula), lambda x: x, DETAIL),
     Row(
         "for_all",
-        Kind(S.array(S.TEXT), words=lambda x, d: d.expression(",".join(x)), csv=lambda _: {}),
+        Kind(S.array(S.TEXT), words=_for_all, csv=lambda _: {}),
         lambda x: x.letters and list(x.letters),
         DETAIL,
         is_optional=True,
     ),
 )
 _VALUES = (
-    Row("value", NUMBER, lambda x: x.condition.value, DETAIL),
-    Row("required", NUMBER, lambda x: x.condition.required, DATA),
-    Row("residual", NUMBER, lambda x: x.condition.residual, DETAIL),
+    _numeral("value", DETAIL),
+    _numeral("required", DATA),
+    _numeral("residual", DETAIL),
     Row("holds", Kind(S.FLAG, lambda x, _: x.holds, _state), lambda x: x.condition),
     Row(
         "kind",

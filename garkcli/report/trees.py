@@ -150,7 +150,7 @@ def _count_rows(found: TreeList, _: Plain) -> Iterator[tuple[str, str]]:
         yield f"order {n}", str(found.query.total(by_root))
         if found.query.colours > 1:
             for root, count in found.query.roots(by_root):
-                yield f"  root colour {root}", str(count)
+                yield f"  root {root}", str(count)
 
 
 _PICTURE, _DRAWN = pictures(lambda x: parse_tree(x.tree))

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice, zip_longest
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from flint import arb, fmpq
 
@@ -79,7 +79,7 @@ def _cell_width(text: str) -> int:
 
 
 def _beside(
-    columns: Sequence[Sequence[str]], widths: Sequence[int], heads: int = 1
+    columns: Sequence[Sequence[str]], widths: Sequence[int], room: int, heads: int = 1
 ) -> Iterator[str]:
     """The lines of a table, numbers by their ends. Long cells are folded, a long name has its own
     line.
@@ -87,7 +87,7 @@ def _beside(
     are_right = [all(_NUMBER.match(x) for x in column[heads:]) for column in columns]
     for row in zip(*columns, strict=True):
         if len(row) > 1 and shown_width(row[0]) > widths[0]:
-            yield from folded(row[0], sum(widths) + 2 * len(widths), "  ")
+            yield from folded(row[0], room, "  ")
             row = ("", *row[1:])
         cells = [_broken(x, width) for x, width in zip(row, widths, strict=True)]
         for texts in zip_longest(*cells, fillvalue=""):
@@ -111,7 +111,6 @@ class Plain:
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
         told: failures that were told: the second time they are "as above".
-        encoding: of the output: signs that it lacks are spelt.
         is_inserted: whether LaTeX goes into a document that has words of its own: its tables and
             drawings alone, the words as comments.
     """
@@ -124,12 +123,11 @@ class Plain:
     is_brief: bool = True
     places: int | None = None
     told: list[Any] = field(default_factory=list)
-    encoding: str = "utf-8"
     is_inserted: bool = False
 
     infinity = "∞"
-    columns = Level.USUAL
-    """How deep the rows are that a part of a stream has as columns."""
+    breadth: ClassVar[Literal["terminal", "page", "any"]] = "terminal"
+    """How wide a table may be."""
 
     # words
 
@@ -327,7 +325,7 @@ class Plain:
 
     def spelt(self, text: str) -> str:
         """A text in the signs that the output has: widths are those of what is written."""
-        return text if text.isascii() else plain_text(text, self.encoding)
+        return text if text.isascii() else plain_text(text, self.paint.encoding)
 
     def headline(self, text: str) -> list[str]:
         """The answer."""
@@ -402,7 +400,8 @@ class Plain:
                 end + 1 - start
             ):
                 end += 1
-            yield from _beside([columns[0], *columns[start:end]], [widths[0], *widths[start:end]])
+            shown = [columns[0], *columns[start:end]]
+            yield from _beside(shown, [widths[0], *widths[start:end]], room)
             start = end
             is_begun = True
 
@@ -422,12 +421,12 @@ class Plain:
                 max(x, *map(_cell_width, column)) for x, column in zip(widest, columns, strict=True)
             ]
             widths = [*widest]
-            if sum(widths) > room:
-                widths[-1] = min(widths[-1], max(room - sum(widths[:-1]), WORDS))
-            if sum(widths) > room:
-                widths[0] = min(widths[0], NAME)
+            for least in (widest[0], NAME, CUT):
+                widths[0] = min(widths[0], least)
                 widths[-1] = min(widest[-1], max(room - sum(widths[:-1]), WORDS))
-            yield from _beside(columns, widths, len(heads))
+                if sum(widths) <= room:
+                    break
+            yield from _beside(columns, widths, self.width - 2 * depth, len(heads))
             heads = []
 
     def _columns(self, rows: Iterable[Sequence[str]]) -> list[tuple[str, ...]]:

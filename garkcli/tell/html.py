@@ -10,7 +10,6 @@ from garkcli.exact.display import to_latex
 from garkcli.page.exactly import polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level
 from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 class Html(Plain):
     """Fragments of HTML; every text of a file is escaped."""
 
-    columns = Level.DATA
+    breadth = "any"
 
     def prose(self, text: str) -> str:
         return escape(printable(text))

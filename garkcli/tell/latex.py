@@ -10,7 +10,6 @@ from garkcli.exact.polynomial_text import root_text
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level
 from garkcli.trees.notation import format_latex, parse_tree
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ class Latex(Plain):
     """LaTeX."""
 
     infinity = r"$\infty$"
-    columns = Level.DETAIL
+    breadth = "page"
 
     def prose(self, text: str) -> str:
         return "".join(SIGNS.get(sign, sign) for sign in printable(text).replace("q\u0308", "¨"))

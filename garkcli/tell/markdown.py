@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 class Markdown(Plain):
     """Markdown, as code hosts read it."""
 
-    columns = Level.DATA
+    breadth = "any"
 
     def prose(self, text: str) -> str:
         for sign in "\\|*_`[]<":

@@ -16,6 +16,9 @@ from garkcli.tell.facts import Fact, Level, Row, Section
 Form: TypeAlias = Callable[[Any], Section]
 """Which section tells a result: one of several where results differ in shape."""
 
+COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
+"""How deep the rows are that a part of a stream has as columns, by the breadth of the output."""
+
 
 def words(fact: Fact, d: Plain) -> str:
     """A fact in words: value, status and reason, in one place."""
@@ -182,9 +185,10 @@ def stream(fact: Fact, d: Plain, depth: int) -> Iterator[str]:
     """A list of flat parts, a line each, while it is found."""
     section, by = fact.row.kind.section, fact.row.kind.by
     assert section is not None
-    rows = section.columns_of(d.columns)
+    level = COLUMNS[d.breadth]
+    rows = section.columns_of(level)
     heads = [named(row, d) for row in rows]
-    is_grouped = by is not None and d.columns == Level.USUAL
+    is_grouped = level == Level.USUAL
     for heading, parts in groupby(fact.value, lambda x: by(x, d) if by and is_grouped else ""):
         if heading:
             yield from d.title(heading, depth - 1)

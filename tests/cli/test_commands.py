@@ -32,7 +32,7 @@ RUNS = [
         ("check", COLLOCATION),
         ("auto", "text", "json", "github", "sarif", "junit", "markdown", "latex"),
     ),
-    (("trees", "-N", "2", "-n", "3"), ("text", "json", "ndjson", "csv", "latex")),
+    (("trees", "-N", "2", "-n", "3"), ("text", "json", "ndjson", "csv", "markdown", "latex")),
     (
         ("trees", "-N", "2", "-n", "3", "--count", "--upto"),
         ("text", "json", "ndjson", "csv", "latex"),

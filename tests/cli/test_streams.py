@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import os
+import re
 import subprocess
 import sys
 from functools import cache
@@ -16,10 +17,9 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.cli.streams import TERMINAL, prepare
+from garkcli.cli.streams import prepare
 from garkcli.page.plaintext import ascii_form, plain_line, plain_text
 from garkcli.page.safety import escaped, written_out
-from garkcli.report.trees import DRAWING
 from tests.cli.harness import ROOT, Run, gark
 from tests.cli.test_snapshots import RUNS
 
@@ -81,19 +81,21 @@ def test_a_run_in_another_encoding(name: str, encoding: str) -> None:
         assert made.count("?") == meant.count("?")
         assert made.count("\\u") == meant.count("\\u")
         if "check-json" not in name:
-            width = TERMINAL if meant == recorded.out else None
-            assert made == plain_text(meant, encoding, width)
-            assert made.split() == plain_text(meant, encoding).split()
+            # what is wider in its longer forms goes on in the next line, at any place to break
+            assert "".join(made.split()) == "".join(plain_text(meant, encoding).split())
 
 
-def test_columns_stay_where_they_are() -> None:
-    """The drawn tree keeps its place beside σ and γ, of which ASCII needs more than one sign."""
-    arguments = ("trees", "-N", "2", "-n", "3", "--root", "1")
-    meant, made = gark(*arguments).out, gark(*arguments, encoding="ascii").out
-    drawn = str.maketrans("●╰┬─╯│", "o`+-'|")
-    for before, after in zip(meant.splitlines()[1:-1], made.splitlines()[1:-1], strict=True):
-        assert after[DRAWING:] == before.translate(drawn)[DRAWING:]
-        assert after[DRAWING - 2 : DRAWING] == "  "
+def test_columns_are_as_wide_as_what_is_written() -> None:
+    """Where σ and γ need more signs, what is beside them begins in one column all the same; so do
+    the facts of a file.
+    """
+    lines = gark("trees", "-N", "2", "-n", "3", "--root", "1", encoding="ascii").out.splitlines()
+    assert lines[1].split() == ["tree", "sigma", "gamma"]
+    assert {line.index("o", 20) for line in lines[2:-1] if "[" in line} == {31}
+    facts = gark("check", "methods/rk4.gark.yaml", "-v", encoding="ascii").out.splitlines()
+    labelled = [line for line in facts if re.match(r"  (B\(|C\(|D\()", line)]
+    assert len({re.match(r"  .*?  +", line).end() for line in labelled}) == 1
+    assert len(labelled) == 3
 
 
 def test_powers_are_all_of_one_kind() -> None:
@@ -163,7 +165,7 @@ def test_a_process_without_utf_8(variables: dict[str, str]) -> None:
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.count(b"?") == 1  # that of the help
-    assert b"sigma = 2" in done.stdout or "σ = 2" in done.stdout.decode("utf-8")
+    assert b"sigma" in done.stdout or "σ" in done.stdout.decode("utf-8")
 
 
 @pytest.mark.parametrize(

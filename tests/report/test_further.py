@@ -16,7 +16,7 @@ from garkcli.check.true_claims import true_claims
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load, loads
 from garkcli.page.paint import Paint
-from garkcli.page.tableau_latex import render as tableau_latex
+from garkcli.page.tableau_latex import tableau_lines
 from garkcli.report import check_findings
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_text import render
@@ -203,7 +203,7 @@ def test_tableaus_show_them_in_every_format() -> None:
     jsonschema.validate(data, TABLEAU.schema)
     assert data["embedded"] == [["7/24", "1/4", "1/3", "1/8"]]
     assert data["float"]["dense"][0][1] == [0.0, 1.0, pytest.approx(-2 / 3)]
-    latex = tableau_latex(method.tableau, found, "it")
+    latex = "\n".join(tableau_lines(method.tableau, found))
     assert r"& \frac{7}{24} & \frac{1}{4}" in latex
     assert r"b_{4}(\theta) &= -\theta^{2} + \theta^{3}" in latex
     assert "embedded" not in TABLEAU.render([shown._replace(entries=entries(method.tableau))])
@@ -219,7 +219,7 @@ def test_latex_of_sums_and_zeros() -> None:
         "dense: {degree: 2, weights: [[1 - sqrt(2), -1], [0, 0]]}"
     )
     found = entries(method.tableau).beside(method.further)
-    latex = tableau_latex(method.tableau, found, "it")
+    latex = "\n".join(tableau_lines(method.tableau, found))
     assert r"\left(1-\sqrt{2}\right)\theta - \theta^{2}" in latex
     assert r"b_{2}(\theta) &= 0" in latex
 
