@@ -254,7 +254,9 @@ class Plain:
 
     def tree(self, tree: Tree | str) -> str:
         """A tree in brackets, or these; with one colour that is not named."""
-        return self.code(tree if isinstance(tree, str) else format_tree(tree, self.has_colours(tree)))
+        if not isinstance(tree, str):
+            tree = format_tree(tree, self.has_colours(tree))
+        return self.code(tree)
 
     def has_colours(self, tree: Tree) -> bool:
         """Whether the colours of a tree are named."""

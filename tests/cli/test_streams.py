@@ -93,9 +93,9 @@ def test_columns_are_as_wide_as_what_is_written() -> None:
     assert lines[1].split() == ["tree", "sigma", "gamma"]
     assert {line.index("o", 20) for line in lines[2:-1] if "[" in line} == {31}
     facts = gark("check", "methods/rk4.gark.yaml", "-v", encoding="ascii").out.splitlines()
-    labelled = [line for line in facts if re.match(r"  (B\(|C\(|D\()", line)]
-    assert len({re.match(r"  .*?  +", line).end() for line in labelled}) == 1
+    labelled = [line for line in facts if re.match(r" +(B\(|C\(|D\()", line)]
     assert len(labelled) == 3
+    assert len({re.match(r" +\S+ +", line).end() for line in labelled}) == 1
 
 
 def test_powers_are_all_of_one_kind() -> None:
