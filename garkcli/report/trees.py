@@ -147,10 +147,11 @@ def _heading(row: TreeRow, d: Plain) -> str:
 
 def _count_rows(found: TreeList, _: Plain) -> Iterator[tuple[str, str]]:
     for n, by_root in found.counts:
-        yield f"order {n}", str(found.query.total(by_root))
+        text = str(found.query.total(by_root))
         if found.query.colours > 1:
-            for root, count in found.query.roots(by_root):
-                yield f"  root {root}", str(count)
+            roots = (f"{count} of root colour {l}" for l, count in found.query.roots(by_root))
+            text += f": {', '.join(roots)}"
+        yield f"order {n}", text
 
 
 _PICTURE, _DRAWN = pictures(lambda x: parse_tree(x.tree))
