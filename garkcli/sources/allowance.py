@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from garkcli.sources.found import MAX_TABLES, FoundTable, Row, TooLarge
-from garkcli.sources.scalars import Scalar, Value, combined, transposed, zeros
+from garkcli.sources.scalars import Scalar, Value, combined, transposed
 
 MAX_WRITTEN = 10_000_000
 """Most characters of the numbers of a source, its names and zeros written out."""
@@ -76,10 +76,6 @@ class Allowance:
         """As ``scalars.transposed``, counted."""
         self.spend(length(value))
         return transposed(value)
-
-    def zeros(self, sizes: list[int]) -> Value:
-        """As ``scalars.zeros``, counted."""
-        return self.kept(zeros(sizes))
 
     def table(self, table: FoundTable) -> FoundTable:
         """A table that is kept.

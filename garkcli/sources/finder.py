@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import replace
 
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
@@ -15,7 +15,7 @@ from garkcli.sources.naming import ROLES, role_of
 from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
 from garkcli.sources.signatures import SIGNATURES, other_kind
-from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, integer
+from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word
 
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
@@ -25,19 +25,6 @@ _NUMBERED = re.compile(
 _TABLE = "ARKodeButcherTable_Alloc"
 
 
-@dataclass(frozen=True)
-class Facts:
-    """What the files of a tree know of each other.
-
-    Attributes:
-        records: the fields of records, by their names.
-        orders: what the methods of these names declare.
-    """
-
-    records: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    orders: Mapping[str, int] = field(default_factory=dict)
-
-
 class TableFinder:
     """Collects the tables of one source.
 
@@ -45,14 +32,12 @@ class TableFinder:
         source: what it is called.
         format: of its language.
         allowance: of it.
-        facts: of the tree that it is in.
     """
 
-    def __init__(self, source: str, format: str, allowance: Allowance, facts: Facts) -> None:
+    def __init__(self, source: str, format: str, allowance: Allowance) -> None:
         self._source = source
         self._format = format
         self._allowance = allowance
-        self._facts = facts
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
         self._orders: dict[tuple[str, int], Number] = {}
@@ -133,7 +118,7 @@ class TableFinder:
                 self._other[name, line] = _other(self._source, line, self._format, name, kind)
             return
         signature = SIGNATURES.get(record.kind)
-        fields = dict(record.fields)
+        fields = record.fields
         roles: Roles = {}
         if signature is not None:
             if not record.args and len(fields) < 2:
@@ -142,10 +127,6 @@ class TableFinder:
             roles.pop("-", None)
             if any(isinstance(x, Unknown) and _is_given(x) for x in roles.values()):
                 return
-        elif record.kind in self._facts.records:
-            names = self._facts.records[record.kind]
-            if len(names) == len(record.args):
-                fields |= dict(zip(names, record.args, strict=True))
         for name, value in fields.items():
             role = ROLES.get(name)
             if role is not None and not isinstance(value, Null):
@@ -248,18 +229,9 @@ class TableFinder:
             table = _other(self._source, line, self._format, name, found.kind)
             self._other[name, line] = table
             return
-        order = self._order_of(name)
-        if order is not None:
-            found.roles.setdefault("order", order)
         self._meant.append(
             Meant(name, line, found.roles, "", None, notes=found.notes, is_assembled=True)
         )
-
-    def _order_of(self, name: str) -> Number | None:
-        """The order that another file declares for the method of a cache."""
-        stem = re.sub(r"(?:ConstantCacheActual|ConstantCache|Cache|Tableau)$", "", name)
-        order = self._facts.orders.get(stem)
-        return None if order is None else integer(order)
 
 
 def _other(source: str, line: int, format: str, name: str, kind: str) -> FoundTable:

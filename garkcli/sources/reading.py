@@ -8,7 +8,7 @@ from collections.abc import Callable
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.evaluate import Evaluator
-from garkcli.sources.finder import Facts, TableFinder
+from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, troubled
 
 HINTS = re.compile(
@@ -47,7 +47,7 @@ def tables_in(
     if len(text) > SHORT and not HINTS.search(text):
         return []
     allowance = Allowance()
-    finder = TableFinder(source, format, allowance, Facts())
+    finder = TableFinder(source, format, allowance)
     evaluator = Evaluator(base, allowance, finder, is_growing, has_whole_quotients)
     evaluator.module(lowered(text))
     found = finder.tables()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, Union
 
@@ -12,7 +11,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.root_of import polynomial_in_x
 from garkcli.exact.roots import real_roots
-from garkcli.sources.found import MAX_LENGTH, MAX_STAGES, Unreadable
+from garkcli.sources.found import MAX_LENGTH, Unreadable
 
 SUM, PRODUCT, ATOM = range(3)
 """How tightly the parts of a text hold together."""
@@ -257,19 +256,3 @@ def whole(value: Value) -> int | None:
     text = value.text
     is_short = len(text) < 6
     return int(text) if is_short and text.lstrip("-").isdigit() else None
-
-
-def zeros(sizes: Sequence[int]) -> Value:
-    """A list of zeros, or a matrix of them.
-
-    Raises:
-        Unreadable: it has another shape, or is larger than any table.
-    """
-    is_small = all(0 < size <= MAX_STAGES for size in sizes)
-    if not is_small or len(sizes) not in (1, 2):
-        raise Unreadable("a shape that is not written out")
-    zero: Value = number("0")
-    if len(sizes) == 1:
-        return [zero] * sizes[0]
-    rows, columns = sizes
-    return [[zero] * columns for _ in range(rows)]

@@ -1,8 +1,8 @@
-"""Assignments of MATLAB, Julia and Mathematica, one after the other, by one walk over tokens."""
+"""Assignments of Mathematica, one after the other, by one walk over tokens."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, MutableMapping
 from dataclasses import dataclass
 
 from garkcli.bridges.readers.grammar import Grammar
@@ -37,15 +37,6 @@ class Assigned:
 
 
 @dataclass(frozen=True)
-class Called:
-    """A call of a function that makes a table; the arguments with their names."""
-
-    name: str
-    arguments: tuple[tuple[str, Value], ...]
-    line: int
-
-
-@dataclass(frozen=True)
 class Begun:
     """A function, a branch or a title begins here."""
 
@@ -53,7 +44,7 @@ class Begun:
     line: int
 
 
-Event = Assigned | Called | Begun
+Event = Assigned | Begun
 
 
 class Walk:
@@ -62,7 +53,6 @@ class Walk:
     Args:
         tokens: without comments, with one of kind ``end`` behind them.
         grammar: of the language.
-        wanted: which functions make tables.
         ends: what may stand behind a value.
         begins: the title that a token gives to what follows; empty for most.
         allowance: of the source.
@@ -72,19 +62,16 @@ class Walk:
         self,
         tokens: list[Token],
         grammar: Grammar,
-        wanted: Mapping[str, object],
         ends: frozenset[str],
         begins: Callable[[list[Token], int], str],
         allowance: Allowance,
     ) -> None:
         self._tokens = tokens
-        self._wanted = wanted
         self._ends = ends
         self._begins = begins
         self.names: MutableMapping[str, Value] = {}
         self._allowance = allowance
         self._parser = ValueParser(tokens, grammar, self.names, allowance)
-        self._calls = grammar.calls
 
     def events(self) -> Iterator[Event]:
         """What happens, in order."""
@@ -97,7 +84,6 @@ class Walk:
             if title:
                 yield Begun(title, token.line)
             if token.kind == "name":
-                yield from self._call(place)
                 assigned, place = self._assignment(place)
                 if assigned is not None:
                     yield assigned
@@ -107,23 +93,6 @@ class Walk:
     def _is(self, place: int, *signs: str) -> bool:
         token = self._tokens[min(place, len(self._tokens) - 1)]
         return token.kind == "sign" and token.text in signs
-
-    def _call(self, place: int) -> Iterator[Called]:
-        token = self._tokens[place]
-        if token.text not in self._wanted:
-            return
-        at = place + 1
-        if self._is(at, "{"):
-            # the type of what is made: RungeKuttaMethod{Float64}(…)
-            inside = range(at, min(at + MAX_INDICES, len(self._tokens)))
-            at = next((x + 1 for x in inside if self._is(x, "}")), at)
-        if not self._is(at, *self._calls):
-            return
-        try:
-            found = self._parser.arguments_at(at)
-        except Unreadable:
-            return
-        yield Called(token.text, tuple(found), token.line)
 
     def _assignment(self, place: int) -> tuple[Assigned | None, int]:
         """What is assigned here, if anything is, and where to go on."""

@@ -1,4 +1,4 @@
-"""What functions in sources mean: roots, types that pass a number on, shapes of lists."""
+"""What functions in sources mean: roots, wrappers that pass a number on."""
 
 from __future__ import annotations
 
@@ -35,17 +35,6 @@ def passed_on(name: str, values: Sequence[Value]) -> Value:
     if words:
         return of_text(words[0])
     raise Unreadable(f"{name} of what is no number")
-
-
-def reshaped(values: Sequence[Value]) -> Value:
-    """``reshape(list, rows, columns)``: the list has the columns one after the other."""
-    if len(values) != 3 or not isinstance(values[0], list):
-        raise Unreadable("reshape of what is no list")
-    rows, columns = whole(values[1]), whole(values[2])
-    entries = values[0]
-    if rows is None or columns is None or rows * columns != len(entries):
-        raise Unreadable("a shape that does not fit")
-    return [[entries[j * rows + i] for j in range(columns)] for i in range(rows)]
 
 
 def root_value(kind: str, values: Sequence[Value]) -> Value:

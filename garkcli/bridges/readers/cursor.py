@@ -1,4 +1,4 @@
-"""A place in a list of tokens: what comes next, and whether an item ends there."""
+"""A place in a list of tokens, and what comes next."""
 
 from __future__ import annotations
 
@@ -40,12 +40,10 @@ class Cursor:
         self.allowance = allowance
         self.place = 0
         self._depth = 0
-        self._in_matrix = False
 
     def _begin(self, place: int) -> None:
         self.place = place
         self._depth = 0
-        self._in_matrix = False
 
     @property
     def _next(self) -> Token:
@@ -58,21 +56,6 @@ class Cursor:
     def _skip_lines(self) -> None:
         while self._next.kind == "line":
             self.place += 1
-
-    def _ends_item(self) -> bool:
-        """Whether a new item of a row of a matrix begins here: blanks part them."""
-        token = self._next
-        if not self._in_matrix or not token.is_spaced:
-            return False
-        if token.kind != "sign" or token.text in self._openers:
-            return True
-        behind = self.tokens[self.place + 1]
-        return token.text in "+-" and not behind.is_spaced
-
-    @property
-    def _openers(self) -> frozenset[str]:
-        grammar = self.grammar
-        return frozenset({"(", *grammar.lists, *grammar.matrices})
 
     def _deeper(self) -> None:
         self._depth += 1

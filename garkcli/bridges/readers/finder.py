@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.bridges.readers.assignments import Assigned, Begun, Called, Walk
+from garkcli.bridges.readers.assignments import Assigned, Begun, Walk
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import Scope
@@ -38,9 +38,6 @@ class Finder:
         """A name has a value."""
         raise NotImplementedError
 
-    def called(self, event: Called) -> None:
-        """What makes a tableau is called; only some languages have that."""
-
 
 def tables_of(walk: Walk, finder: Finder) -> list[FoundTable]:
     """The tables of a source, by their lines."""
@@ -50,7 +47,5 @@ def tables_of(walk: Walk, finder: Finder) -> list[FoundTable]:
                 finder.begin(event.title)
             case Assigned():
                 finder.assigned(event)
-            case Called():
-                finder.called(event)
     finder.end()
     return sorted(finder.found, key=lambda x: x.line)

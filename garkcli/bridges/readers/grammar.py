@@ -14,22 +14,16 @@ class Grammar:
 
     Attributes:
         lists: brackets around lists with commas between the items.
-        matrices: brackets around rows with semicolons or line ends, items with blanks between.
         calls: brackets around the arguments of a function.
         roots: names of functions that are roots; in lower letters.
         passed: functions that pass on their last argument: types, roundings, wrappers.
         nothing: names of what is no value.
         is_implicit: whether two factors side by side are a product.
-        has_indices: whether ``A[0]`` is an entry of A.
-        commas_join: whether a comma in a matrix joins blocks, as a blank does.
     """
 
     lists: Mapping[str, str] = field(default_factory=dict)
-    matrices: Mapping[str, str] = field(default_factory=dict)
     calls: Mapping[str, str] = field(default_factory=lambda: {"(": ")"})
     roots: Mapping[str, str] = field(default_factory=lambda: ROOTS)
     passed: frozenset[str] = frozenset()
     nothing: frozenset[str] = frozenset()
     is_implicit: bool = False
-    has_indices: bool = False
-    commas_join: bool = True

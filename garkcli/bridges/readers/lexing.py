@@ -1,4 +1,4 @@
-"""Sources of several languages as tokens: numbers, names, texts and signs with their lines."""
+"""Sources of Mathematica as tokens: numbers, names, texts and signs with their lines."""
 
 from __future__ import annotations
 
@@ -49,24 +49,6 @@ class Language:
     joined: str = r"\\\r?\n"
 
 
-_TEXT = r'"(?:[^"\\\n]|\\.)*+"?+'
-"""A text in quotes; one that is not closed ends with its line, so that it is read only once."""
-C = Language(
-    comments=(r"//[^\n]*", r"/\*[\s\S]*?(?:\*/|\Z)"),
-    texts=(_TEXT, r"'(?:[^'\\\n]|\\.)*+'?+"),
-    suffix=r"(?:[fFlLqQ]|_[A-Za-z]\w*)?(?!\w)",
-)
-MATLAB = Language(
-    comments=(r"(?m:^)[ \t]*%\{[ \t]*\n[\s\S]*?(?:\n[ \t]*%\}|\Z)", r"[%#][^\n]*"),
-    # behind an operand the sign ' transposes
-    texts=(_TEXT, r"(?<![\w)\]}'.])'(?:[^'\n]|'')*+'?+"),
-    joined=r"\.\.\.[^\n]*\n",
-)
-JULIA = Language(
-    comments=(r"#=[\s\S]*?(?:=#|\Z)", r"#[^\n]*"),
-    texts=(r'"""[\s\S]*?(?:"""|\Z)', _TEXT, r"'(?:[^'\\\n]|\\.)'"),
-    names="[^\\W\\d][\\w!\u0302\u0303\u0304]*",
-)
 MATHEMATICA = Language(
     comments=(r"\(\*[\s\S]*?(?:\*\)|\Z)",),
     texts=(r'"(?:[^"\\]|\\[\s\S])*+"?+',),
@@ -104,8 +86,8 @@ def tokens_of(text: str, language: Language) -> list[Token]:
     Raises:
         TooLarge: it has too many.
 
-    >>> [x.text for x in tokens_of("b[2] = {1.0L, .5}; // half", C)][:8]
-    ['b', '[', '2', ']', '=', '{', '1.0', ',']
+    >>> [x.text for x in tokens_of("b = {1.0`20, .5}; (* half *)", MATHEMATICA)][:6]
+    ['b', '=', '{', '1.0', ',', '.5']
     """
     found: list[Token] = []
     line = 1

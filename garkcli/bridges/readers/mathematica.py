@@ -39,7 +39,7 @@ def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Mathematica source."""
     tokens = without(tokens_of(text, MATHEMATICA), "comment")
     allowance = Allowance()
-    walk = Walk(_with_names(_on_their_lines(tokens)), GRAMMAR, {}, _ENDS, _title, allowance)
+    walk = Walk(_with_names(_on_their_lines(tokens)), GRAMMAR, _ENDS, _title, allowance)
     walk.names["x"] = Scalar("x")
     return tables_of(walk, _Finder(source, allowance))
 
