@@ -243,11 +243,12 @@ def _refined(
 
 
 def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
-    """The elementary weights of some trees; None where the changed method has none."""
-    made = missed.restored(method)
-    if made is None:
+    """The elementary weights of some trees, as printed; None where the changed method has none."""
+    try:
+        made = printed(derived(method, missed.which))
+    except ZeroWeight:
         return None
-    return [condition.value for condition in conditions(printed(made), trees)]
+    return [condition.value for condition in conditions(made, trees)]
 
 
 def _with_value(row: Vector, j: int, value: Number) -> Vector:
