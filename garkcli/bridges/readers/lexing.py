@@ -87,7 +87,7 @@ def tokens_of(text: str, language: Language) -> list[Token]:
         TooLarge: it has too many.
 
     >>> [x.text for x in tokens_of("b = {1.0`20, .5}; (* half *)", MATHEMATICA)][:6]
-    ['b', '=', '{', '1.0', ',', '.5']
+    ['b', '=', '{', '1.0', ',', '0.5']
     """
     found: list[Token] = []
     line = 1
