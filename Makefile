@@ -57,8 +57,8 @@ fuzz: $(READY) ## some minutes of fuzzing, see docs/contributing/fuzzing.md
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target files -max_total_time=60
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target numbers -max_total_time=60
 
-readback: $(READY) ## every method of the catalogue exported and imported again, in every format
-	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py
+readback: $(READY) ## every method of the catalogue exported and imported again, in every format, and its certificate judged
+	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py tests/integration/test_referee.py
 
 catalogue: $(READY) ## make the index of the catalogue anew, and the copies in methods/
 	$(BIN)/python -m garkcli.catalogue

@@ -1,22 +1,28 @@
-"""All methods of the catalogue have what their files claim, and the orders that were found
-elsewhere.
+"""All methods of the catalogue have what their files claim, the orders that were found elsewhere,
+and reports that fit a screen.
 """
 
 from __future__ import annotations
 
 import csv
-import json
 import re
+from dataclasses import replace
 from decimal import Decimal
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from garkcli.check.check_file import check_file
+from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import load, loads
+from garkcli.page.paint import Paint
 from garkcli.page.plaintext import ascii_form
+from garkcli.report.check_text import render
+from garkcli.report.checked import REPORT
 from garkcli.tableau.pointwise import numeric_entries
-from tests.cli.harness import gark
+from tests.report.test_told import latex_faults
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "garkcli" / "catalogue" / "data"
@@ -28,13 +34,16 @@ NO_ROW_SUMS = {"rko65", "feagin-12-misprint", "lobatto-iiib-2"}
 """Whose nodes are printed otherwise, so that the order with time is claimed."""
 
 
+@cache
+def outcomes() -> dict[str, Outcome]:
+    """What is found of each file, by its name."""
+    return {name: replace(check_file(str(x)), file=name, name=name) for name, x in FILES.items()}
+
+
 @pytest.fixture(scope="module")
 def judged() -> dict[str, Any]:
-    """What gark check finds of each file, by its name."""
-    run = gark("check", str(DATA), "-j", "2", "--format", "json")
-    assert run.code == 0, run.err
-    files = json.loads(run.out)["files"]
-    return {Path(x["file"]).name.removesuffix(".gark.yaml"): x for x in files}
+    """What gark check says of each file as JSON, by its name."""
+    return {name: REPORT.data(outcome) for name, outcome in outcomes().items()}
 
 
 def test_every_claim_holds(judged: dict[str, Any]) -> None:
@@ -189,3 +198,30 @@ def test_references_say_where_the_digits_are_from() -> None:
         text = file.read_text(encoding="utf-8")
         assert re.search(r"^  title: \S", text, re.MULTILINE), name
         assert re.search(r"^  coefficients: \S", text, re.MULTILINE), name
+
+
+def test_a_method_of_one_colour_fits_a_glance() -> None:
+    """At most 12 lines of at most 80 columns each for such methods of the catalogue, of which the
+    first begins with the order; no colour is named.
+    """
+    count = 0
+    for name, outcome in outcomes().items():
+        assert outcome.analysis is not None
+        text = render([outcome], Paint())
+        lines = text.splitlines()
+        assert max(map(len, lines)) <= 80, name
+        assert lines[0].startswith(f"{name}: order {outcome.analysis.order.order}"), name
+        if outcome.analysis.tableau.size > 1:
+            continue
+        count += 1
+        assert len(lines) <= 12, name
+        assert "{1" not in text, name
+    assert count > 150
+
+
+def test_latex_of_every_method_can_be_set() -> None:
+    """Braces and dollars are balanced in each line, no special sign is raw, and no sign is there
+    that LaTeX lacks.
+    """
+    for name, outcome in outcomes().items():
+        assert list(latex_faults(REPORT.render([outcome], "latex"))) == [], name

@@ -96,15 +96,23 @@ def test_every_method_is_proved(
     ]
 
 
+LONG = {
+    *("mclachlan-atela-3", "mri-gark-erk45a", "sharp-9", "tsitouras-9a", "tsitouras-9b"),
+    *("verner-9", "verner-9-robust"),
+}
+"""Methods of many stages or with a field of a large degree: each takes the referee over a second."""
 CATALOGUE = sorted((Path(garkcli.__file__).parent / "catalogue/data").rglob("*.gark.yaml"))
 
 
 def test_the_catalogue_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The referee accepts the certificate of every exact method of the catalogue. Where a weight
-    is zero it has no pair: nobody can make one from it.
+    is zero it has no pair: nobody can make one from it. Those that take long are proved in ``make
+    readback``.
     """
     seen = set()
     for path in CATALOGUE:
+        if path.name.split(".")[0] in LONG and not os.environ.get("GARK_WHOLE_CATALOGUE"):
+            continue
         method = load(path)
         if method.tolerance is not None:
             continue

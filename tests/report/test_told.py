@@ -29,8 +29,6 @@ from tests.cli.harness import ROOT, gark
 
 DATA = ROOT / "garkcli" / "catalogue" / "data"
 NAMES = {x.name.removesuffix(".gark.yaml"): x for x in sorted(DATA.rglob("*.gark.yaml"))}
-SLOW = {"feagin-14", "feagin-12-misprint"}
-"""Their orders take longer to decide than those of all others."""
 ROUNDED = "tests/examples/valid/rounded.gark.yaml"
 VALID = ROOT / "tests" / "examples" / "valid"
 SAMPLES = [
@@ -38,16 +36,6 @@ SAMPLES = [
     *(ROOT / "methods" / f"{x}.gark.yaml" for x in ("collocation", "ark-ars222", "rectangular")),
     *(VALID / f"{x}.gark.yaml" for x in ("rounded", "embedded-and-dense")),
 ]
-
-
-@cache
-def catalogue() -> dict[str, Outcome]:
-    """What is found of the methods of the catalogue, each under its short name."""
-    found = {}
-    for name, path in NAMES.items():
-        if name not in SLOW:
-            found[name] = replace(check_file(str(path)), file=name, name=name)
-    return found
 
 
 @cache
@@ -71,25 +59,6 @@ def test_the_answer_is_first() -> None:
     assert len(lines) <= 12
     assert lines[0] == "rk4: order 4, proved; order 5 fails at [[[[[]]]]] by -1/120"
     assert gark("check", "rk4", "-v").out.splitlines()[0] == lines[0]
-
-
-def test_a_method_of_one_colour_fits_a_glance() -> None:
-    """At most 12 lines of at most 80 columns each for such methods of the catalogue, of which the
-    first begins with the order; no colour is named.
-    """
-    count = 0
-    for name, outcome in catalogue().items():
-        assert outcome.analysis is not None
-        text = render([outcome], Paint())
-        lines = text.splitlines()
-        assert max(map(len, lines)) <= 80, name
-        assert lines[0].startswith(f"{name}: order {outcome.analysis.order.order}"), name
-        if outcome.analysis.tableau.size > 1:
-            continue
-        count += 1
-        assert len(lines) <= 12, name
-        assert "{1" not in text, name
-    assert count > 150
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda x: x.name.partition(".")[0])
@@ -197,14 +166,6 @@ def test_what_keeps_latex_from_setting_is_found() -> None:
     assert not list(latex_faults(r"a\_b & $x_1^{2}$ \\"))
     for text in ("{", "}{", "$x", "a_b", "50%", "x^2", "a & b & c", "𝟙", "$Â$"):
         assert list(latex_faults(text)), text
-
-
-def test_latex_of_every_method_can_be_set() -> None:
-    """Braces and dollars are balanced in each line, no special sign is raw, and no sign is there
-    that LaTeX lacks.
-    """
-    for name, outcome in catalogue().items():
-        assert list(latex_faults(REPORT.render([outcome], "latex"))) == [], name
 
 
 @dataclass(frozen=True)
