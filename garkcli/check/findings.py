@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from hashlib import sha256
-from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -279,6 +277,8 @@ KINDS = {
 
 def findings(outcome: Outcome) -> Iterator[Finding]:
     """All findings of one file, kind by kind in file order."""
+    from pathlib import PurePath
+
     file = PurePath(outcome.file).as_posix()
     for rule, kind in KINDS.items():
         for part in kind.find(outcome):
@@ -290,4 +290,6 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
 
 def fingerprint(key: str) -> str:
     """A short text that is the same for the same key, and for no other."""
+    from hashlib import sha256
+
     return sha256(key.encode("utf-8", "surrogatepass")).hexdigest()[:32]

@@ -8,7 +8,6 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -198,6 +197,8 @@ def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | No
         UsageProblem: its suffix is none of those.
     """
     if path is not None:
+        from pathlib import Path
+
         from garkcli.plots.saving import check_suffix
 
         check_suffix(Path(path))

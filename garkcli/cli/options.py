@@ -10,7 +10,6 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial
 from importlib import import_module
-from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -440,6 +439,8 @@ class Output:
 
     def save_plot(self, scene: Scene, path: str) -> None:
         """Draw the scene into a file, and say so."""
+        from pathlib import Path
+
         from garkcli.plots.saving import save_scene
 
         save_scene(scene, Path(path))
