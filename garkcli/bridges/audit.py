@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
@@ -33,7 +32,6 @@ CARELESS = 1_000
 _BY_DIGITS = frozenset({"order", "weights", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is looked for."""
-_SHAPE = re.compile(r"[0-9]+ (?:numbers|entries|rows) for|rows of|takes|has")
 
 
 @dataclass(frozen=True)
@@ -196,7 +194,7 @@ def _is_explained(code: str, subject: Subject) -> bool:
 
 
 def _of_trouble(table: FoundTable) -> AuditFinding:
-    if _SHAPE.search(table.trouble):
+    if table.is_misshapen:
         return AuditFinding("shape", table.trouble)
     return AuditFinding("unread", table.trouble, level="note")
 

@@ -35,10 +35,16 @@ class Audit(NamedTuple):
 
     @property
     def wrong(self) -> list[tuple[Audited, list[AuditFinding]]]:
-        """The tables with findings, and these."""
-        least = ("error",) if self.errors_alone else ("error", "warning", "note")
-        found = ((x, [y for y in x.findings if y.level in least]) for x in self.tables)
-        return [(x, findings) for x, findings in found if findings]
+        """The tables with errors or doubts, and what is found of them."""
+        if self.errors_alone:
+            found = ((x, [y for y in x.findings if y.level == "error"]) for x in self.tables)
+            return [(x, findings) for x, findings in found if findings]
+        return [(x, list(x.findings)) for x in self.tables if _is_doubtful(x)]
+
+
+def _is_doubtful(found: Audited) -> bool:
+    """Whether it is more than notes."""
+    return any(x.level != "note" for x in found.findings)
 
 
 def _title(found: Audited, d: Plain) -> str:
@@ -71,12 +77,18 @@ def _answer(x: Audit, _: Plain) -> str:
         result = f"{wrong} wrong" if wrong else "none wrong"
         told = f"{counted(len(judged), 'table')}{where}, {result}"
     texts = [told]
+    noted = sum(bool(x.findings) and not _is_doubtful(x) for x in judged)
+    if noted:
+        texts.append(f"{noted} with notes alone")
     if others:
-        texts.append(f"{others} of other methods are not judged")
+        verb = "is" if others == 1 else "are"
+        texts.append(f"{others} of other methods {verb} not judged")
     if unread:
         verbs = "looks like a table and was" if unread == 1 else "look like tables and were"
         more = f"{unread} more" if judged else str(unread)
         texts.append(f"{more} {verbs} not read: -v lists them, --strict fails on them")
+    elif noted or others:
+        texts[-1] += ": -v lists them"
     return "; ".join(texts)
 
 

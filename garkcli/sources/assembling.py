@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from garkcli.sources.blocks import assembled, table_of_blocks
-from garkcli.sources.found import MAX_STAGES, FoundTable, Row, Rows, Unreadable, troubled
+from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
 from garkcli.sources.scalars import Value as Plain
 from garkcli.sources.scalars import rows_of
@@ -109,14 +109,14 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
     )
     if signature and signature.counts and meant.arguments not in signature.counts:
         counts = " or ".join(map(str, signature.counts))
-        return troubled(empty, f"{meant.maker} takes {counts} arguments")
+        return troubled(empty, f"{meant.maker} takes {counts} arguments", is_misshapen=True)
     if not signature and not meant.is_sure:
         _refuse_uses(roles)
     try:
         return _built(meant, roles, empty)
     except Unreadable as error:
         if meant.is_sure or meant.is_assembled:
-            return troubled(empty, error.message)
+            return troubled(empty, error.message, isinstance(error, Misshapen))
         if _is_unread(roles):
             return troubled(replace(empty, is_sure=True), error.message)
         trouble = f"arrays called A and b do not fit together: {error.message}"
@@ -230,7 +230,7 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         stages = whole(roles.get("stages")) or 0
     b = _weights_of(roles, meant, stages)
     if stages and len(b) != stages:
-        raise Unreadable(f"n_stages is {stages}, B has {len(b)}")
+        raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
     A = square(plain(_with_rows(roles.get("A"))), len(b))
     c = _nodes(roles, len(b))
     A, b, c, embedded = _embedded(roles, A, b, c, meant)
@@ -273,7 +273,7 @@ def _nodes(roles: Roles, stages: int) -> Row | None:
         # c2 … cs, as some codes have it
         return ("0", *row)
     if len(row) != stages:
-        raise Unreadable(f"{len(row)} nodes for {stages} stages")
+        raise Misshapen(f"{len(row)} nodes for {stages} stages")
     return row
 
 
@@ -309,7 +309,7 @@ def _embedded(
             b = (*b, "0")
     if len(row) != len(b):
         if meant.is_sure:
-            raise Unreadable(f"{role} has {len(row)} entries, b has {len(b)}")
+            raise Misshapen(f"{role} has {len(row)} entries, b has {len(b)}")
         return none
     if is_error and all(map(is_zero, row)):
         return A, b, c, None

@@ -27,6 +27,10 @@ class Unreadable(GarkError):
     """What stands at a place in a source is no value that a reader knows."""
 
 
+class Misshapen(Unreadable):
+    """Numbers that are written out, and are too many or too few for a method."""
+
+
 class TooLarge(GarkError):
     """A source is too large, or becomes it where its names are written out.
 
@@ -64,6 +68,7 @@ class FoundTable:
         is_sure: whether the source says that this is a method; otherwise names alone do.
         notes: what people should know of how it was read.
         trouble: what is wrong with the table itself; then it has no coefficients to judge.
+        is_misshapen: whether the trouble is that it has too many or too few numbers.
         kind: of another method, such as Rosenbrock; empty for Runge–Kutta.
         is_assembled: whether it was put together from single numbers, by their names.
     """
@@ -87,6 +92,7 @@ class FoundTable:
     is_sure: bool = True
     notes: tuple[str, ...] = ()
     trouble: str = ""
+    is_misshapen: bool = False
     kind: str = ""
     is_assembled: bool = False
 
@@ -128,7 +134,7 @@ class Reader:
     find: Find
 
 
-def troubled(table: FoundTable, trouble: str) -> FoundTable:
+def troubled(table: FoundTable, trouble: str, is_misshapen: bool = False) -> FoundTable:
     """A place where a table is meant to be, and why it is none."""
     empty: Rows = ()
     return FoundTable(
@@ -142,6 +148,7 @@ def troubled(table: FoundTable, trouble: str) -> FoundTable:
         order=table.order,
         embedded_order=table.embedded_order,
         trouble=trouble,
+        is_misshapen=is_misshapen,
     )
 
 

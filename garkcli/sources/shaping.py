@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from garkcli.sources.found import MAX_STAGES, FoundTable, Row, Rows, Unreadable
+from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable
 from garkcli.sources.scalars import Value, combined, is_row, number, row_of
 
 ZERO = "0"
@@ -31,7 +31,7 @@ def weights(value: Value, stages: int = 0) -> Row:
     if len(row) > MAX_STAGES:
         raise Unreadable(f"more than {MAX_STAGES} stages")
     if stages and len(row) > stages:
-        raise Unreadable(f"{len(row)} numbers for {stages} stages")
+        raise Misshapen(f"{len(row)} numbers for {stages} stages")
     missing = stages - len(row)
     return row + (ZERO,) * missing
 
@@ -61,7 +61,7 @@ def square(value: Value, stages: int) -> Rows:
     if not isinstance(value, list):
         raise Unreadable("a matrix is expected")
     if len(value) > stages:
-        raise Unreadable(f"{len(value)} rows for {stages} stages")
+        raise Misshapen(f"{len(value)} rows for {stages} stages")
     rows = [_row(row) for row in value]
     return _padded(rows, stages)
 
@@ -75,7 +75,7 @@ def _row(value: Value) -> Row:
 def _padded(rows: Sequence[Row], stages: int) -> Rows:
     lengths = [len(row) for row in rows]
     if max(lengths, default=0) > stages:
-        raise Unreadable(f"rows of {max(lengths)} for {stages} stages")
+        raise Misshapen(f"rows of {max(lengths)} for {stages} stages")
     is_from_the_second = lengths == [*range(1, stages)]
     full = list(rows)
     if is_from_the_second:
@@ -94,7 +94,7 @@ def _of_flat(entries: Row, stages: int) -> Rows:
     elif count == stages * (stages - 1) // 2:
         lengths = [*range(stages)]
     else:
-        raise Unreadable(f"{count} entries for {stages} stages")
+        raise Misshapen(f"{count} entries for {stages} stages")
     rows = []
     start = 0
     for length in lengths:
@@ -123,7 +123,7 @@ def total(row: Row, error: Row) -> Row:
 
 def _entrywise(sign: str, row: Row, error: Row) -> Row:
     if len(row) != len(error):
-        raise Unreadable(f"{len(error)} numbers for {len(row)} stages")
+        raise Misshapen(f"{len(error)} numbers for {len(row)} stages")
     found: list[Value] = []
     for x, y in zip(row, error, strict=True):
         left, right = _in_parentheses(x), _in_parentheses(y)

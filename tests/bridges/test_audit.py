@@ -11,6 +11,7 @@ import jsonschema
 import pytest
 
 from garkcli.report.schemas import report_schema
+from garkcli.sources import evaluate
 from tests.cli.harness import gark
 
 SOURCES = Path(__file__).parent / "sources"
@@ -275,6 +276,31 @@ def test_a_table_that_cannot_be_read_is_counted(tmp_path: Path) -> None:
     summary = audit(tmp_path)["summary"]
     assert isinstance(summary, dict)
     assert (summary["wrong"], summary["unread"]) == (0, 1)
+
+
+def test_what_needs_no_hand_is_counted_and_listed_on_demand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A table of another method, and a function that takes too much work: neither is an error; the
+    first line counts them, ``-v`` lists them.
+    """
+    shutil.copy(SOURCES / "ralston.c", tmp_path)
+    (tmp_path / "ros.c").write_text(
+        "void f(void) {\nconst double A[2][2] = {{0, 0}, {1, 0}}, G[2][2] = {{1, 0}, {-1, 1}};\n"
+        'const double b[2] = {0.5, 0.5};\nTSRosWRegister("two", 2, 2, &A[0][0], &G[0][0], b, 0, 0, 0);'
+        "\n}\n",
+        encoding="utf-8",
+    )
+    told = " ".join(gark("audit", ".", cwd=tmp_path).out.split())
+    assert told.endswith("none wrong; 1 of other methods is not judged: -v lists them")
+    assert "ros.c:" in gark("audit", ".", "-v", cwd=tmp_path).out
+    monkeypatch.setattr(evaluate, "MAX_STEPS", 5)
+    run = gark("audit", "ralston.c", "--format", "json", cwd=tmp_path)
+    assert run.code == 2
+    found = [x for table in json.loads(run.out)["tables"] for x in table["findings"]]
+    assert {(x["code"], x["level"], x["message"]) for x in found} == {
+        ("unread", "note", "it takes too much work to read")
+    }
 
 
 def test_an_order_that_is_higher_is_a_warning(tmp_path: Path) -> None:

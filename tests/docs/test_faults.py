@@ -37,7 +37,7 @@ OF_THE_COMMAND_LINE = {
 NO_MESSAGES = {
     *("MethodFileError", "HasFreeParameters"),  # have faults, with messages
     "StepFailed",  # makes its message of what it is given
-    *("Unreadable", "TooLarge"),  # are caught where they are made
+    *("Unreadable", "Misshapen", "TooLarge"),  # are caught where they are made
 }
 
 
