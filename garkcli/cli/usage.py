@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Iterable
 
 import click
@@ -65,12 +66,24 @@ def usage_text(error: click.ClickException) -> str:
     lines = []
     if context is not None:
         lines = [context.get_usage(), f"Try '{context.command_path} --help' for help.", ""]
-    return "\n".join([*lines, f"Error: {message}"])
+    return "\n".join([*lines, _to_the_terminal(f"Error: {message}")])
+
+
+def _to_the_terminal(text: str) -> str:
+    """A text in lines as long as those of the terminal; one line for programs."""
+    if sys.stderr is None or not sys.stderr.isatty():  # None where it is closed
+        return text
+    from shutil import get_terminal_size
+    from textwrap import fill
+
+    width = get_terminal_size().columns
+    return fill(text, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
 
 
 def _message(error: click.ClickException, context: click.Context | None) -> str:
     message = error.format_message()
-    options = [] if context is None else [x for p in context.command.params for x in p.opts]
+    parameters = [] if context is None else context.command.params
+    options = [x for p in parameters if isinstance(p, click.Option) for x in p.opts]
     if isinstance(error, click.NoSuchOption):
         return _no_such_option(error.option_name, options)
     if isinstance(error, click.MissingParameter):

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import pytest
 
 from garkcli.cli.main import COMMANDS
 from garkcli.cli.usage import MEANT
-from tests.cli.harness import gark
+from tests.cli.harness import ROOT, gark
 
 
 @pytest.mark.parametrize(
@@ -39,3 +43,26 @@ def test_words_that_are_meant_are_commands() -> None:
     """None is a command itself, and what each stands for is one."""
     assert not MEANT.keys() & COMMANDS.keys()
     assert {*MEANT.values()} <= COMMANDS.keys()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="there are no pseudo-terminals")
+@pytest.mark.parametrize("arguments", [["convert", "rk4", "--to", "tableau"], ["new", "--zzz"]])
+def test_a_mistake_fits_the_terminal(arguments: list[str]) -> None:
+    """Its lines are as long as those of the terminal, with the same words that a pipe gets in one
+    line; arguments are no options.
+    """
+    import pty
+
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "garkcli", *arguments]
+    environment = {**os.environ, "COLUMNS": "60"}
+    subprocess.run(command, stderr=theirs, env=environment, cwd=ROOT, check=False)
+    os.close(theirs)
+    shown = os.read(ours, 10_000).decode().splitlines()
+    os.close(ours)
+    assert max(map(len, shown[2:])) <= 60
+    piped = subprocess.run(
+        command, stderr=subprocess.PIPE, env=environment, cwd=ROOT, text=True, check=False
+    ).stderr
+    assert " ".join(" ".join(shown).split()) == " ".join(piped.split())
+    assert "one of: file" not in piped
