@@ -28,10 +28,10 @@ class NoSuchMethod(GarkError, KeyError):
 
 
 class Catalogue(ModuleType):
-    """Published methods by their names; each is read when it is asked for.
+    """Published methods by their names; each is read on first use.
 
     Its keys are the names, those of folders in ``GARK_PATH`` first; aliases are looked up too, as
-    on the command line. A method that is asked for twice is read twice.
+    on the command line. Each look-up reads the file again.
 
     >>> import garkcli
     >>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue

@@ -211,7 +211,7 @@ KEYS = {
     ),
     "format": _Key(
         '"github"',
-        "The format of gark check where none is asked for.",
+        "The format of gark check without --format.",
         "a format of gark check",
         _is_format,
     ),

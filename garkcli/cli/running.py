@@ -295,9 +295,9 @@ def hint_rounding(method: GarkMethod, result: Convergence, output: Output, where
 def energy(given: Given, output: Output) -> int:
     """The energy error over a long time, and that of every other invariant: does it drift?
 
-    A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of
-    the oscillator is linear: there the energy error has no rounding, and whether it is bounded for
-    all time is decided exactly. The other problems are stepped in floats with compensated
+    A fit separates the drift from the oscillation around it and gives its uncertainty. The step map
+    of the oscillator is linear: there the energy error has no rounding, and whether it is bounded
+    for all time is decided exactly. The other problems are stepped in floats with compensated
     summation, or with --digits. The method of FILE steps as it is given, its symplectic pair with
     --pair.
 

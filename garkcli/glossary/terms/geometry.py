@@ -81,8 +81,8 @@ TERMS = (
     ),
     Term(
         "drift",
-        "The part of an error of the energy that grows steadily. It is told from the oscillation by"
-        " a fit in a smooth window, and a drift is claimed where it exceeds its uncertainty.",
+        "The part of an error of the energy that grows steadily. A fit in a smooth window separates"
+        " it from the oscillation; gark claims a drift where it exceeds its uncertainty.",
         "",
         "this project, docs/energy.md",
         ("DRIFTS", "verdict", "over"),
