@@ -71,8 +71,8 @@ class Forest:
     trees: tuple[Tree, ...]
     cuts: tuple[tuple[Cut, ...], ...]
     # by root and the numbers of the branches
-    _numbers: dict[tuple[int, tuple[int, ...]], int] = field(repr=False, compare=False)
-    _starts: tuple[int, ...] = field(repr=False, compare=False)
+    _numbers: dict[tuple[int, tuple[int, ...]], int]
+    _starts: tuple[int, ...]
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> Forest:

@@ -101,7 +101,7 @@ class Question:
     """
 
     ask: Callable[[Tableau], Any]
-    _none: tuple[type[Exception], ...] = field(default=(GarkError, ZeroDivisionError), repr=False)
+    _none: tuple[type[Exception], ...] = (GarkError, ZeroDivisionError)
 
     def at(self, tableau: Tableau) -> Any:
         """The answer; None where it has no meaning."""

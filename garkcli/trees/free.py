@@ -210,7 +210,10 @@ class Grower:
     """
 
     structure: Structure
-    _planted: dict[_Kind, Forest] = field(default_factory=dict, repr=False, compare=False)
+
+    @cached_property
+    def _planted(self) -> dict[_Kind, Forest]:
+        return {}
 
     def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
         """The free trees with one centroid, rooted there, in the order of trees."""

@@ -316,10 +316,15 @@ class TreeTable:
     # [order - 1][root]: the first id; one more entry for the end
     starts: tuple[tuple[int, ...], ...]
     segments: tuple[Segment, ...]
-    _texts: dict[bool, Texts] = field(default_factory=dict, repr=False, compare=False)
 
-    # those that are branches of trees asked for, up to MOST_KEPT
-    _branches: dict[int, Tree] = field(default_factory=dict, repr=False, compare=False)
+    @cached_property
+    def _texts(self) -> dict[bool, Texts]:
+        return {}
+
+    @cached_property
+    def _branches(self) -> dict[int, Tree]:
+        """Those that are branches of trees asked for, up to MOST_KEPT."""
+        return {}
 
     @classmethod
     def upto(

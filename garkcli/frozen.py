@@ -1,0 +1,39 @@
+"""What the values of gark are made of: named fields, by which they are compared and shown.
+
+msgspec makes these classes in C. A dataclass compiles the code of its methods when it is imported,
+which takes thirty times as long; a command starts with a hundred such classes.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar, dataclass_transform
+
+from msgspec import Struct, field
+from msgspec.structs import fields, replace
+
+__all__ = ["Frozen", "FrozenBut", "Mutable", "field", "fields", "replace"]
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
+class Frozen(Struct, frozen=True, dict=True):
+    """A value that does not change; it may keep what it has computed (``cached_property``)."""
+
+
+class FrozenBut(Frozen, eq=False):
+    """A value whose fields :attr:`besides` do not count when two are compared."""
+
+    besides: ClassVar[frozenset[str]]
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and self._counted() == other._counted()
+
+    def __hash__(self) -> int:
+        return hash(self._counted())
+
+    def _counted(self) -> tuple[object, ...]:
+        names = self.__struct_fields__
+        return tuple(getattr(self, name) for name in names if name not in self.besides)
+
+
+class Mutable(Struct, dict=True):
+    """A value that changes."""
