@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from typing import Protocol, TypeVar
+
+from garkcli.frozen import Mutable
 
 T = TypeVar("T")
 
@@ -36,8 +37,7 @@ class Listener(Protocol):
         ...
 
 
-@dataclass(eq=False)
-class Work:
+class Work(Mutable, eq=False):
     """One thing that is being done.
 
     Attributes:

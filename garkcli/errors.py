@@ -22,8 +22,9 @@ GarkError                     what is wrong, and the cure
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+from garkcli.frozen import Frozen
 
 UNKNOWN = "fault"
 """The code of an error that does not say of which kind it is."""
@@ -171,8 +172,7 @@ class UsageProblem(GarkError):
     """The options of a command do not fit the method or each other."""
 
 
-@dataclass(frozen=True)
-class Fault:
+class Fault(Frozen):
     """One fault of a method or problem file.
 
     Attributes:

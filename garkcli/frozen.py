@@ -9,9 +9,14 @@ from __future__ import annotations
 from typing import ClassVar, dataclass_transform
 
 from msgspec import Struct, field
-from msgspec.structs import fields, replace
+from msgspec.structs import force_setattr, replace
 
-__all__ = ["Frozen", "FrozenBut", "Mutable", "field", "fields", "replace"]
+__all__ = ["Frozen", "FrozenBut", "Mutable", "field", "fields", "force_setattr", "replace"]
+
+
+def fields(value: Struct | type[Struct]) -> tuple[str, ...]:
+    """The names of its fields."""
+    return value.__struct_fields__
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
@@ -27,12 +32,14 @@ class FrozenBut(Frozen, eq=False):
     def __eq__(self, other: object) -> bool:
         return type(self) is type(other) and self._counted() == other._counted()
 
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
     def __hash__(self) -> int:
         return hash(self._counted())
 
     def _counted(self) -> tuple[object, ...]:
-        names = self.__struct_fields__
-        return tuple(getattr(self, name) for name in names if name not in self.besides)
+        return tuple(getattr(self, name) for name in fields(self) if name not in self.besides)
 
 
 class Mutable(Struct, dict=True):

@@ -117,9 +117,8 @@ class GarkFile(pytest.File):
     @cached_property
     def outcome(self) -> Outcome:
         """What ``gark check`` finds."""
-        from dataclasses import replace
-
         from garkcli.check.check_file import check_file
+        from garkcli.frozen import replace
 
         outcome = check_file(str(self.path))
         needs_claims: bool = self.config.getini("gark_require_claims")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol
+
+from garkcli.frozen import Frozen
 
 
 class Value(Protocol):
@@ -14,8 +15,7 @@ class Value(Protocol):
         """The value in the signs of a dialect."""
 
 
-@dataclass(frozen=True)
-class Place:
+class Place(Frozen):
     """An entry of a block or of a row, or the whole of it.
 
     Attributes:
@@ -41,8 +41,7 @@ class Place:
         return str(dialect.place(self))
 
 
-@dataclass(frozen=True)
-class Formula:
+class Formula(Frozen):
     """An expression as method files write it, or with its LaTeX where it is none."""
 
     text: str
@@ -57,8 +56,7 @@ class Formula:
         return str(dialect.expression(self.text, (lambda: latex) if latex else None))
 
 
-@dataclass(frozen=True)
-class Code:
+class Code(Frozen):
     """What is quoted, such as a tree."""
 
     text: str

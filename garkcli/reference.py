@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from garkcli.frozen import Frozen
 
 WORKS = ("article", "book", "chapter", "report", "software", "thesis", "web")
 """What ``type`` says of a publication."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Reference:
+class Reference(Frozen, kw_only=True):
     """A publication, in the words of the method file.
 
     Attributes:

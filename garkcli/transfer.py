@@ -9,7 +9,6 @@ s_m).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import TypeAlias
 
@@ -18,6 +17,7 @@ from flint import fmpq
 from garkcli.errors import BlockTooLarge, counted
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, add, multiply, scale, transpose
+from garkcli.frozen import Frozen
 from garkcli.tableau.conjugate import conjugate_block
 from garkcli.tableau.polynomial_space import antiderivative
 from garkcli.tableau.stages import PointSpace
@@ -91,8 +91,7 @@ def conjugate_rule(rule: Rule) -> Rule:
     return conjugated
 
 
-@dataclass(frozen=True)
-class _Entry:
+class _Entry(Frozen):
     """A rule of the method file.
 
     Attributes:

@@ -11,7 +11,6 @@ writes ``rectangular.png`` beside this file, or FILE; ``make figures`` does the 
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 from flint import fmpq
@@ -19,6 +18,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from garkcli import converge, load, long_run
+from garkcli.frozen import replace
 from garkcli.longtime.history import LongRun
 from garkcli.plots.energy import history_panel
 from garkcli.plots.figure import draw

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from numbers import Integral
 from typing import Any, TypeAlias
 
@@ -15,6 +14,7 @@ from garkcli.api.methods import conjugate, find_order, pair
 from garkcli.check.claims import agrees
 from garkcli.check.findings import repair_text, witness_text
 from garkcli.errors import MethodError, ZeroWeight
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
@@ -111,8 +111,7 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
     return orders
 
 
-@dataclass(frozen=True)
-class _Part:
+class _Part(Frozen):
     """What an order may be asked of.
 
     Attributes:

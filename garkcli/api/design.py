@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from garkcli.api.files import load_family, loads
@@ -24,6 +23,7 @@ from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.exact.polynomial_text import root_decimal, root_text
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.tableau.family import Family
@@ -257,8 +257,7 @@ def found_methods(
     return [loads(file.text, read.source) for file in found_files(found, read)]
 
 
-@dataclass(frozen=True)
-class Found:
+class Found(Frozen):
     """A method that was found, with what its file says of it.
 
     Attributes:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, rational_or_none, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for
@@ -11,6 +9,7 @@ from garkcli.backward import energy, formulas, summary
 from garkcli.backward.energy import ModifiedRun
 from garkcli.backward.formulas import ModifiedFormula
 from garkcli.backward.summary import BackwardAnalysis
+from garkcli.frozen import replace
 
 
 def backward_analysis(

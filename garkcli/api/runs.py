@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from flint import arb, fmpq
@@ -15,6 +14,7 @@ from garkcli.api.problems import AnyProblem, hamiltonian_for, problem_for, to_st
 from garkcli.convergence import convergence
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError, counted
+from garkcli.frozen import replace
 from garkcli.longtime import longtime, symplecticity
 from garkcli.longtime.history import SERIES, LongRun, State, whole_run
 from garkcli.longtime.symplecticity import Defect

@@ -21,7 +21,6 @@ Numer. Math. 22 (1996) 103.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import lcm
 
 from flint import fmpq, fmpq_mat, fmpz_mat
@@ -30,6 +29,7 @@ from garkcli.backward.modified import ModifiedEquation
 from garkcli.backward.series import Forest, transported
 from garkcli.exact.field import ZERO, Number, NumberField, coordinates
 from garkcli.exact.span import leading_columns
+from garkcli.frozen import Frozen
 
 MAX_ENTRIES = 5_000_000
 """The largest linear system that is looked at, rows times columns."""
@@ -37,8 +37,7 @@ MAX_SOLVED = 1_000_000
 """The largest that is solved; of larger ones it is decided whether there is a solution."""
 
 
-@dataclass(frozen=True)
-class EffectiveOrder:
+class EffectiveOrder(Frozen):
     """The effective order of a method.
 
     Attributes:

@@ -12,7 +12,6 @@ IX.8.1.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import accumulate
 from math import log10
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -24,6 +23,7 @@ from garkcli.convergence.ladder import has_settled
 from garkcli.convergence.result import CLOSE, Row, observed_order, slope_between
 from garkcli.doing import counting
 from garkcli.errors import UsageProblem
+from garkcli.frozen import Frozen, Mutable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import is_constant, symbols
@@ -47,8 +47,7 @@ _SPARE = 15  # digits of the smallest error
 _LOST = 4  # digits that steps and formulas lose, besides those of their number
 
 
-@dataclass
-class Meter:
+class Meter(Mutable):
     """Steps, and measures every truncation of the modified Hamiltonian at once.
 
     Attributes:
@@ -153,8 +152,7 @@ Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
 _BEYOND = 3  # further orders in which the next power of h is looked for
 
 
-@dataclass(frozen=True)
-class ModifiedEnergy:
+class ModifiedEnergy(Frozen):
     """The error of the modified Hamiltonian up to some power of h.
 
     Attributes:
@@ -191,8 +189,7 @@ class ModifiedEnergy:
         return f"<ModifiedEnergy h^{self.power}: {self.verdict}>"
 
 
-@dataclass(frozen=True)
-class ModifiedRun(Shown):
+class ModifiedRun(Shown, Frozen):
     """Energy errors in H and in its modifications.
 
     Attributes:

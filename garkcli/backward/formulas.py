@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from math import comb, prod
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -12,6 +11,7 @@ from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
+from garkcli.frozen import Frozen, replace
 from garkcli.order.conditions import elementary_weight
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -109,8 +109,7 @@ class Differentials:
         return self._derivatives[key]
 
 
-@dataclass(frozen=True)
-class VisibleTrees:
+class VisibleTrees(Frozen):
     """A tableau whose trees are those that a problem sees, at least.
 
     Attributes:
@@ -179,8 +178,7 @@ MAX_SUMMANDS = 100_000
 """The most summands of a formula that is multiplied out, before like ones are collected."""
 
 
-@dataclass(frozen=True)
-class PowerTerm:
+class PowerTerm(Frozen):
     """What multiplies a power of h.
 
     Attributes:
@@ -192,8 +190,7 @@ class PowerTerm:
     formulas: FormulaVector
 
 
-@dataclass(frozen=True)
-class ModifiedFormula(Shown):
+class ModifiedFormula(Shown, Frozen):
     """The modified Hamiltonian or the right-hand side of the modified equation.
 
     Attributes:

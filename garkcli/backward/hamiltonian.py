@@ -10,11 +10,11 @@ if b(θ) = ± b(u) for all rootings θ of T with the sign of their distance, b(u
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import Frozen
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.free import Structure
@@ -22,8 +22,7 @@ from garkcli.trees.symplectic import ConditionClass, independent_classes, superf
 from garkcli.trees.tree import Tree
 
 
-@dataclass(frozen=True)
-class FreeTree:
+class FreeTree(Frozen):
     """A free tree, by its rooting at the centroid.
 
     Attributes:
@@ -118,8 +117,7 @@ def hamiltonian_structure(tableau: Tableau) -> Structure | None:
     return structure
 
 
-@dataclass(frozen=True)
-class HamiltonianTerm:
+class HamiltonianTerm(Frozen):
     """One term c · H(u) of h^(ρ−1) in the modified Hamiltonian.
 
     Attributes:

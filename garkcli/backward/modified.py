@@ -11,17 +11,16 @@ exactly where it has order p.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from garkcli.backward.series import Forest, elementary_weights, logarithm
 from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.frozen import Frozen
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 
 
-@dataclass(frozen=True)
-class ModifiedEquation:
+class ModifiedEquation(Frozen):
     """The coefficients b(u) of a method up to an order.
 
     Attributes:

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from math import factorial
 from typing import TypeAlias
 
@@ -29,6 +28,7 @@ from flint import fmpq
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
@@ -38,8 +38,7 @@ MAX_TREES = 40_000
 """The most trees that are held at once, all orders together."""
 
 
-@dataclass(frozen=True)
-class Cut:
+class Cut(Frozen):
     """An edge of a tree: what stays on the root, what hangs below the edge, and how many edges of
     the tree are alike.
     """
@@ -49,8 +48,7 @@ class Cut:
     times: int
 
 
-@dataclass(frozen=True)
-class Forest:
+class Forest(Frozen):
     """The admissible trees of a coupling graph up to an order, in the order of :class:`Tree`.
 
     Attributes:
@@ -140,8 +138,7 @@ class Forest:
         yield from self._numbers
 
 
-@dataclass
-class _Cutter:
+class _Cutter(Mutable):
     """Finds the edges of trees, smaller trees first."""
 
     roots: list[int]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from garkcli.backward.effective import effective_order
@@ -15,6 +14,7 @@ from garkcli.backward.hamiltonian import (
 )
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
+from garkcli.frozen import Frozen
 from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import is_symplectic
 from garkcli.tableau.tableau import Tableau
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from garkcli.trees.free import Structure
 
 
-@dataclass(frozen=True)
-class Reached:
+class Reached(Frozen):
     """An order that was found.
 
     Attributes:
@@ -39,8 +38,7 @@ class Reached:
     is_lower_bound: bool = False
 
 
-@dataclass(frozen=True)
-class BackwardAnalysis(Shown):
+class BackwardAnalysis(Shown, Frozen):
     """The modified equation of a method and the orders that it tells.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.importing import orders_of, read
@@ -16,6 +15,7 @@ from garkcli.check.findings import repair_text, witness_text
 from garkcli.doing import doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.rounded import find_order_within
 from garkcli.order.tolerance import within
@@ -34,8 +34,7 @@ MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is looked for."""
 
 
-@dataclass(frozen=True)
-class AuditFinding:
+class AuditFinding(Frozen):
     """What is wrong with a table.
 
     Attributes:
@@ -69,8 +68,7 @@ CODES = {
 """Every kind of finding."""
 
 
-@dataclass(frozen=True, eq=False)
-class Audited:
+class Audited(Frozen, eq=False):
     """One table with what is true of it.
 
     Attributes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from garkcli.bridges.importing import Imported, imported
@@ -14,6 +13,7 @@ from garkcli.bridges.recognising import Proposal, Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME, source_text
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
+from garkcli.frozen import Frozen, replace
 from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Reader
 
@@ -21,8 +21,7 @@ SUFFIX = ".gark.yaml"
 _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
-@dataclass(frozen=True, eq=False)
-class Result:
+class Result(Frozen, eq=False):
     """What became of one table.
 
     Attributes:

@@ -6,11 +6,11 @@ What a text from a file could end or begin in a language is written apart: ``*/`
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from textwrap import wrap
 
 from garkcli.bridges.payload import Payload
 from garkcli.errors import counted, printable
+from garkcli.frozen import Frozen
 from garkcli.page.plaintext import plain_line
 
 WIDTH = 76
@@ -19,8 +19,7 @@ _DANGEROUS = ("*/", "/*", "*)", "(*", "??", "]]", "%}", "%{", "=#", "#=")
 """What ends or begins a comment in one of the languages, or is a trigraph of C."""
 
 
-@dataclass(frozen=True)
-class Comment:
+class Comment(Frozen):
     """How a language marks comments.
 
     Attributes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 from flint import fmpq
@@ -15,6 +14,7 @@ from garkcli.exact.display import decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Literal
+from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import quoted
@@ -30,8 +30,7 @@ _TAIL = re.compile(r"(?<=[0-9.])0{6,}(?![0-9])")
 _INTEGER = re.compile(r"-?(?:0|[1-9][0-9]*)")
 
 
-@dataclass(frozen=True, eq=False)
-class Imported:
+class Imported(Frozen, eq=False):
     """A method out of a source.
 
     Attributes:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import cached_property
 
 from flint import arb, fmpq
 
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.printed import approximant_units
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
@@ -17,8 +17,7 @@ from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True, eq=False)
-class Judged:
+class Judged(Frozen, eq=False):
     """What was found of an order.
 
     Attributes:

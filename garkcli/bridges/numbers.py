@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from flint import fmpq
 
 from garkcli.bridges.rounding import Cell, nearest_float, rounded
 from garkcli.exact.field import Algebraic
+from garkcli.frozen import Frozen
 
 FLOAT_DIGITS = 17
 """So many digits mean a binary64 number, which is written with as few as bring it back."""
@@ -18,8 +18,7 @@ MOST_ZEROS = 5
 """Decimals of more zeros after the point are written with an exponent."""
 
 
-@dataclass(frozen=True)
-class Style:
+class Style(Frozen):
     """How a language writes numbers.
 
     Attributes:

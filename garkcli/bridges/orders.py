@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from flint import fmpq
 
 from garkcli.exact.display import decimal
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import consistent_blocks
@@ -15,8 +14,7 @@ from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class Orders:
+class Orders(Frozen):
     """What was proved.
 
     Attributes:

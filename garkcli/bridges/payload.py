@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -12,6 +11,7 @@ from garkcli.bridges import names
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.rounding import Cell, TooWide
+from garkcli.frozen import Frozen
 from garkcli.tableau.garkmethod import Derivation
 from garkcli.tableau.pointwise import Block, Entries, Row
 from garkcli.tableau.tableau import Tableau
@@ -25,8 +25,7 @@ Kind: TypeAlias = Literal["rk", "ark", "prk", "gark"]
 """One vector field; several that share all stages; the pair (q, p); anything else."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Payload:
+class Payload(Frozen, eq=False, kw_only=True):
     """A method as writers see it. Colours and stages count from 0.
 
     Attributes:
@@ -59,7 +58,7 @@ class Payload:
     digits: int | None = None
     coupling: Coupling | None = None
     derivation: Derivation = ""
-    version: str = field(default=__version__)
+    version: str = __version__
 
     @property
     def size(self) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 from flint import arb, fmpq
 
@@ -13,6 +12,7 @@ from garkcli.bridges.payload import Kind, Payload
 from garkcli.doing import doing
 from garkcli.errors import MethodError, printable
 from garkcli.exact.field import ZERO
+from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from flint import fmpq
 
 from garkcli.exact.field import Algebraic
 from garkcli.exact.nodes import AlgebraicRoot, Literal, Root
 from garkcli.exact.rewriting import PlainText
+from garkcli.frozen import Frozen
 
 
-@dataclass(frozen=True)
-class Words:
+class Words(Frozen):
     """How a language writes what irrational numbers are made of.
 
     Attributes:

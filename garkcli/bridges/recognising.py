@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
@@ -16,6 +15,7 @@ from garkcli.exact.expression import read_decimal
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_text
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import Frozen, replace
 from garkcli.order.tolerance import rounded_up
 from garkcli.sources.found import FoundTable, Row, Rows
 
@@ -36,8 +36,7 @@ MAX_DIGITS = 1_000
 _DECIMAL = re.compile(r"-?[0-9]*\.?[0-9]*(?:e[-+]?[0-9]{1,3})?")
 
 
-@dataclass(frozen=True)
-class Proposal:
+class Proposal(Frozen):
     """An exact form of a decimal.
 
     Attributes:
@@ -53,8 +52,7 @@ class Proposal:
     size: int
 
 
-@dataclass(frozen=True)
-class Recognised:
+class Recognised(Frozen):
     """A method with exact forms in place of decimals.
 
     Attributes:

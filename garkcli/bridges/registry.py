@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from typing import TypeAlias
@@ -16,10 +15,10 @@ from garkcli.bridges.payload import Kind, Payload
 from garkcli.bridges.texts import Values, program_values, text_of
 from garkcli.bridges.trials import trial_of
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.frozen import Frozen
 
 
-@dataclass(frozen=True)
-class Written:
+class Written(Frozen):
     """A file beside the table: a driver, or what is needed to build it.
 
     Attributes:
@@ -35,8 +34,7 @@ TestDriver: TypeAlias = Callable[[Payload, str], Sequence[Written]]
 """From a method and the name of the file with its table (no folder) to the files of a test."""
 
 
-@dataclass(frozen=True)
-class Bridge:
+class Bridge(Frozen):
     """One target.
 
     Its template is ``templates/NAME.SUFFIX.jinja``, that of its program ``NAME_test.ENDING.jinja``.

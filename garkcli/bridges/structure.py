@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -12,6 +11,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.rounding import Cell
 from garkcli.exact.field import ZERO
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.graph import components
 from garkcli.tableau.pointwise import Row
 
@@ -32,8 +32,7 @@ def is_lower(rows: Rows, has_diagonal: bool) -> bool:
     return True
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(Frozen):
     """The coefficients of one vector field, as a Butcher tableau.
 
     Attributes:
@@ -90,8 +89,7 @@ Place: TypeAlias = tuple[int, int]
 """A colour and a stage of it."""
 
 
-@dataclass
-class _Stage:
+class _Stage(Mutable):
     """A stage of all colours together, in the making.
 
     Attributes:
@@ -202,8 +200,7 @@ def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:
     )
 
 
-@dataclass(frozen=True)
-class Composition:
+class Composition(Frozen):
     """A separable method as a sequence of exact flows: kicks p += hk g(q), drifts q += hd f(p).
 
     Attributes:

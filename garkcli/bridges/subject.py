@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 from garkcli.bridges.judging import Judged, digits_of, judged
 from garkcli.exact.display import to_ball, to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.simplifying import RoundedDefects
 from garkcli.sources.found import FoundTable
@@ -20,8 +20,7 @@ SLIGHT = 1e-10
 """Nodes that are off by less are no misprints: coefficients of ten digits and more are rounded."""
 
 
-@dataclass(frozen=True)
-class Subject:
+class Subject(Frozen):
     """A table as it is checked.
 
     Attributes:

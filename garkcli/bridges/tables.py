@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from flint import arb, ctx, fmpq
 
@@ -13,6 +12,7 @@ from garkcli.bridges.rounding import Cell
 from garkcli.bridges.structure import Rows, Table, shared, table, vanishes
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO
+from garkcli.frozen import replace
 from garkcli.tableau.pointwise import Row
 
 _BITS = 1000

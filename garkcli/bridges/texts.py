@@ -7,7 +7,6 @@ and what is said about it is a comment already. Only texts and whole numbers can
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, TypeAlias
@@ -18,6 +17,7 @@ from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.structure import table
 from garkcli.bridges.trials import STEPS, command_of, trial_of
+from garkcli.frozen import Frozen
 from garkcli.tableau.pointwise import Row
 
 if TYPE_CHECKING:
@@ -27,8 +27,7 @@ Values: TypeAlias = Mapping[str, object]
 """What one target gives to its template, beyond what all have."""
 
 
-@dataclass(frozen=True)
-class Language:
+class Language(Frozen):
     """How the files of an ending are written.
 
     Attributes:

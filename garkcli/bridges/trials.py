@@ -6,17 +6,16 @@ Each is a problem file too, on which ``gark converge`` prints the same errors.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
+from garkcli.frozen import Frozen
 
 STEPS = (8, 16, 32, 64)
 """In so many steps the time is stepped through, one row of the output each."""
 
 
-@dataclass(frozen=True)
-class Trial:
+class Trial(Frozen):
     """A problem with two unknowns.
 
     Attributes:

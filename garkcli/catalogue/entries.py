@@ -7,10 +7,10 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem
+from garkcli.frozen import Frozen, field
 from garkcli.methodfile.naming import every_shelf, visible
 from garkcli.methodfile.shelves import Package, Shelf, Shelved
 from garkcli.properties.registry import KEYS
@@ -135,8 +135,7 @@ _SEARCHED = ("name", "title", "reference")
 """What words are looked for in, besides the aliases."""
 
 
-@dataclass(frozen=True)
-class Range:
+class Range(Frozen):
     """Whole numbers from ``least`` to ``most``."""
 
     least: int
@@ -174,8 +173,7 @@ def read_range(text: str) -> Range:
     return ranges[sign]
 
 
-@dataclass(frozen=True)
-class Wanted:
+class Wanted(Frozen):
     """What is wanted; all of it at once.
 
     Attributes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -11,6 +10,7 @@ from flint import fmpq
 from garkcli.doing import doing
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.field import ZERO
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
@@ -34,8 +34,7 @@ Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
 """By how much each printed value may be off in its last place."""
 
 
-@dataclass(frozen=True, repr=False)
-class Analysis(Shown):
+class Analysis(Shown, Frozen):
     """The truth about a tableau, its symplectic conjugate, and their pair.
 
     Attributes:
@@ -149,8 +148,7 @@ def nonautonomous(
     return order_of(timed, limit) if inconsistent else order
 
 
-@dataclass(frozen=True)
-class MethodProof(Shown):
+class MethodProof(Shown, Frozen):
     """What decides the orders of a method.
 
     Attributes:

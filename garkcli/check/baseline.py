@@ -7,11 +7,11 @@ from __future__ import annotations
 import json
 import stat
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any, TypeAlias
 
 from garkcli.errors import UsageProblem
+from garkcli.frozen import Frozen
 
 File: TypeAlias = Mapping[str, Any]
 """What a JSON report says of one file."""
@@ -30,8 +30,7 @@ ORDERS = (
 )
 
 
-@dataclass(frozen=True)
-class Regression:
+class Regression(Frozen):
     """One thing that was better before: in which file, what, how it was, how it is."""
 
     file: str

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from garkcli.check.analysis import Analysis
@@ -10,6 +9,7 @@ from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import HasFreeParameters, MethodFileError
+from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load

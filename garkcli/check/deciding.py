@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -17,6 +16,7 @@ from garkcli.check.analysis import (
     nonautonomous,
 )
 from garkcli.doing import doing
+from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying

@@ -9,7 +9,6 @@ rational values there. With one parameter the finitely many others are looked at
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Sized
-from dataclasses import dataclass, field, replace
 from typing import Any
 
 from flint import fmpq_mpoly
@@ -21,6 +20,7 @@ from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.tableau.family import ring_of
 from garkcli.tableau.tableau import Tableau
 
@@ -32,8 +32,7 @@ MOST_ASKED = 60
 """How often a question is asked where polynomials are zero."""
 
 
-@dataclass(frozen=True)
-class Fact:
+class Fact(Frozen):
     """An answer for a family.
 
     Attributes:
@@ -85,15 +84,13 @@ class Fact:
         )
 
 
-@dataclass
-class Budget:
+class Budget(Mutable):
     """How often a question may still be asked."""
 
     left: int
 
 
-@dataclass(frozen=True)
-class Question:
+class Question(Frozen):
     """Something to be asked of a tableau, whatever its coefficients are.
 
     Attributes:

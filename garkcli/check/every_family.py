@@ -9,7 +9,6 @@ factors. The converse is not claimed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from math import prod
@@ -26,6 +25,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.family import Family, Radical, family_in_points
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -377,8 +377,7 @@ _SAMPLES = [fmpq(*x) for x in ((2, 7), (3, 5), (7, 4), (-5, 3), (11, 3))]
 MOST_SAMPLES = 40
 
 
-@dataclass(frozen=True)
-class EveryFamily:
+class EveryFamily(Frozen):
     """A family without relations but those of its roots.
 
     Attributes:

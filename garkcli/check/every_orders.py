@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 from flint import fmpq, fmpq_mpoly
 
@@ -17,6 +16,7 @@ from garkcli.design.member import is_admissible
 from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight
 from garkcli.tableau.tableau import Tableau
@@ -25,8 +25,7 @@ SECONDS = 10.0
 """After so many it is left open for which values the next order is reached."""
 
 
-@dataclass(frozen=True)
-class EveryOrder:
+class EveryOrder(Frozen):
     """An order of a family.
 
     Attributes:

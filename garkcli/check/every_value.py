@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -21,6 +20,7 @@ from garkcli.doing import doing
 from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError, ZeroWeight
 from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
+from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import OF_ORDERS, AtLeast, highest_order
 from garkcli.methodfile.family import FamilyFile, family_of, loads_family
@@ -36,8 +36,7 @@ TOLD = ("stiffly-accurate", "fsal", "symmetric")
 """Properties that are told where they hold for every value."""
 
 
-@dataclass(frozen=True, repr=False)
-class EveryValue:
+class EveryValue(Frozen):
     """What holds for every value.
 
     Attributes:

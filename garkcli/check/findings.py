@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -13,6 +12,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import Witness
 from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
 from garkcli.tableau.forms import with_time
@@ -194,8 +194,7 @@ CLAIM = "write what holds under expect: gark claims FILE --write"
 """The cure of a file that lacks a claim."""
 
 
-@dataclass(frozen=True)
-class Finding:
+class Finding(Frozen):
     """One fault or one failed claim.
 
     Attributes:
@@ -222,8 +221,7 @@ class Finding:
     code: str = ""
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Frozen):
     """A finding as its kind makes it: ``key`` is the same as long as the same thing is wrong."""
 
     message: str
@@ -234,8 +232,7 @@ class Part:
     code: str = ""
 
 
-@dataclass(frozen=True)
-class Kind:
+class Kind(Frozen):
     """A kind of finding: what it is in words, and where it occurs."""
 
     text: str

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from garkcli.check.analysis import nonautonomous
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
@@ -15,8 +15,7 @@ from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class EmbeddedFacts:
+class EmbeddedFacts(Frozen):
     """The truth about embedded weights.
 
     Attributes:
@@ -33,8 +32,7 @@ class EmbeddedFacts:
     estimator: Estimator
 
 
-@dataclass(frozen=True)
-class DenseFacts:
+class DenseFacts(Frozen):
     """The truth about dense output.
 
     Attributes:
@@ -57,16 +55,14 @@ class DenseFacts:
         return self.ends_at_step and self.slopes.are_continuous
 
 
-@dataclass(frozen=True)
-class FurtherFacts:
+class FurtherFacts(Frozen):
     """The truth about the further weights of a method, each None where it has none."""
 
     embedded: EmbeddedFacts | None = None
     dense: DenseFacts | None = None
 
 
-@dataclass(frozen=True)
-class _Method:
+class _Method(Frozen):
     """A method whose own orders are known."""
 
     method: AnyTableau

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache, partial
 
 from garkcli.errors import UNKNOWN, UsageProblem, did_you_mean
+from garkcli.frozen import Frozen
 from garkcli.glossary.faults import COMMANDS, by_code, code_of, findings_of
 from garkcli.glossary.fields import field_entries
 from garkcli.glossary.key import KINDS, Key, keys_of
@@ -15,8 +15,7 @@ from garkcli.glossary.labels import key_of
 from garkcli.glossary.term import Term, by_word, plain
 
 
-@dataclass(frozen=True)
-class Meaning:
+class Meaning(Frozen):
     """What a word means in one of its senses.
 
     Attributes:
@@ -49,8 +48,7 @@ class Meaning:
         return f"<Meaning {self.name}: {self.kind}>"
 
 
-@dataclass(frozen=True)
-class Sense:
+class Sense(Frozen):
     """One kind of words.
 
     Attributes:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from garkcli.check.analysis import Analysis
 from garkcli.errors import Fault, counted, printable
+from garkcli.frozen import Frozen
 from garkcli.reason import NO_REASON, Reason
 from garkcli.upward import Shown
 
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from garkcli.order.constants import ErrorConstants
 
 
-@dataclass(frozen=True)
-class Claim:
+class Claim(Frozen):
     """A claim of ``expect`` held against the truth.
 
     Attributes:
@@ -44,8 +43,7 @@ class Claim:
         return str(self.reason)
 
 
-@dataclass(frozen=True, repr=False)
-class Outcome(Shown):
+class Outcome(Shown, Frozen):
     """One checked file.
 
     Attributes:

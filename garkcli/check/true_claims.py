@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.claims import claimed_text, found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
+from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import CLAIMS, AtLeast
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS, find
@@ -19,8 +19,7 @@ DIGITS = 12
 """Of numbers without simple radicals; a decimal claims no further ones."""
 
 
-@dataclass(frozen=True)
-class TrueClaims:
+class TrueClaims(Frozen):
     """What may be claimed of one method.
 
     Attributes:

@@ -12,9 +12,9 @@ follows from each other exactly is kept:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from garkcli.exact.display import to_ball
+from garkcli.frozen import replace
 from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight, is_admissible
 from garkcli.order.deciding import AnyOrder

@@ -7,7 +7,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,6 +21,7 @@ from garkcli.crew.work import in_order
 from garkcli.doing import counting, doing
 from garkcli.errors import Fault, HasFreeParameters, UsageProblem
 from garkcli.files import is_stream
+from garkcli.frozen import replace
 from garkcli.report.check_formats import FORMATS
 from garkcli.tell.report import FORMATS as TOLD
 

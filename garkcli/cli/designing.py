@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from time import monotonic
@@ -25,6 +24,7 @@ from garkcli.errors import (
     did_you_mean,
 )
 from garkcli.files import STDIN
+from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:

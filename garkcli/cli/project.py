@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.files import is_inside
+from garkcli.frozen import Frozen, field
 from garkcli.page.plain import printable
 
 if TYPE_CHECKING:
@@ -19,8 +19,7 @@ SHARED = "pyproject.toml"
 MOST_BYTES = 1_000_000
 
 
-@dataclass(frozen=True)
-class Project:
+class Project(Frozen):
     """What a file of a project says.
 
     Attributes:
@@ -176,8 +175,7 @@ def _count(least: int, most: int) -> Callable[[object], bool]:
     return is_right
 
 
-@dataclass(frozen=True)
-class _Key:
+class _Key(Frozen):
     """A key of the file of a project.
 
     Attributes:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garkcli.cli.arguments import rational, square
 from garkcli.cli.options import Given, Output, declared
 from garkcli.errors import HasFreeParameters, UsageProblem, did_you_mean
+from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from itertools import islice, tee
 from typing import TYPE_CHECKING, cast
 
@@ -15,6 +14,7 @@ from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import is_terminal, say
 from garkcli.doing import counting, hush
 from garkcli.errors import HasFreeParameters, UsageProblem
+from garkcli.frozen import replace
 
 if TYPE_CHECKING:
     from garkcli.order.conditions import Condition

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from flint import fmpq
@@ -14,6 +13,7 @@ from garkcli.comparison.grid import Grid, Likeness
 from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder
 from garkcli.properties.property import Verdict
@@ -31,8 +31,7 @@ WITH_TIME = "order with time"
 """What the order on problems ẏ = f(t, y) is called, with the nodes as they are given."""
 
 
-@dataclass(frozen=True)
-class OrderPair:
+class OrderPair(Frozen):
     """An order of both methods; None where a method has none of the kind."""
 
     name: str
@@ -55,8 +54,7 @@ class OrderPair:
         return one.order > other.order and not other.is_lower_bound
 
 
-@dataclass(frozen=True)
-class PropertyPair:
+class PropertyPair(Frozen):
     """A property that is not the same of both methods."""
 
     key: str
@@ -69,8 +67,7 @@ class PropertyPair:
         return not (self.one.is_undecided or self.other.is_undecided)
 
 
-@dataclass(frozen=True, repr=False)
-class Comparison(Shown):
+class Comparison(Shown, Frozen):
     """What is the same of two methods, and what is not.
 
     Attributes:

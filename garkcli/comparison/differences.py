@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from flint import arb
 
 from garkcli.comparison.grid import DIGITS, CellRows, Grid, Likeness, difference
 from garkcli.exact.display import to_ball
+from garkcli.frozen import Frozen
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
@@ -17,8 +17,7 @@ from garkcli.trees.count import count_by_root
 from garkcli.trees.tree import Tree
 
 
-@dataclass(frozen=True)
-class EntryGap:
+class EntryGap(Frozen):
     """One entry that differs.
 
     Attributes:
@@ -40,8 +39,7 @@ class EntryGap:
         return difference(self.other, self.one)
 
 
-@dataclass(frozen=True)
-class BlockGap:
+class BlockGap(Frozen):
     """A block, or a row of weights or nodes, that differs.
 
     Attributes:
@@ -159,8 +157,7 @@ MAX_CONDITIONS = 2000
 """More conditions are not compared, of all orders together."""
 
 
-@dataclass(frozen=True)
-class Met:
+class Met(Frozen):
     """Conditions of some orders that two methods do not meet alike.
 
     Attributes:

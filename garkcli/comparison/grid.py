@@ -6,7 +6,6 @@ Two entries count as the same exactly, or within the rounding that their files a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -14,6 +13,7 @@ from flint import arb, ctx, fmpq
 from garkcli.conversion.sheet import CannotConvert, Sheet, each_its_own, in_one_field, sheet_of
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO
+from garkcli.frozen import Frozen, replace
 from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.garkmethod import GarkMethod
@@ -25,8 +25,7 @@ CellRows: TypeAlias = tuple[Row, ...]
 """A row a colour."""
 
 
-@dataclass(frozen=True)
-class Grid:
+class Grid(Frozen):
     """The entries of a method, each colour with stages of its own.
 
     Attributes:
@@ -137,8 +136,7 @@ def _ball(cell: Cell) -> arb:
     return cell if isinstance(cell, arb) else to_ball(cell, DIGITS)
 
 
-@dataclass(frozen=True)
-class Likeness:
+class Likeness(Frozen):
     """Equality of entries.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from itertools import permutations
 from typing import TypeAlias
 
@@ -22,6 +21,7 @@ from garkcli.conversion.stages import stage_classes
 from garkcli.errors import LimitExceeded
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix
+from garkcli.frozen import Frozen, replace
 from garkcli.properties.reduction import reduced
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import Row
@@ -145,8 +145,7 @@ MOST_COLOURS = 5
 """With more colours no other order of them is tried."""
 
 
-@dataclass(frozen=True)
-class Sameness:
+class Sameness(Frozen):
     """How one method becomes the other; all counted from 0.
 
     Attributes:
@@ -179,8 +178,7 @@ class Sameness:
         return self.keeps_colours and self.keeps_stages and not self.is_reduced
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(Frozen):
     """Whether two methods are the same.
 
     Attributes:
@@ -192,8 +190,7 @@ class Answer:
     obstacle: str = ""
 
 
-@dataclass(frozen=True)
-class Views:
+class Views(Frozen):
     """Two methods as they are compared.
 
     Attributes:
@@ -271,7 +268,7 @@ def _as_they_are(views: Views, allowed: fmpq) -> Sameness | None:
 
 def _marked(same: Sameness | None, **marks: bool) -> Sameness | None:
     """The same with what has to be said of it."""
-    return None if same is None else replace(same, **marks)  # type: ignore[arg-type]
+    return None if same is None else replace(same, **marks)
 
 
 def _once_reduced(views: Views) -> Sameness | None:

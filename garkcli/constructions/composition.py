@@ -14,7 +14,6 @@ of a method.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 
 from flint import fmpq, fmpq_poly
 
@@ -32,6 +31,7 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.families.extrapolated import extrapolation_weights
+from garkcli.frozen import Frozen, replace
 from garkcli.properties.reduction import merged
 from garkcli.tableau.forms import separable_prk, with_linear
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -53,8 +53,7 @@ def refuse_large(stages: int, cure: str) -> None:
         raise MethodError(message, cure, code="too-many")
 
 
-@dataclass(frozen=True)
-class Substep:
+class Substep(Frozen):
     """A part of the step.
 
     Attributes:

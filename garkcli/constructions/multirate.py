@@ -10,7 +10,6 @@ the fast problem is solved by small steps of a method. With coupling matrices: M
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -20,6 +19,7 @@ from garkcli.constructions.composition import Substep, composed, in_turn, refuse
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.frozen import Frozen
 from garkcli.properties.reduction import merged
 from garkcli.tableau.forms import gark
 from garkcli.tableau.polynomial_space import antiderivative
@@ -94,8 +94,7 @@ FAST, SLOW = 0, 1
 _SMALLER = "take fewer steps, or methods of fewer stages"
 
 
-@dataclass(frozen=True)
-class Coupling:
+class Coupling(Frozen):
     """How slow slopes act between slow stages, as polynomials in τ from 0 to 1.
 
     Attributes:
@@ -286,8 +285,7 @@ def _powers(x: Number, count: int) -> Vector:
     return tuple(powers)
 
 
-@dataclass(frozen=True)
-class Blocks:
+class Blocks(Frozen):
     """Coupling matrices, one of each for every small step.
 
     Attributes:

@@ -9,8 +9,9 @@ with parameters that are free.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from garkcli.frozen import Frozen
 
 Part: TypeAlias = tuple[str, bool]
 """A fraction of the step as text, and whether the adjoint takes it."""
@@ -19,8 +20,7 @@ MAX_ORDER = 12
 """Largest order of a scheme that is repeated."""
 
 
-@dataclass(frozen=True)
-class Scheme:
+class Scheme(Frozen):
     """A composition of one method.
 
     Attributes:
@@ -243,8 +243,7 @@ FlowText: TypeAlias = tuple[int, str]
 """A part of the problem, counted from 0, and for which fraction of the step it flows."""
 
 
-@dataclass(frozen=True)
-class Splitting:
+class Splitting(Frozen):
     """A splitting by name.
 
     Attributes:

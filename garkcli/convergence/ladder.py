@@ -10,13 +10,13 @@ nothing.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import count
 
 from flint import arb, fmpq
 
 from garkcli.convergence.result import CLOSE, Row, observed_order
 from garkcli.convergence.solver import NoUniqueStep, Solver
+from garkcli.frozen import replace
 from garkcli.stepping.integrator import StepFailed
 from garkcli.stepping.linear import whole_steps
 

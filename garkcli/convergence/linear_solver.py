@@ -6,7 +6,6 @@ a slope is never a slope of rounding errors.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
 from itertools import islice
 from math import ceil, factorial
 
@@ -16,6 +15,7 @@ from garkcli.convergence.result import Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import MAX_DIGITS, REACHED, NoUniqueStep, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
+from garkcli.frozen import Mutable, field, replace
 from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
@@ -49,8 +49,7 @@ _DECADES = (6, 12, 24, 48, 96, 192, 384)
 _AGREEING = 8
 
 
-@dataclass
-class LinearSolver:
+class LinearSolver(Mutable):
     """A method on the oscillator from q(0) = 1, p(0) = ω/2; see ``Solver``.
 
     Attributes:

@@ -5,7 +5,6 @@ with as many digits and steps as are asked for.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from functools import cache
 from math import ceil, inf, log10
 from typing import Any
@@ -15,6 +14,7 @@ from flint import arb, ctx, fmpq
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
+from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mass import enclosed
 from garkcli.problems.problem import Problem, unknowns
@@ -58,8 +58,7 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
     return state
 
 
-@dataclass
-class Reference:
+class Reference(Mutable):
     """The solution of a problem at one time, in the most digits that were asked for so far.
 
     Attributes:
@@ -167,8 +166,7 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
         steps = ceil(steps * change.factor)
 
 
-@dataclass(frozen=True)
-class _Change:
+class _Change(Frozen):
     """What more steps change.
 
     Attributes:

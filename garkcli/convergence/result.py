@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.frozen import Frozen
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
@@ -28,8 +28,7 @@ _CROSSING = 0.25  # how far an order is extrapolated from stiff slopes
 _BITS = 256  # of the extrapolation: far more than any error has
 
 
-@dataclass(frozen=True)
-class Cost:
+class Cost(Frozen):
     """What the steps of one row have cost.
 
     Attributes:
@@ -49,8 +48,7 @@ class Cost:
     seconds: float | None = None
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(Frozen):
     """One step size.
 
     Errors are balls. Their radius is what the digits of the computation leave open, so a ball that
@@ -80,8 +78,7 @@ class Row:
         return f"<Row h = {self.h}: error {float(self.error):.1e}{slope}>"
 
 
-@dataclass(frozen=True)
-class Visible:
+class Visible(Frozen):
     """The trees of a method that a problem can see.
 
     Attributes:
@@ -96,8 +93,7 @@ class Visible:
     trees: str
 
 
-@dataclass(frozen=True)
-class Stiffness:
+class Stiffness(Frozen):
     """What tells a stiff run, whose steps do not resolve the fastest part of the problem.
 
     Attributes:
@@ -111,8 +107,7 @@ class Stiffness:
     is_stable: bool
 
 
-@dataclass(frozen=True)
-class Convergence(Shown):
+class Convergence(Shown, Frozen):
     """The outcome of a convergence test.
 
     Attributes:

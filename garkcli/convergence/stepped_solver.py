@@ -7,7 +7,6 @@ round-off. The reference solution has more.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, log10
 from typing import Any
@@ -19,6 +18,7 @@ from garkcli.convergence.reference import Reference, magnitude, reference, run
 from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
+from garkcli.frozen import Mutable, field, replace
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.problem import Problem, quantities_function
 from garkcli.problems.righthandside import steepness
@@ -42,8 +42,7 @@ _GENERIC_DECADES = (6, 12, 24, 48)
 _DECADES = (6, 12, 18)
 
 
-@dataclass
-class SteppedSolver:
+class SteppedSolver(Mutable):
     """A method on a Hamiltonian problem, and what is kept between step sizes; see ``Solver``.
 
     Attributes:
@@ -59,10 +58,9 @@ class SteppedSolver:
     visible: Visible
     tolerance: fmpq | None = None
     integrators: dict[int, Integrator] = field(default_factory=dict)
-    reference: Reference = field(init=False)
 
     def __post_init__(self) -> None:
-        self.reference = reference(self.problem, self.t_end)
+        self.reference: Reference = reference(self.problem, self.t_end)
 
     @property
     def problem(self) -> Problem:

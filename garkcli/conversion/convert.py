@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
 from garkcli.conversion.targets import TARGETS, Target
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
 from garkcli.methodfile.expectations import highest_order
@@ -49,8 +48,7 @@ KEPT = ("description", "reference")
 UNNAMED = "a method"
 
 
-@dataclass(frozen=True)
-class Converted:
+class Converted(Frozen):
     """A method in another form.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import chain
 from typing import TypeAlias
 
@@ -12,6 +11,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.field import ZERO, Algebraic, Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import in_points
@@ -81,8 +81,7 @@ class CannotConvert(MethodError):
     code = "cannot-convert"
 
 
-@dataclass(frozen=True)
-class Sheet:
+class Sheet(Frozen):
     """A method with one coordinate a stage.
 
     Attributes:

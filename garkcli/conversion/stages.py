@@ -9,7 +9,6 @@ method turns into each other are in one class; classes have an order that no num
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cmp_to_key
 from heapq import heapify, heappop, heappush
 from typing import Any, TypeAlias
@@ -18,6 +17,7 @@ from garkcli.conversion.sheet import Place, Sheet, all_rows, arranged
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
 from garkcli.exact.roots import sign
+from garkcli.frozen import Mutable, field
 from garkcli.graph import components
 from garkcli.tableau.tableau import Tableau
 
@@ -162,8 +162,7 @@ def _arranged(sheet: Sheet, places: Classes) -> Sheet:
     return arranged(sheet, spaces)
 
 
-@dataclass
-class _System:
+class _System(Mutable):
     """Stages that need each other, or a single one.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
 
 from garkcli.conversion.sheet import (
     CannotConvert,
@@ -16,14 +15,14 @@ from garkcli.conversion.sheet import (
 )
 from garkcli.conversion.stages import in_order, in_solving_order
 from garkcli.errors import counted
+from garkcli.frozen import Frozen, field, replace
 from garkcli.properties.reduction import merged, reduced
 from garkcli.tableau.forms import pair
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Part, Tableau
 
 
-@dataclass(frozen=True)
-class Target:
+class Target(Frozen):
     """What ``--to`` names.
 
     Attributes:

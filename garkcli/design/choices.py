@@ -5,7 +5,6 @@ those found, its parameters as text of method files.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
@@ -16,10 +15,10 @@ from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen
 
 
-@dataclass(frozen=True)
-class Choice:
+class Choice(Frozen):
     """A value for one unknown.
 
     Attributes:
@@ -74,8 +73,7 @@ DIGITS = 20
 """Decimals that tell a root of a polynomial from the others."""
 
 
-@dataclass(frozen=True)
-class Chosen:
+class Chosen(Frozen):
     """A method of a family.
 
     Attributes:

@@ -14,7 +14,6 @@ A span over ℚ(t) would give the order for almost all parameters and lose the e
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from heapq import heapify, heappop, heappush
 from itertools import chain
 from typing import Any, TypeAlias
@@ -25,6 +24,7 @@ from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long
+from garkcli.frozen import Frozen, replace
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
@@ -35,8 +35,7 @@ Row: TypeAlias = tuple[Entry, ...]
 Square: TypeAlias = tuple[Row, ...]
 
 
-@dataclass(frozen=True)
-class Cleared:
+class Cleared(Frozen):
     """A tableau times denominators.
 
     Attributes:
@@ -158,8 +157,7 @@ def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
     return row
 
 
-@dataclass(frozen=True)
-class Condition:
+class Condition(Frozen):
     """One order condition of a spanning set.
 
     Attributes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from itertools import chain
 from time import monotonic
 from typing import Literal, TypeAlias
@@ -20,6 +19,7 @@ from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided, ZeroWeight
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.family import Family
@@ -31,8 +31,7 @@ from garkcli.upward import Shown
 Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]
 
 
-@dataclass(frozen=True)
-class Found:
+class Found(Frozen):
     """A solution with what the ordinary certificate says of it.
 
     Attributes:
@@ -52,8 +51,7 @@ class Found:
     open: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(Frozen):
     """What an order asks of the parameters.
 
     Attributes:
@@ -114,8 +112,7 @@ class Step:
 Whose: TypeAlias = Literal["method", "conjugate", "pair"]
 
 
-@dataclass(frozen=True)
-class Design(Shown):
+class Design(Shown, Frozen):
     """What each order asks of the parameters of a family.
 
     Attributes:
@@ -182,8 +179,7 @@ def find_parameters(
         return Design(family, whose, tableau, tuple(finding.steps(order or family.order)))
 
 
-@dataclass(frozen=True)
-class _Finding:
+class _Finding(Frozen):
     """What orders ask of the parameters of a family."""
 
     family: Family

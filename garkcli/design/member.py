@@ -5,7 +5,6 @@ the family wants it, and its stability.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import cast
 
 from flint import fmpq, fmpq_mpoly
@@ -18,6 +17,7 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, Parametric, fraction
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
+from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.family import Family, Stability

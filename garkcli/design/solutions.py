@@ -13,7 +13,6 @@ f = Σ f_k T^{n−k}. How many solutions there are is the rank of the form (v, w
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import count
 
@@ -24,10 +23,10 @@ from garkcli.design.ideal import Ideal, characteristic_polynomial, lowered
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
+from garkcli.frozen import Frozen
 
 
-@dataclass(frozen=True)
-class Solution:
+class Solution(Frozen):
     """Solutions that are conjugate over ℚ: one irreducible polynomial, and each of its roots.
 
     Attributes:

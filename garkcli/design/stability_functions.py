@@ -6,7 +6,6 @@ With the stage system of ``garkcli.stepping.linear`` it is det(I − z(W − E B
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import zip_longest
 from typing import Any
 
@@ -15,6 +14,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.frozen import Frozen
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
@@ -22,8 +22,7 @@ Coefficients = tuple[Any, ...]
 """Those of 1, z, z², …, rational functions of the parameters."""
 
 
-@dataclass(frozen=True)
-class FamilyFunction:
+class FamilyFunction(Frozen):
     """R = P/Q in lowest terms, with Q(0) = 1.
 
     Attributes:

@@ -7,7 +7,6 @@ P-stability on the signs of D and of 1 − det M and 1 + det M ± tr M, as polyn
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 from flint import fmpq, fmpq_mpoly
@@ -31,6 +30,7 @@ from garkcli.exact.projection import (
     resultant,
 )
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
@@ -47,8 +47,7 @@ from garkcli.tableau.tableau import Tableau
 _RIGHT = "the linear test equation has no meaning for it: some stages do not see every vector field"
 
 
-@dataclass(frozen=True)
-class Members:
+class Members(Frozen):
     """The methods of a family."""
 
     family: Family
@@ -229,8 +228,7 @@ def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
     return PLANE.from_dict(terms)
 
 
-@dataclass(frozen=True)
-class TwoSprings:
+class TwoSprings(Frozen):
     """Which springs are meant.
 
     Attributes:

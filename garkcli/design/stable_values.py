@@ -18,7 +18,6 @@ P-stability often holds at isolated points, which no sampling finds.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, TypeAlias, get_args
 
 from flint import fmpq
@@ -36,6 +35,7 @@ from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
+from garkcli.frozen import Frozen
 from garkcli.stability.two_frequencies import has
 from garkcli.tableau.family import Family
 from garkcli.upward import Shown
@@ -46,8 +46,7 @@ MOST_DEGREE = 6
 """Critical values of a larger degree are not decided over their number field."""
 
 
-@dataclass(frozen=True)
-class StableValues(Shown):
+class StableValues(Shown, Frozen):
     """The values of a parameter for which a family has a kind of stability.
 
     Attributes:

@@ -9,7 +9,6 @@ them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain, count, islice
 from math import isqrt
 from typing import TypeAlias, cast
@@ -22,6 +21,7 @@ from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, in_one, interpolated
 from garkcli.exact.projection import PLANE
+from garkcli.frozen import Frozen
 from garkcli.stability.linear import unreduced
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -61,8 +61,7 @@ Step: TypeAlias = "tuple[Polynomial, tuple[Polynomial, ...]]"
 """D and the entries of N, row by row."""
 
 
-@dataclass(frozen=True)
-class StepPlane:
+class StepPlane(Frozen):
     """M = N/D without a common factor of D and all entries of N.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from flint import fmpq_mpoly
@@ -11,6 +10,7 @@ from flint import fmpq_mpoly
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, fraction
+from garkcli.frozen import Frozen
 from garkcli.tableau.family import Stability
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -19,8 +19,7 @@ Kind: TypeAlias = Literal["flag", "count", "number"]
 """How its value is written: true, a whole number, a coefficient."""
 
 
-@dataclass(frozen=True)
-class Asked:
+class Asked(Frozen):
     """A family and what is asked of it.
 
     Attributes:
@@ -68,8 +67,7 @@ class Asked:
         return block, own.b
 
 
-@dataclass(frozen=True)
-class Meaning:
+class Meaning(Frozen):
     """What a want means for the parameters.
 
     Attributes:
@@ -89,8 +87,7 @@ class Meaning:
     unsettled: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Want:
+class Want(Frozen):
     """Something that may be wanted.
 
     Attributes:

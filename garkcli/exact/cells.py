@@ -8,7 +8,6 @@ that could be missed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -17,13 +16,13 @@ from flint import arb, ctx, fmpq
 from garkcli.deadline import check_time
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
+from garkcli.frozen import Frozen
 
 Point: TypeAlias = fmpq | RealRoot
 """A number at which polynomials have signs."""
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(Frozen):
     """A set of real numbers without gaps.
 
     Attributes:

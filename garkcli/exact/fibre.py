@@ -9,7 +9,6 @@ polynomial in t at t_0. No field has the degrees of y and t_0 together.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TypeAlias
@@ -23,13 +22,13 @@ from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, in_y, resultant
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign_at
+from garkcli.frozen import Frozen, replace
 
 Holds: TypeAlias = Callable[[Sequence[int]], bool]
 """Whether something holds where polynomials have these signs."""
 
 
-@dataclass(frozen=True, eq=False)
-class Root:
+class Root(Frozen, eq=False):
     """A number y > 0 at which curves meet the line.
 
     Attributes:

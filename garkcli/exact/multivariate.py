@@ -9,7 +9,6 @@ x_m = o_m + i_m, i_m ≥ 0, Σ i_m ≤ k, determine: Newton's interpolation, axi
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import prod
 from typing import TypeAlias
@@ -18,13 +17,13 @@ from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
+from garkcli.frozen import Frozen
 
 Exponents: TypeAlias = tuple[int, ...]
 """The powers of the variables in a term, or a point of a lattice."""
 
 
-@dataclass(frozen=True)
-class Multivariate:
+class Multivariate(Frozen):
     """Σ a_e z^e.
 
     Attributes:

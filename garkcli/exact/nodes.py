@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from flint import fmpq
 
+from garkcli.frozen import FrozenBut
 
-@dataclass(frozen=True)
-class Expression:
+
+class Expression(FrozenBut, kw_only=True):
     """A node; ``start`` and ``end`` are its offsets in the text and do not take part in
     comparisons.
     """
 
-    start: int = field(default=0, compare=False, kw_only=True)
-    end: int = field(default=0, compare=False, kw_only=True)
+    besides = frozenset({"start", "end"})
+
+    start: int = 0
+    end: int = 0
 
 
-@dataclass(frozen=True)
 class Literal(Expression):
     """A rational number; ``text`` is how it is printed, where it was read."""
 
+    besides = frozenset({"start", "end", "text"})
+
     value: fmpq
-    text: str = field(default="", compare=False, kw_only=True)
+    text: str = ""
 
 
-@dataclass(frozen=True)
 class Name(Expression):
     """A parameter."""
 
     name: str
 
 
-@dataclass(frozen=True)
 class Chain(Expression):
     """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each
     operand.
@@ -44,7 +44,6 @@ class Chain(Expression):
     operands: tuple[Expression, ...]
 
 
-@dataclass(frozen=True)
 class Power(Expression):
     """An integer power."""
 
@@ -52,7 +51,6 @@ class Power(Expression):
     exponent: int
 
 
-@dataclass(frozen=True)
 class Root(Expression):
     """The real root of ``radicand`` of index ``index`` ≥ 2."""
 
@@ -60,7 +58,6 @@ class Root(Expression):
     index: int
 
 
-@dataclass(frozen=True)
 class AlgebraicRoot(Expression):
     """A real root of an irreducible polynomial over ℤ of degree 3 or more.
 
@@ -73,7 +70,6 @@ class AlgebraicRoot(Expression):
     number: int
 
 
-@dataclass(frozen=True)
 class Call(Expression):
     """A function of one argument, one of those that ``garkcli.exact.formula`` has."""
 
@@ -81,7 +77,6 @@ class Call(Expression):
     argument: Expression
 
 
-@dataclass(frozen=True)
 class RealPower(Expression):
     """A power whose exponent is not a whole number as it is written."""
 

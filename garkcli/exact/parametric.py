@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from math import comb, prod
 from typing import TypeAlias, cast
 
@@ -19,6 +18,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly
 from garkcli.deadline import check_time
 from garkcli.errors import TooManyTerms
 from garkcli.exact.rewriting import name_latex
+from garkcli.frozen import Frozen
 
 MAX_TERMS = 500_000
 """Most terms of a product, multiplied out."""
@@ -27,8 +27,7 @@ Mixed: TypeAlias = "fmpq | Parametric"
 """A rational number or a rational function."""
 
 
-@dataclass(frozen=True)
-class Rule:
+class Rule(Frozen):
     """What a power of an unknown is equal to, such as sqrt(3)² = 3.
 
     Attributes:

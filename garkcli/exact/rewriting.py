@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 from flint import fmpq
 
@@ -20,6 +19,7 @@ from garkcli.exact.nodes import (
     RealPower,
     Root,
 )
+from garkcli.frozen import replace
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:

@@ -6,8 +6,6 @@ are equal exactly when they are the same number. Enclosures only tell apart what
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import total_ordering
 from itertools import pairwise
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
@@ -19,12 +17,11 @@ from garkcli.exact.enclosing import isolated
 from garkcli.exact.field import ZERO, Algebraic, Number
 from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.frozen import Frozen
 from garkcli.upward import answered
 
 
-@total_ordering
-@dataclass(frozen=True)
-class RealRoot:
+class RealRoot(Frozen):
     """A real algebraic number.
 
     Attributes:
@@ -66,6 +63,15 @@ class RealRoot:
     def __repr__(self) -> str:
         text: str = answered(self, "text")
         return f"<RealRoot {text}>"
+
+    def __gt__(self, other: RealRoot) -> bool:
+        return other < self
+
+    def __le__(self, other: RealRoot) -> bool:
+        return not other < self
+
+    def __ge__(self, other: RealRoot) -> bool:
+        return not self < other
 
     def __lt__(self, other: RealRoot) -> bool:
         if self.polynomial == other.polynomial:

@@ -11,19 +11,18 @@ Algebraic Number Theory*, sections 2.1 and 3.6.)
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import count
 
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
 
 from garkcli.deadline import check_time
 from garkcli.exact.enclosing import value
+from garkcli.frozen import Frozen
 
 _X = fmpq_poly([0, 1])
 
 
-@dataclass(frozen=True)
-class Tower:
+class Tower(Frozen):
     """ℚ(θ) with some real numbers in it.
 
     Attributes:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
+from garkcli.frozen import Frozen
 from garkcli.tableau.tableau import Method
 
 Given: TypeAlias = "str | int | Expression"
@@ -15,8 +15,7 @@ Given: TypeAlias = "str | int | Expression"
 Options: TypeAlias = Mapping[str, Given]
 
 
-@dataclass(frozen=True)
-class Option:
+class Option(Frozen):
     """What a member is chosen by: its size, or more.
 
     Attributes:
@@ -48,8 +47,7 @@ class Option:
 STAGES = Option("stages", "How many stages the member of the family has.", smallest=1)
 
 
-@dataclass(frozen=True)
-class Recipe:
+class Recipe(Frozen):
     """One member, not made yet.
 
     Attributes:
@@ -64,8 +62,7 @@ class Recipe:
     numbers: tuple[Expression, ...] = ()
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(Frozen):
     """A family of diagonal methods.
 
     Attributes:

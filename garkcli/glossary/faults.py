@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from garkcli.errors import UNKNOWN
+from garkcli.frozen import Frozen
 from garkcli.glossary import read
 
 TOPICS = {
@@ -31,8 +31,7 @@ _SHORT = 6
 """Characters, with the quotes, of what messages of the program quote themselves: '[', ">= n"."""
 
 
-@dataclass(frozen=True)
-class FaultKind:
+class FaultKind(Frozen):
     """A kind of fault.
 
     Attributes:
@@ -109,8 +108,7 @@ def _without_text(quoted: re.Match[str]) -> str:
     return text if len(text) <= _SHORT else "''"
 
 
-@dataclass(frozen=True)
-class _Message:
+class _Message(Frozen):
     """A message of a kind: the words between its holes."""
 
     letters: int
@@ -140,8 +138,7 @@ COMMANDS = {"check": "docs/ci.md", "audit": "docs/audit.md"}
 """The commands that have findings, with the page about each."""
 
 
-@dataclass(frozen=True)
-class FindingKind:
+class FindingKind(Frozen):
     """A kind of finding: what it means, in whole sentences, and what to do."""
 
     code: str

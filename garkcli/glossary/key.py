@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
+from garkcli.frozen import Frozen
 from garkcli.upward import answered
 
 
@@ -25,8 +25,7 @@ KINDS = {
 }
 
 
-@dataclass(frozen=True)
-class Key:
+class Key(Frozen):
     """What a key means.
 
     Attributes:

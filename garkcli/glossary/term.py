@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
+
+from garkcli.frozen import Frozen
 
 PAPER = (
     "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
@@ -17,8 +18,7 @@ def paper(section: str) -> str:
     return f"{PAPER}, {section}"
 
 
-@dataclass(frozen=True)
-class Term:
+class Term(Frozen):
     """A term with its meaning.
 
     Attributes:

@@ -11,7 +11,6 @@ digit, whatever the method's error.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isqrt
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.doing import doing
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
+from garkcli.frozen import Frozen
 from garkcli.longtime.history import (
     BLOW_UP,
     SERIES,
@@ -46,8 +46,7 @@ ROUNDING = 2.0**-42
 _CHUNK = 65536  # steps that a fit looks at at a time
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(Frozen):
     """A drift fitted to energy errors, per step, and how good it is."""
 
     slope: float
@@ -111,8 +110,7 @@ _GOAL = 60  # bits of the largest energy error that balls have to get right
 _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
-@dataclass(frozen=True)
-class _Errors:
+class _Errors(Frozen):
     """The energy errors of a run, up to where they blow up.
 
     Attributes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import fmpq
@@ -11,6 +10,7 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import Matrix
+from garkcli.frozen import Frozen
 from garkcli.longtime.trend import Shape
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
@@ -28,8 +28,7 @@ former.
 """
 
 
-@dataclass(frozen=True)
-class Stability:
+class Stability(Frozen):
     """The step map of a linear problem, iterated for ever.
 
     Attributes:
@@ -109,8 +108,7 @@ State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
 """A time, and (q, p) then, shape (2d,)."""
 
 
-@dataclass(frozen=True)
-class InvariantHistory:
+class InvariantHistory(Frozen):
     """A conserved quantity I over a long time.
 
     Attributes:
@@ -154,8 +152,7 @@ class InvariantHistory:
         return f"<InvariantHistory {self.name}: {self.verdict}>"
 
 
-@dataclass(frozen=True)
-class LongRun(Shown):
+class LongRun(Shown, Frozen):
     """A problem stepped over a long time.
 
     Attributes:

@@ -8,7 +8,6 @@ digits.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,6 +15,7 @@ from flint import fmpq
 
 from garkcli.doing import counting, doing
 from garkcli.exact.display import to_float
+from garkcli.frozen import Frozen
 from garkcli.longtime.energy import oscillator_run
 from garkcli.longtime.history import (
     MAX_STEPS,
@@ -113,8 +113,7 @@ def long_run(
     return _judged(record, bound, evidence, step, t_end)
 
 
-@dataclass(frozen=True)
-class _Evidence:
+class _Evidence(Frozen):
     """What is known of a method besides its run.
 
     Attributes:
@@ -197,8 +196,7 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     return np.array([power_of_ten(float(x)) for x in noise])
 
 
-@dataclass(frozen=True)
-class _Finding:
+class _Finding(Frozen):
     """What has become of one invariant: a verdict, with the trend or the doubt that it rests on."""
 
     verdict: Verdict
@@ -206,8 +204,7 @@ class _Finding:
     doubt: Doubt | None = None
 
 
-@dataclass(frozen=True)
-class _Judge:
+class _Judge(Frozen):
     """What has become of the invariants of a run.
 
     Attributes:

@@ -9,13 +9,13 @@ doubled. The step of the oscillator is linear, and there RᵀJR − J = (det R �
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import chain
 from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
+from garkcli.frozen import Frozen
 from garkcli.longtime.history import State
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
@@ -33,8 +33,7 @@ _DECADES = 30  # the perturbation is 10^-30, so that errors are about 10^-60
 _SAFETY = 8
 
 
-@dataclass(frozen=True)
-class Defect:
+class Defect(Frozen):
     """How far a step from one state is from being symplectic.
 
     Attributes:
@@ -53,8 +52,7 @@ class Defect:
         return self.size > self.error
 
 
-@dataclass(frozen=True)
-class Symplecticity:
+class Symplecticity(Frozen):
     """Whether the steps of a method on a problem are symplectic.
 
     Attributes:

@@ -25,9 +25,10 @@ besides is weighed in ``garkcli.longtime.longtime``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import ceil, floor, sqrt
 from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -54,8 +55,7 @@ OF_EIGHTHS = slice(11, 19)
 _FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
 
-@dataclass(frozen=True)
-class Windows:
+class Windows(Frozen):
     """What is fitted to the windows of one signal.
 
     Attributes:
@@ -211,8 +211,7 @@ _APART = 3.0
 _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
 
 
-@dataclass(frozen=True)
-class Trend:
+class Trend(Frozen):
     """The slow part of one signal e_0 … e_N.
 
     Attributes:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import counted
+from garkcli.frozen import replace
 from garkcli.methodfile.description import ArkText, ButcherText, PrkText, Structure, of_colour
 from garkcli.methodfile.grammar import Found, Key, Kind, defined, mapping
 from garkcli.methodfile.nodes import key_nodes

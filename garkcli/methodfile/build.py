@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from yaml.nodes import Node
@@ -169,8 +168,7 @@ class BlockBuilder:
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
-class MethodFile(GarkMethod):
+class MethodFile(GarkMethod, kw_only=True):
     """One method file, read: the method that it describes, and what else it says.
 
     Attributes:
@@ -193,6 +191,8 @@ class MethodFile(GarkMethod):
     ('rk4', ['order', 'symplectic'])
     """
 
+    besides = frozenset({"printed"})
+
     source: str
     text: str
     form: Form
@@ -203,7 +203,7 @@ class MethodFile(GarkMethod):
     description: str = ""
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
-    printed: Printed = field(default=(), repr=False, compare=False)
+    printed: Printed = ()
     left_behind: tuple[str, ...] = ()
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.families.family import Recipe
+from garkcli.frozen import Frozen, FrozenBut
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.reference import Reference
@@ -55,8 +55,7 @@ def of_colour(letter: str, l: int) -> str:
     return f"{letter}^{{{l + 1}}}"
 
 
-@dataclass(frozen=True)
-class FurtherText:
+class FurtherText(Frozen):
     """Further weights of one colour, each None where the file has none.
 
     Attributes:
@@ -73,8 +72,7 @@ class FurtherText:
 NOTHING_FURTHER = FurtherText()
 
 
-@dataclass(frozen=True)
-class FamilyText:
+class FamilyText(Frozen):
     """A member of a family.
 
     Attributes:
@@ -100,8 +98,7 @@ class FamilyText:
         return self.recipe.stages
 
 
-@dataclass(frozen=True)
-class ButcherText:
+class ButcherText(Frozen):
     """A spelled-out method: A with a row a stage, b, and c where the file gives it."""
 
     node: Node
@@ -112,16 +109,14 @@ class ButcherText:
     further: FurtherText = NOTHING_FURTHER
 
 
-@dataclass(frozen=True)
-class RuleText:
+class RuleText(Frozen):
     """A block made by rules: ``(rule, weight)``, the weight None for a rule on its own."""
 
     node: Node
     terms: tuple[tuple[str, Entry | None], ...]
 
 
-@dataclass(frozen=True)
-class MatrixText:
+class MatrixText(Frozen):
     """A block spelled out."""
 
     node: Node
@@ -133,24 +128,21 @@ BlockTexts: TypeAlias = dict[tuple[int, int], BlockText]
 """Blocks by their colours l and m, counted from 0."""
 
 
-@dataclass(frozen=True)
-class TransferText:
+class TransferText(Frozen):
     """A rule for all off-diagonal blocks, with exceptions; colours count from 0."""
 
     default: RuleText | None
     blocks: BlockTexts
 
 
-@dataclass(frozen=True)
-class MethodsText:
+class MethodsText(Frozen):
     """The paper's construction."""
 
     methods: tuple[FamilyText | ButcherText, ...]
     transfer: TransferText
 
 
-@dataclass(frozen=True)
-class TableauText:
+class TableauText(Frozen):
     """Every block spelled out; None for an absent one. ``further`` has one a colour."""
 
     A: tuple[tuple[Rows | None, ...], ...]
@@ -160,8 +152,7 @@ class TableauText:
     further: tuple[FurtherText, ...]
 
 
-@dataclass(frozen=True)
-class ArkText:
+class ArkText(Frozen):
     """Shared stages, one matrix a colour; ``further`` has one a colour."""
 
     A: tuple[Rows, ...]
@@ -170,16 +161,14 @@ class ArkText:
     further: tuple[FurtherText, ...]
 
 
-@dataclass(frozen=True)
-class PrkText:
+class PrkText(Frozen):
     """A partitioned method: the parts q and p."""
 
     q: ButcherText
     p: ButcherText
 
 
-@dataclass(frozen=True)
-class PartText:
+class PartText(Frozen):
     """A method that a construction is made from.
 
     Attributes:
@@ -206,8 +195,7 @@ Make: TypeAlias = "Callable[[Callable[[PartText], Tableau], Values], Tableau]"
 """A method, from what gives the tableaus of its parts and the values of its coefficients."""
 
 
-@dataclass(frozen=True)
-class ConstructionText:
+class ConstructionText(Frozen):
     """A method made from others.
 
     Attributes:
@@ -256,17 +244,20 @@ def left_behind(content: Content) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-@dataclass(frozen=True)
-class ClaimText:
+class ClaimText(FrozenBut):
     """One claim of ``expect``: its key, its value as plain data, and where it stands."""
 
-    node: Node = field(compare=False)
+    besides = frozenset({"node"})
+
+    node: Node
     key: str
-    value: object = field(hash=False)
+    value: object
+
+    def __hash__(self) -> int:
+        return hash(self.key)
 
 
-@dataclass(frozen=True)
-class Description:
+class Description(Frozen):
     """A whole file."""
 
     form: Form
@@ -280,4 +271,4 @@ class Description:
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
     tolerance: fmpq | None = None
-    claims: tuple[ClaimText, ...] = field(default=())
+    claims: tuple[ClaimText, ...] = ()

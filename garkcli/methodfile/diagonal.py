@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import UnknownFamily, nearest
 from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, recipe_of
+from garkcli.frozen import replace
 from garkcli.methodfile.description import (
     MAX_ENTRIES,
     ButcherText,

@@ -5,10 +5,10 @@ transformed.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import comb, prod
 from typing import TypeAlias
 
+from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, Vector
 
 MAX_TERMS = 3_000
@@ -77,8 +77,7 @@ Factors: TypeAlias = Mapping[Expr, Size]
 """The factors of a denominator."""
 
 
-@dataclass(frozen=True)
-class _Fraction:
+class _Fraction(Frozen):
     """The size of an expression as one fraction.
 
     Attributes:

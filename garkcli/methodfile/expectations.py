@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -16,6 +15,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.grammar import FLAG, Key, Kind, mapping
 from garkcli.methodfile.nodes import is_null, shortened
@@ -28,8 +28,7 @@ _DECIMAL = re.compile(r"[0-9]*\.(?P<places>[0-9]*)(?:[eE](?P<exponent>[+-]?[0-9]
 _LEAST = re.compile(r">=\s*(.*)", re.DOTALL)
 
 
-@dataclass(frozen=True)
-class Measure:
+class Measure(Frozen):
     """A real number that is claimed.
 
     Attributes:
@@ -103,8 +102,7 @@ _FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")
 
 
-@dataclass(frozen=True)
-class AtLeast:
+class AtLeast(Frozen):
     """A claim ``>= least``."""
 
     least: int

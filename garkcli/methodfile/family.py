@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
 
 from flint import fmpq_mpoly
@@ -21,8 +20,7 @@ from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
-class FamilyFile(Family):
+class FamilyFile(Family, kw_only=True):
     """One method file with free parameters, read.
 
     Attributes:

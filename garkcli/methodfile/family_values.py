@@ -5,7 +5,6 @@ of their own.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain
 from math import prod
 from typing import Any, cast
@@ -26,6 +25,7 @@ from garkcli.exact.parametric import (
 )
 from garkcli.exact.rewriting import format_expression, roots_in
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import replace
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.values import Values
 from garkcli.tableau.family import Radical

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -13,6 +12,7 @@ from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, value_of
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import names_in, size_of
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.methodfile.nodes import is_null, shortened, unquoted
 from garkcli.methodfile.numbers import MAX_SIZE
 from garkcli.methodfile.problem_keys import ProblemText
@@ -28,8 +28,7 @@ PLACES = 60
 """Decimals to which an irrational initial value is taken."""
 
 
-@dataclass
-class Formulas:
+class Formulas(Mutable):
     """Reads the formulas of one file.
 
     Attributes:
@@ -186,8 +185,7 @@ writes.
 """
 
 
-@dataclass(frozen=True)
-class Term:
+class Term(Frozen):
     """A formula of the file, and its sympy expression."""
 
     node: Node
@@ -196,8 +194,7 @@ class Term:
     made: Expr
 
 
-@dataclass(frozen=True)
-class TermReader:
+class TermReader(Frozen):
     """Reads formulas with variables; faults are noted in the source."""
 
     source: Source

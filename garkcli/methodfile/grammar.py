@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.frozen import Frozen
 from garkcli.methodfile.source import Cures, Entries, Home, Source
 
 if TYPE_CHECKING:
@@ -35,8 +35,7 @@ def as_it_is(_: Any, node: Node, __: str) -> Node:
     return node
 
 
-@dataclass(frozen=True)
-class Kind:
+class Kind(Frozen):
     """What may stand under a key.
 
     Attributes:
@@ -61,8 +60,7 @@ class Kind:
         return Kind(self.schema, read, self.inside)
 
 
-@dataclass(frozen=True)
-class Key:
+class Key(Frozen):
     """A key of a mapping.
 
     Attributes:
@@ -165,8 +163,7 @@ class Together(NamedTuple):
             source.fault(entries[there[0]], placed(where, message), cure, code="missing-key")
 
 
-@dataclass(frozen=True)
-class Ways:
+class Ways(Frozen):
     """Keys that say the same in several ways, of which a mapping has one.
 
     Attributes:
@@ -227,8 +224,7 @@ class Values(NamedTuple):
     has: Callable[[Node], bool]
 
 
-@dataclass(frozen=True)
-class Beside:
+class Beside(Frozen):
     """What a key needs beside it, or what bars it.
 
     Attributes:
@@ -272,8 +268,7 @@ class Beside:
             source.fault(node, placed(where, message), cure, code=self.code)
 
 
-@dataclass(frozen=True)
-class OfSchema:
+class OfSchema(Frozen):
     """What the schema alone says of a mapping; its reader finds it out otherwise."""
 
     rule: Schema

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
+from garkcli.frozen import Frozen
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
 from garkcli.methodfile.description import Description, PartText, left_behind
 from garkcli.methodfile.finding import find_files
@@ -139,8 +139,7 @@ def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Read
     return reader, description
 
 
-@dataclass(frozen=True)
-class Built(Generic[V]):
+class Built(Frozen, Generic[V]):
     """What the coefficients of a file make.
 
     Attributes:

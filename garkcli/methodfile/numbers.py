@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -14,6 +13,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, size_of, substitute
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spellings import (
@@ -73,8 +73,7 @@ MAX_DEPTH = 200
 _SHOWN_ROWS = 5  # most further rows of another length that are told
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(Frozen):
     """One coefficient: its expression and where it stands."""
 
     expression: Expression
@@ -86,8 +85,7 @@ Row: TypeAlias = tuple[Entry, ...]
 Rows: TypeAlias = tuple[Row, ...]
 
 
-@dataclass(frozen=True)
-class Free:
+class Free(Frozen):
     """A parameter without a value, and the ranges that it lies in, each with two ends.
 
     ``where`` is the entry of a tableau that it stands for, empty for a parameter with a name.
@@ -98,8 +96,7 @@ class Free:
     where: str = ""
 
 
-@dataclass
-class Numbers:
+class Numbers(Mutable):
     """Reads the coefficients of one file; ``parameters`` are substituted as they are read.
 
     Attributes:

@@ -15,11 +15,11 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import takewhile
 from typing import TypeAlias
 
 from garkcli.errors import MethodError, counted
+from garkcli.frozen import Frozen
 
 _MINUS = dict.fromkeys("\N{MINUS SIGN}\N{EN DASH}", "-")
 _BLANKS = dict.fromkeys(
@@ -79,8 +79,7 @@ _EXAMPLE = "for instance: 0 | 0 0, below it 1/2 | 1/2 0, below it | 0 1"
 _IN_BRACKETS = "a list in brackets belongs into a file: A: [[0, 0], [1/2, 0]]"
 
 
-@dataclass(frozen=True)
-class Pasted:
+class Pasted(Frozen):
     """A tableau in the texts of its numbers.
 
     Attributes:
@@ -96,8 +95,7 @@ class Pasted:
     embedded: _Row | None = None
 
 
-@dataclass(frozen=True)
-class _Line:
+class _Line(Frozen):
     """A line of numbers; ``node`` is None where no bar parts one from the row."""
 
     node: str | None

@@ -5,7 +5,6 @@ fault of the text at once.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.doing import doing
 from garkcli.exact.formula import RESERVED
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.grammar import FILE, entries_in
@@ -76,8 +76,7 @@ def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = No
     return Maker(reading, reader.formulas, read).problem()
 
 
-@dataclass(frozen=True)
-class _Variables:
+class _Variables(Frozen):
     """The variables of one file.
 
     Attributes:

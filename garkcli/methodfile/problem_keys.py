@@ -7,13 +7,13 @@ loader.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.exact.formula import RESERVED
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.grammar import (
     TEXT,
     VERSION,
@@ -47,8 +47,7 @@ Sides: TypeAlias = tuple[Side, ...]
 """Those of all terms."""
 
 
-@dataclass(frozen=True)
-class ProblemText:
+class ProblemText(Frozen):
     """What a problem file says; formulas are still nodes, each with what it is called in messages.
 
     Attributes:

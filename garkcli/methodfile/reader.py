@@ -5,12 +5,12 @@ met.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
+from garkcli.frozen import replace
 from garkcli.methodfile.description import (
     CONSTRUCTIONS,
     FORMS,

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from garkcli.design.design import Whose
 from garkcli.design.search.run import Task, Timed, do
 from garkcli.design.search.search import Search
+from garkcli.frozen import Frozen
 from garkcli.methodfile.family import FamilyFile, loads_family
 
 
-@dataclass(frozen=True)
-class FileSearch:
+class FileSearch(Frozen):
     """What is looked for, without a number that only one process knows.
 
     Attributes:

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
 from itertools import chain, product
 from typing import Any, Literal, TypeAlias
 
 from yaml.nodes import Node
 
 from garkcli.errors import MethodError, did_you_mean
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.description import (
     NOTHING_FURTHER,
     ArkText,
@@ -34,8 +34,7 @@ _OWN = re.compile(r"[ae][0-9_]+")
 """An entry of a matrix that is an unknown of its own."""
 
 
-@dataclass(frozen=True)
-class Layout:
+class Layout(Frozen):
     """A tableau whose entries are zeros, names of unknowns and sums of them.
 
     Attributes:
@@ -227,8 +226,7 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
         rows[k][l] = f"{b[j]} - {entry}"
 
 
-@dataclass(frozen=True)
-class Shape:
+class Shape(Frozen):
     """A shape of tableaus.
 
     Attributes:
@@ -328,8 +326,7 @@ UNKNOWN = mapping(
 """How many stages, and which shape."""
 
 
-@dataclass(frozen=True)
-class Shaped:
+class Shaped(Frozen):
     """What ``unknown`` stands for.
 
     Attributes:

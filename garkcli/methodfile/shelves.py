@@ -10,11 +10,11 @@ import os
 import re
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import Fault, MethodFileError
+from garkcli.frozen import Frozen
 from garkcli.methodfile.bibliography import aliases_of
 from garkcli.methodfile.reading import SUFFIX, decoded, files_below, read_text
 from garkcli.methodfile.source import METHOD_FILE
@@ -43,8 +43,7 @@ def key_of(name: str) -> str:
     return _BETWEEN_WORDS.sub("-", text.strip())
 
 
-@dataclass(frozen=True)
-class Shelved:
+class Shelved(Frozen):
     """A method file with a name.
 
     Attributes:

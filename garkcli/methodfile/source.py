@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import NamedTuple, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, Fault, MethodFileError, counted, did_you_mean, printable
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.composing import composed, cure_of_foreign, folded_place, position
 from garkcli.methodfile.nodes import keys_of, meant_key, shortened
 
@@ -19,8 +19,7 @@ MAX_PLACES = 3
 """Most further places that are named where one cause shows in many."""
 
 
-@dataclass(frozen=True)
-class Found:
+class Found(Frozen):
     """A fault as it was noted.
 
     Attributes:
@@ -64,8 +63,7 @@ def _elsewhere(others: Sequence[Place]) -> str:
     return f" (also at {places}{more})"
 
 
-@dataclass(frozen=True)
-class FileKind:
+class FileKind(Frozen):
     """What a file is for.
 
     Attributes:

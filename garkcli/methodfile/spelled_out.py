@@ -5,12 +5,12 @@ further weights, ``embedded`` and ``dense``, which stand beside b in every form.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence, Sized
-from dataclasses import replace
 from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
+from garkcli.frozen import replace
 from garkcli.methodfile.description import (
     BESIDE,
     MAX_COLOURS,

@@ -7,7 +7,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from itertools import chain, product
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, recipe_of
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.grammar import (
     Found,
@@ -45,8 +45,7 @@ STARTS = 20
 """Starts of a seed, where nothing is said."""
 
 
-@dataclass(frozen=True)
-class TemplateText:
+class TemplateText(Frozen):
     """A method file of a sweep, made or read.
 
     Attributes:
@@ -62,8 +61,7 @@ class TemplateText:
     order: int = 0
 
 
-@dataclass(frozen=True)
-class SearchText:
+class SearchText(Frozen):
     """How methods are searched for.
 
     Attributes:
@@ -77,8 +75,7 @@ class SearchText:
     order: int = 0
 
 
-@dataclass
-class SweepText:
+class SweepText(Mutable):
     """What a spec file says.
 
     Attributes:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
+from garkcli.frozen import Frozen
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.pasted import Pasted
 from garkcli.methodfile.writer import quoted
@@ -19,8 +19,7 @@ _MEANS = re.compile("[;:.]")
 """What ends the first part of a text about a key, which says what it is."""
 
 
-@dataclass(frozen=True)
-class Member:
+class Member(Frozen):
     """A member of a family."""
 
     family: str

@@ -5,7 +5,6 @@ derivatives.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -13,6 +12,7 @@ from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import NoLegendreTransform
+from garkcli.frozen import replace
 from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import (
     BITS,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -15,6 +14,7 @@ from garkcli.design.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
+from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
@@ -111,8 +111,7 @@ DESIGN = mapping(
 """What is wanted of the methods of a family; it is read when its unknowns are known."""
 
 
-@dataclass(frozen=True)
-class Wish:
+class Wish(Frozen):
     """One key of ``design``; a count, a coefficient, or True.
 
     Attributes:
@@ -128,8 +127,7 @@ class Wish:
     colour: int | None
 
 
-@dataclass(frozen=True)
-class Wishes:
+class Wishes(Frozen):
     """All of ``design``.
 
     Attributes:
@@ -227,7 +225,7 @@ def meaning_of(
 def _together(meanings: list[Meaning]) -> Meaning:
     """What several wishes mean, together."""
     together: dict[str, Any] = {}
-    for field in fields(Meaning):
-        parts = (getattr(one, field.name) for one in meanings)
-        together[field.name] = tuple(chain.from_iterable(parts))
+    for name in fields(Meaning):
+        parts = (getattr(one, name) for one in meanings)
+        together[name] = tuple(chain.from_iterable(parts))
     return Meaning(**together)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import chain
 from typing import TypeAlias
 
@@ -13,6 +12,7 @@ from garkcli.exact.display import decimal, plain_decimal, to_ball, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.frozen import replace
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.pointwise import Cell, Entries

@@ -20,7 +20,6 @@ good or bad.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from itertools import chain
 from operator import add
@@ -28,6 +27,7 @@ from operator import add
 from flint import arb, arb_mat, ctx
 
 from garkcli.exact.enclosing import Entries, entrywise_max, plus, scalar_product, times
+from garkcli.frozen import Frozen
 from garkcli.order.recursion import Forest, OrderByOrder
 from garkcli.tableau.rounded import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
@@ -37,8 +37,7 @@ Rows = list[Entries]
 Places = list[int]
 
 
-@dataclass(frozen=True, eq=False)
-class _Hull:
+class _Hull(Frozen, eq=False):
     """Members, and how far all others of their kind are from them: Λ, ε and π; no members where
     there is nothing of that kind.
     """
@@ -49,8 +48,7 @@ class _Hull:
     size: Entries
 
 
-@dataclass(frozen=True, eq=False)
-class HullSizes:
+class HullSizes(Frozen, eq=False):
     """How far the conditions of one order are missed.
 
     Attributes:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 
 from flint import fmpq
 
@@ -16,6 +15,7 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.frozen import Frozen, replace
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import order_of
 from garkcli.tableau.meant import AnyTableau, derived, meant, printed
@@ -35,8 +35,7 @@ NEWTON_STEPS = 3
 """Steps of the simplified Newton's method; each squares a small misprint, nearly."""
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(Frozen):
     """One entry of a method.
 
     ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
@@ -69,7 +68,6 @@ class Entry:
         return replace(method, blocks={**method.blocks, key: tuple(block)})
 
 
-@dataclass(frozen=True)
 class Repair(Entry):
     """An entry that restores the claimed order when it is changed alone.
 
@@ -84,8 +82,7 @@ class Repair(Entry):
         return self.put(method, self.new)
 
 
-@dataclass(frozen=True)
-class Missed:
+class Missed(Frozen):
     """A claimed order that is missed, and how conditions are judged.
 
     Attributes:
@@ -257,8 +254,7 @@ def _with_value(row: Vector, j: int, value: Number) -> Vector:
     return tuple(changed)
 
 
-@dataclass(frozen=True)
-class Blame:
+class Blame(Frozen):
     """What the conditions of the first failing order tell.
 
     Attributes:

@@ -13,7 +13,6 @@ for a set of trees whose ψ span, and there are at most s + 1 of those a colour.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import cast
 
 from flint import fmpq
@@ -23,6 +22,7 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number, coordinates
 from garkcli.exact.matrix import LinearMap, dot
 from garkcli.exact.span import AffineSpan
+from garkcli.frozen import Frozen
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
@@ -32,8 +32,7 @@ DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
 
 
-@dataclass(frozen=True, repr=False)
-class Witness(Shown):
+class Witness(Shown, Frozen):
     """A tree whose order condition fails.
 
     Attributes:
@@ -61,8 +60,7 @@ class Witness(Shown):
         return f"<Witness {tree}: {value} instead of {self.required}>"
 
 
-@dataclass(frozen=True, repr=False)
-class Order(Shown):
+class Order(Shown, Frozen):
     """The outcome: every condition up to ``order`` holds.
 
     Attributes:
@@ -156,8 +154,7 @@ def all_spanning_trees(
         )
 
 
-@dataclass(frozen=True)
-class Proof:
+class Proof(Frozen):
     """The order of a tableau with what decides it.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -11,6 +10,7 @@ from flint import fmpq
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import dot
+from garkcli.frozen import Frozen, replace
 from garkcli.order.tolerance import within
 from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.meant import AnyTableau, printed
@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.rounded import RoundedTableau
 
 
-@dataclass(frozen=True)
-class Condition(Shown):
+class Condition(Shown, Frozen):
     """The order condition b_lᵀ 𝒜^[u] = 1/γ(u) of one tree, eq. (bA).
 
     Attributes:

@@ -7,7 +7,6 @@ Equations I*, II.3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, ctx
@@ -15,6 +14,7 @@ from flint import arb, ctx
 from garkcli.doing import doing
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import Frozen
 from garkcli.order.conditions import all_conditions, count_conditions, coupling_graph
 from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.tableau import Tableau
@@ -41,8 +41,7 @@ _Coefficient: TypeAlias = "tuple[Number, Sequence[Tree]]"
 """e(u), and the trees u that have it: they differ in their root colours."""
 
 
-@dataclass(frozen=True)
-class Norms:
+class Norms(Frozen):
     """Norms of the error coefficients e(u) of some trees.
 
     Attributes:
@@ -62,8 +61,7 @@ class Norms:
     worst_value: Number | None
 
 
-@dataclass(frozen=True)
-class ErrorConstants:
+class ErrorConstants(Frozen):
     """The norms of one order, over all trees and over the trees that mix colours.
 
     Attributes:

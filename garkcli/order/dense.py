@@ -13,13 +13,13 @@ more stages, which see nothing, and what b gives.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 from flint import fmpq
 
 from garkcli.exact.display import decimal
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import StageSpans, Witness
 from garkcli.order.functionals import Functional, Undecided, first_failure
 from garkcli.order.tolerance import are_alike, within
@@ -30,16 +30,14 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 
-@dataclass(frozen=True)
-class DenseWitness:
+class DenseWitness(Frozen):
     """A coefficient of θ^power in the condition of a tree that is not what it should be."""
 
     power: int
     witness: Witness
 
 
-@dataclass(frozen=True, repr=False)
-class DenseOrder(Shown):
+class DenseOrder(Shown, Frozen):
     """The order of dense output.
 
     Attributes:
@@ -107,8 +105,7 @@ def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:
     return True
 
 
-@dataclass(frozen=True)
-class Slopes:
+class Slopes(Frozen):
     """Whether the slope of dense output is continuous from step to step, on autonomous problems.
 
     Attributes:

@@ -15,13 +15,13 @@ Equations I*, II.4.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector, dot
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans, Witness, witness_of
 from garkcli.order.constants import ErrorConstants, estimate_constants
 from garkcli.tableau.embedded import Weights, with_weights
@@ -37,8 +37,7 @@ MOST_TREES = 50_000
 """Most trees of an order whose weights are enclosed one by one."""
 
 
-@dataclass(frozen=True)
-class Functional:
+class Functional(Frozen):
     """Weights at the stages, and what they should give.
 
     Attributes:
@@ -62,8 +61,7 @@ class Functional:
         return int(order == self.exact_at)
 
 
-@dataclass(frozen=True)
-class Failure:
+class Failure(Frozen):
     """A functional that does not give what it should: which one in the sequence, and the tree."""
 
     number: int
@@ -143,8 +141,7 @@ def _first_within(
     return None
 
 
-@dataclass(frozen=True)
-class Estimator:
+class Estimator(Frozen):
     """The estimate of the error.
 
     Attributes:
@@ -161,8 +158,7 @@ class Estimator:
     is_zero: bool
 
 
-@dataclass(frozen=True)
-class Orders:
+class Orders(Frozen):
     """What is known of the orders of b and b̂ when their difference is looked at.
 
     Attributes:

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, LinearMap
+from garkcli.frozen import Frozen
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
@@ -87,8 +87,7 @@ class OrderByOrder(ABC, Generic[Value]):
         """The value of the forests of an order, from smaller ones and the branches up to it."""
 
 
-@dataclass(frozen=True)
-class Forest:
+class Forest(Frozen):
     """A forest, and what it contributes to the stage vector of a tree.
 
     Attributes:

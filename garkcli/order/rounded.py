@@ -10,7 +10,6 @@ spans where the trees are too many.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Literal, TypeAlias
@@ -20,6 +19,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.doing import doing
 from garkcli.exact.display import decimal, to_ball
 from garkcli.exact.enclosing import times
+from garkcli.frozen import Frozen, FrozenBut
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
 from garkcli.order.conditions import coupling_graph, elementary_weight, twin_roots
@@ -37,8 +37,7 @@ if TYPE_CHECKING:
     from garkcli.trees.table import Column, Segment
 
 
-@dataclass(frozen=True, eq=False)
-class Sizes:
+class Sizes(Frozen, eq=False):
     """How large the residuals of one order are.
 
     Attributes:
@@ -153,8 +152,7 @@ _Doubt: TypeAlias = tuple[arb, arb, int]
 """The |residual| and the residual of a tree, and its id."""
 
 
-@dataclass(frozen=True, repr=False)
-class RoundedOrder(Shown):
+class RoundedOrder(Shown, FrozenBut):
     """The outcome: every condition up to ``order`` is met within ``tolerance``.
 
     Attributes:
@@ -169,11 +167,13 @@ class RoundedOrder(Shown):
         means: what decided each of these orders.
     """
 
+    besides = frozenset({"sizes"})
+
     order: int
     tolerance: fmpq
     witness: Witness | None
     undecided: str = ""
-    sizes: tuple[arb, ...] = field(default=(), compare=False)
+    sizes: tuple[arb, ...] = ()
     means: tuple[Means, ...] = ()
 
     def __repr__(self) -> str:
@@ -234,8 +234,7 @@ def _outcome(
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Verdict:
+class Verdict(Frozen, eq=False):
     """What became of the conditions of an order: ``size`` bounds all |residuals| where they are
     met; otherwise there is a witness.
     """

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.exact.matrix import EntrywiseMap, LinearMap, Matrix, Vector, dot
+from garkcli.frozen import Frozen, FrozenBut
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau import conjugate
 from garkcli.tableau.meant import printed
@@ -145,8 +145,7 @@ Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"
 """A number for each block; None where the block does not exist."""
 
 
-@dataclass(frozen=True)
-class Simplifying:
+class Simplifying(FrozenBut):
     """The largest r, η, ζ for which B^{l}(r), C^{l,m}(η), D^{l,m}(ζ) hold, up to a limit.
 
     Attributes:
@@ -156,10 +155,12 @@ class Simplifying:
         limit: where each search stopped: numbers that reached it may be larger.
     """
 
+    besides = frozenset({"limit"})
+
     B: tuple[int, ...]
     C: Table
     D: Table
-    limit: int = field(default=DEFAULT_LIMIT, repr=False, compare=False)
+    limit: int = DEFAULT_LIMIT
 
     def is_open(self, number: int) -> bool:
         """Whether a number that is made of these may be larger, as one reached the limit."""
@@ -290,8 +291,7 @@ class _Search:
         return self.limit
 
 
-@dataclass(frozen=True)
-class _Alike:
+class _Alike(Frozen):
     """For each colour the first one with the same stages and nodes, and with the same weights too.
 
     Their rows of conditions are the same: in an additive method of many colours all are.

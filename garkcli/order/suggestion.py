@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import FrozenBut
 from garkcli.order.approximate_spans import ApproximateSpans, HullSizes
 from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
@@ -30,8 +30,7 @@ JUMP = 1000
 """The first residual that is genuine is so many times larger than all those of rounding."""
 
 
-@dataclass(frozen=True)
-class Suggestion:
+class Suggestion(FrozenBut):
     """Within ``tolerance`` the order is ``order``, and it is more than the exact one.
 
     Attributes:
@@ -42,10 +41,12 @@ class Suggestion:
         worst: the order at which ``rounding`` is reached; 0 where that is not known.
     """
 
+    besides = frozenset({"rounding", "genuine"})
+
     order: int
     exponent: int
-    rounding: arb = field(compare=False)
-    genuine: arb = field(compare=False)
+    rounding: arb
+    genuine: arb
     worst: int = 0
 
     @property
@@ -59,8 +60,7 @@ class Suggestion:
         return f"tolerance: 1e{self.exponent}"
 
 
-@dataclass(frozen=True)
-class Misprint:
+class Misprint(FrozenBut):
     """Residuals that look like rounding, but are larger than the digits of the file explain.
 
     Attributes:
@@ -70,9 +70,11 @@ class Misprint:
         repairs: single entries whose change restores the order: one of them is misprinted.
     """
 
+    besides = frozenset({"residual", "explained"})
+
     order: int
-    residual: arb = field(compare=False)
-    explained: arb = field(compare=False)
+    residual: arb
+    explained: arb
     repairs: tuple[Repair, ...]
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import zip_longest
+
+from garkcli.frozen import Frozen
 
 _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
@@ -17,8 +18,7 @@ _DOTS = (34, 33, 32, 35, 36, 31)
 """The codes of the colours 1, 2, …, taken anew after the last."""
 
 
-@dataclass(frozen=True)
-class Paint:
+class Paint(Frozen):
     """Marks text for a terminal when ``color`` is on; nothing is told by colour alone.
 
     Attributes:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
+from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
 from garkcli.page.schema import Schema, array
 
@@ -13,8 +13,7 @@ Whole = TypeVar("Whole")
 Owner = TypeVar("Owner")
 
 
-@dataclass(frozen=True)
-class Field(Generic[Whole]):
+class Field(Frozen, Generic[Whole]):
     """A field of a JSON object that describes a ``Whole``.
 
     Attributes:

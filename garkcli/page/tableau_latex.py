@@ -7,11 +7,11 @@ the stages at which its part is computed and the weights that update it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 from flint import arb
 
 from garkcli.exact.display import to_latex
+from garkcli.frozen import Frozen
 from garkcli.page.cells import cell_text, distinct_rows
 from garkcli.page.latex import number
 from garkcli.tableau.pointwise import Cell, Entries, Row
@@ -26,8 +26,7 @@ def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
     return [*displays(tableau, entries, entries.embedded), *_dense(entries)]
 
 
-@dataclass(frozen=True)
-class _Shown:
+class _Shown(Frozen):
     """What stands in the arrays.
 
     Attributes:

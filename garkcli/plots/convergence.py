@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
 from itertools import pairwise, product
 from typing import Any, TypeAlias
 
 from flint import fmpq
 
 from garkcli.convergence.result import Convergence
+from garkcli.frozen import Frozen, replace
 from garkcli.page.asciiplot import log10
 from garkcli.page.figures import scientific
 from garkcli.plots.scene import (
@@ -74,8 +74,7 @@ def place_line(
     return best
 
 
-@dataclass(frozen=True)
-class _Figure:
+class _Figure(Frozen):
     """All curves, in widths and heights of the figure.
 
     Attributes:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import isfinite
 
+from garkcli.frozen import replace
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured
 from garkcli.plots.scene import (

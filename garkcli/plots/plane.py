@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
+from garkcli.frozen import Frozen
 from garkcli.plots.scene import Point
 from garkcli.stability.linear import StabilityFunction
 
@@ -163,8 +163,7 @@ _FLAT = 3.0
 _THINNED = 0.06  # cells
 
 
-@dataclass(frozen=True)
-class Window:
+class Window(Frozen):
     """A part of the complex plane."""
 
     left: float

@@ -7,11 +7,11 @@ told apart in grey too.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from math import ceil, floor, log10
 from typing import TypeAlias
 
 from garkcli.errors import printable
+from garkcli.frozen import Frozen
 
 _STEPS = (1, 2, 5, 10)
 """What marks are apart, times powers of ten."""
@@ -23,8 +23,7 @@ _FLOATS = 290
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@dataclass(frozen=True)
-class Mark:
+class Mark(Frozen):
     """A mark on an axis, and its label."""
 
     at: float
@@ -137,8 +136,7 @@ WIDTH = 360
 """Of a picture, in units of which a letter is 12 high: about those of a phone."""
 
 
-@dataclass(frozen=True)
-class Axis:
+class Axis(Frozen):
     """An axis from ``low`` to ``high``.
 
     Attributes:
@@ -175,8 +173,7 @@ class Axis:
         return make(self.low, self.high, most)
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(Frozen):
     """Points, and lines between them.
 
     Attributes:
@@ -199,8 +196,7 @@ class Curve:
     is_dense: bool = False
 
 
-@dataclass(frozen=True)
-class Area:
+class Area(Frozen):
     """What lies on the left of closed outlines.
 
     Attributes:
@@ -218,8 +214,7 @@ class Area:
     label: str = ""
 
 
-@dataclass(frozen=True)
-class Rule:
+class Rule(Frozen):
     """A thin straight line in the colour of text.
 
     Attributes:
@@ -238,8 +233,7 @@ class Rule:
 Shape: TypeAlias = Curve | Area | Rule
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(Frozen):
     """Axes and what is drawn between them.
 
     Attributes:
@@ -270,8 +264,7 @@ class Panel:
         return [shape for shape in named if shape.label]
 
 
-@dataclass(frozen=True)
-class Scene:
+class Scene(Frozen):
     """A picture in a file: panels with a common title.
 
     Attributes:

@@ -7,12 +7,12 @@ A problem is added by an entry here, and its test.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.frozen import Frozen, replace
 from garkcli.problems import stiff
 from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -38,8 +38,7 @@ StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
 """Makes a problem of a number of terms and a stiffness."""
 
 
-@dataclass(frozen=True)
-class BuiltIn:
+class BuiltIn(Frozen):
     """A built-in problem.
 
     Attributes:

@@ -8,12 +8,12 @@ field is derived.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import cache
 
 from flint import fmpq
 
 from garkcli.errors import counted
+from garkcli.frozen import Frozen, replace
 from garkcli.problems.expr import Expr, Exprs, Invariants
 from garkcli.problems.vectorfield import GROUPS, Group, Layout, VectorField, occurring, symbols
 
@@ -21,8 +21,7 @@ FLOAT_DIGITS = 15
 """Up to so many digits numbers are floats; beyond, they are the midpoints of balls."""
 
 
-@dataclass(frozen=True)
-class Hamiltonian:
+class Hamiltonian(Frozen):
     """H = Σ_l H^{l}(q, p) with its initial values, in units of its own.
 
     Attributes:

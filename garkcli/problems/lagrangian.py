@@ -9,12 +9,11 @@ semi-separable and separable cases).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.errors import NoLegendreTransform
+from garkcli.frozen import Frozen
 from garkcli.problems.draw import Draw
 from garkcli.problems.expr import Expr, ExprMatrix, Place, Substitution, Vector, dot
 from garkcli.problems.mass import (
@@ -32,8 +31,7 @@ from garkcli.problems.solving import solutions
 from garkcli.problems.vectorfield import symbols
 
 
-@dataclass(frozen=True)
-class Solved:
+class Solved(Frozen):
     """Velocities as functions of positions and momenta, and what they make of forms of the
     Lagrangian.
     """
@@ -42,8 +40,7 @@ class Solved:
     forms: Substitution
 
 
-@dataclass(frozen=True)
-class Equations:
+class Equations(Frozen):
     """p = ∂L/∂v for velocities that depend on each other alone.
 
     Attributes:
@@ -104,8 +101,7 @@ def _times(matrix: ExprMatrix, vector: Vector) -> list[Expr]:
     return [dot(row, vector) for row in matrix]
 
 
-@dataclass(frozen=True)
-class _Form:
+class _Form(Frozen):
     """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
 
     Attributes:

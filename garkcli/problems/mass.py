@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq_mat
 
 from garkcli.errors import NoLegendreTransform
+from garkcli.frozen import Frozen
 from garkcli.graph import components
 from garkcli.problems.expr import Expr, ExprMatrix, Exprs, Place, Vector, number, rational
 from garkcli.problems.straightline import function
@@ -28,8 +28,7 @@ def velocities(variables: tuple[str, ...]) -> Exprs:
     return tuple(sympy.Symbol(f"v{x}", real=True) for x in variables)
 
 
-@dataclass(frozen=True)
-class Lagrangian:
+class Lagrangian(Frozen):
     """A Lagrangian L of d velocities v, with its derivatives; sympy expressions all of them.
 
     Attributes:

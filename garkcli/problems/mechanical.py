@@ -7,11 +7,11 @@ are as many parts as terms, equal shares of all of it otherwise.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, Exprs, Invariants
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
@@ -30,8 +30,7 @@ def no_invariants(*_: Expr) -> Invariants:
     return ()
 
 
-@dataclass(frozen=True)
-class Mechanical:
+class Mechanical(Frozen):
     """H = T + Σ potentials(q).
 
     Attributes:

@@ -8,7 +8,6 @@ momentum part only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
@@ -19,6 +18,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.given import AnyNumber, rational_of
 from garkcli.exact.matrix import Matrix
+from garkcli.frozen import Frozen, force_setattr
 from garkcli.tableau.tableau import Colour, Tableau
 
 Shares: TypeAlias = tuple[tuple[fmpq, fmpq], ...]
@@ -29,8 +29,7 @@ def _is_pair(given: object) -> bool:
     return isinstance(given, Sequence) and len(given) == 2
 
 
-@dataclass(frozen=True)
-class Oscillator:
+class Oscillator(Frozen):
     """q̇ = p, ṗ = −ω²q, divided among the terms of a split.
 
     Numbers of any kind are taken.
@@ -74,8 +73,8 @@ class Oscillator:
             )
             for term, (k, v) in enumerate(self.shares, start=1)
         )
-        object.__setattr__(self, "omega", omega)
-        object.__setattr__(self, "shares", shares)
+        force_setattr(self, "omega", omega)
+        force_setattr(self, "shares", shares)
         if self.omega <= 0:
             raise UsageProblem(
                 f"the frequency {self.omega} is not positive",

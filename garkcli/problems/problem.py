@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, TypeAlias
 
+from garkcli.frozen import replace
 from garkcli.problems.expr import Exprs
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, vector_field
 from garkcli.problems.righthandside import RightHandSide, right_hand_side

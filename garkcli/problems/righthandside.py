@@ -6,11 +6,10 @@ no text is ever evaluated.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 from flint import arb, fmpq
 
 from garkcli.errors import counted
+from garkcli.frozen import Frozen, replace
 from garkcli.problems.expr import Exprs, Invariants, rational
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, Layout, VectorField, occurring, symbols
@@ -21,8 +20,7 @@ stepped from.
 """
 
 
-@dataclass(frozen=True)
-class RightHandSide:
+class RightHandSide(Frozen):
     """ẏ = Σ_l f^{l}(t, y) with y(0), in units of its own.
 
     Attributes:

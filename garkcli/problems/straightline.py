@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import count
 from typing import Any
@@ -18,6 +17,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from garkcli.exact import formula
+from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, Exprs, Vector, number
 
 _LONG = 300  # characters from which a part of an expression is given a name
@@ -41,8 +41,7 @@ BALLS: Mapping[str, Any] = {
 """What the text for balls calls; the text for floats has names of its own."""
 
 
-@dataclass(frozen=True)
-class Code:
+class Code(Frozen):
     """Straight-line code for several expressions of the same arguments.
 
     The texts have ``{a0}``, ``{a1}``, … for the arguments, ``{t0}``, … for the temporaries, and

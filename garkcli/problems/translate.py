@@ -7,7 +7,6 @@ A translated expression is real and differentiable: it has no function but those
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from garkcli.errors import LimitExceeded, UndefinedValue
@@ -16,14 +15,14 @@ from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import CONSTANTS, FLOAT_BITS, Value, exponent_of, value_of
 from garkcli.exact.nodes import Call, Chain, Expression, Literal, Name, Power, RealPower, Root
 from garkcli.exact.rewriting import format_expression, names_in, parts
+from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, rational
 
 MAX_SIZE = 100_000
 """Most operations of all second derivatives of a problem together, as they are written out."""
 
 
-@dataclass(frozen=True)
-class Translator:
+class Translator(Frozen):
     """Makes sympy expressions of formulas.
 
     Attributes:
@@ -191,8 +190,7 @@ def size_of_derivatives(expression: Expr) -> int:
     return _sizes(expression, {}).second
 
 
-@dataclass(frozen=True)
-class _Sizes:
+class _Sizes(Frozen):
     """How long an expression and its derivatives are.
 
     Attributes:

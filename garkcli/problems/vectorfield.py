@@ -7,12 +7,12 @@ is derived.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.frozen import Frozen
 from garkcli.problems.draw import Draw
 from garkcli.problems.expr import Expr, Exprs
 from garkcli.problems.straightline import function
@@ -25,8 +25,7 @@ TIME: Final = "t"
 """The name of time in formulas, and of its group."""
 
 
-@dataclass(frozen=True)
-class Layout:
+class Layout(Frozen):
     """The numbers of a state, group after group.
 
     Attributes:
@@ -69,8 +68,7 @@ def symbols(variables: tuple[str, ...], group: Group) -> Exprs:
     return tuple(sympy.Symbol(prefix + name, real=True) for name in variables)
 
 
-@dataclass(frozen=True)
-class VectorField:
+class VectorField(Frozen):
     """V^{l}, F^{l} or f^{l}, with its Jacobians.
 
     Attributes:

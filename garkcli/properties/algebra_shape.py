@@ -11,7 +11,6 @@ or that none sees, are found by common divisors over ℚ, and belong to no syste
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import TypeAlias
 
@@ -20,6 +19,7 @@ from flint import fmpq, fmpq_poly, nmod_poly
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.roots import roots_below
+from garkcli.frozen import Frozen
 from garkcli.properties.pattern import Shape
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
@@ -29,8 +29,7 @@ PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549
 """Primes that are tried; most have a root of a node polynomial, and few hide an entry."""
 
 
-@dataclass(frozen=True)
-class _Space:
+class _Space(Frozen):
     """The stages of one space.
 
     Attributes:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.frozen import Frozen
 from garkcli.properties.property import KINDS, Kind, Property
 from garkcli.properties.registry import KEYS, find
 
 
-@dataclass(frozen=True)
-class Definition:
+class Definition(Frozen):
     """What a claim means.
 
     Attributes:

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from flint import fmpq
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class FirstSameAsLast:
+class FirstSameAsLast(Frozen):
     """Why a method is not FSAL: the first reason that is found.
 
     Attributes:

@@ -8,13 +8,13 @@ one with a loop is implicit in itself, a larger one is a system of stages that a
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, fmpq
 
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import Frozen
 from garkcli.graph import components
 from garkcli.order.tolerance import within
 from garkcli.tableau.stages import PointSpace
@@ -31,8 +31,7 @@ DIGITS = 30
 """Digits of enclosures, where nodes have no simple radicals."""
 
 
-@dataclass(frozen=True)
-class StageGraph:
+class StageGraph(Frozen):
     """Which stage values look at which.
 
     Attributes:
@@ -167,8 +166,7 @@ def is_nonzero(entry: Cell, tolerance: fmpq = ZERO) -> bool | None:
 Kind = Literal["explicit", "diagonally implicit", "fully implicit"]
 
 
-@dataclass(frozen=True)
-class Shape:
+class Shape(Frozen):
     """In which order stages are computed, and what is solved for.
 
     Attributes:

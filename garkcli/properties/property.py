@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from garkcli.frozen import Frozen
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
@@ -27,8 +27,7 @@ _LONG = 60
 """Longer polynomials are not shown."""
 
 
-@dataclass(frozen=True)
-class Size:
+class Size(Frozen):
     """A real number that may be infinite.
 
     Attributes:
@@ -63,8 +62,7 @@ class Size:
 Value: TypeAlias = "bool | int | Size"
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(Frozen):
     """What was found.
 
     Attributes:
@@ -100,8 +98,7 @@ class Verdict:
         return str(self.reason)
 
 
-@dataclass(frozen=True)
-class Property:
+class Property(Frozen):
     """A property that a method file may claim.
 
     Attributes:

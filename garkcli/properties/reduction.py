@@ -8,7 +8,6 @@ found by refining a partition until equal stages see equal sums of weights in ea
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import combinations
 
 from flint import fmpq, fmpq_poly
@@ -17,6 +16,7 @@ from garkcli.doing import doing
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
 from garkcli.exact.roots import roots_below
+from garkcli.frozen import replace
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from flint import fmpq
 
 from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO
+from garkcli.frozen import Frozen
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.reduction import at_points
@@ -29,8 +29,7 @@ MISSING_BLOCKS = Reason("some stages do not see every vector field")
 """Why what is about all vector fields together has no meaning where blocks are missing."""
 
 
-@dataclass(frozen=True)
-class Subject:
+class Subject(Frozen):
     """A method with what is known of it.
 
     Attributes:

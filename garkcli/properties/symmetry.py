@@ -9,7 +9,6 @@ the other. In the stage algebra of a family it is the reflection x → 1 − x o
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice, product
 from math import prod
 
@@ -17,6 +16,7 @@ from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, add, apply_left, identity, multiply, outer
+from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace, StageSpace
@@ -26,8 +26,7 @@ MOST_RENUMBERINGS = 2000
 """Renumberings that are tried where nodes coincide."""
 
 
-@dataclass(frozen=True)
-class Reflection:
+class Reflection(Frozen):
     """A map of one stage space that is its own inverse.
 
     Attributes:
@@ -39,8 +38,7 @@ class Reflection:
     images: tuple[int, ...] | None
 
 
-@dataclass(frozen=True)
-class Symmetry:
+class Symmetry(Frozen):
     """Whether a method is its own adjoint.
 
     Attributes:

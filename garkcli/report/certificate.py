@@ -8,7 +8,6 @@ the format.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
@@ -20,6 +19,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
+from garkcli.frozen import replace
 from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tableau.polynomial_space import PolynomialSpace

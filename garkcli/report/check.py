@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text
 from garkcli.check.findings import CLAIM as CLAIM_CURE
+from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import counted, folded

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
 from string import ascii_lowercase
 
+from garkcli.frozen import Frozen, fields
 from garkcli.page.latex_letters import ascii_letters, letters
 from garkcli.page.paint import counted
 from garkcli.page.plain import printable
@@ -31,8 +31,7 @@ _DASHES = re.compile(r"\s*[-–—]+\s*")
 """Between the first page and the last."""
 
 
-@dataclass(frozen=True)
-class Cited:
+class Cited(Frozen):
     """A publication with the methods that are from it.
 
     Attributes:
@@ -66,9 +65,7 @@ def _work(cited: Cited) -> object:
     if reference is None:
         return cited.text
     own = {"where", "coefficients", "note"}
-    return tuple(
-        getattr(reference, field.name) for field in fields(reference) if field.name not in own
-    )
+    return tuple(getattr(reference, name) for name in fields(reference) if name not in own)
 
 
 def keys(cited: Sequence[Cited]) -> list[str]:
@@ -230,7 +227,7 @@ def _of(field: str) -> Row:
     )
 
 
-REFERENCE = Section(*(_of(field.name) for field in fields(Reference)))
+REFERENCE = Section(*(_of(name) for name in fields(Reference)))
 """The fields of a publication, those that it has."""
 CITED = Section(
     Row("methods", TEXTS, lambda x: x[0].methods),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from string import ascii_lowercase, ascii_uppercase
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,6 +12,7 @@ from flint import fmpq
 from garkcli.convergence.result import Convergence
 from garkcli.convergence.result import Row as Step
 from garkcli.errors import Fault
+from garkcli.frozen import Frozen
 from garkcli.page.asciiplot import SEVERAL, terminal_curves
 from garkcli.page.figures import scientific
 from garkcli.page.paint import counted
@@ -64,8 +64,7 @@ MOST_METHODS = 20
 """Of a table in a terminal, usually."""
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(Frozen):
     """One method of a comparison.
 
     Attributes:
@@ -84,8 +83,7 @@ class Entry:
     exit_code: int
 
 
-@dataclass(frozen=True)
-class Compared:
+class Compared(Frozen):
     """What is told of several methods.
 
     Attributes:

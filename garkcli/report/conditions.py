@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import cache
 
 from flint import fmpq
@@ -11,6 +10,7 @@ from flint import fmpq
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parametric
+from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.order.conditions import Condition
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.latex import number
@@ -30,8 +30,7 @@ MOST_DIGITS = 60
 """Longer values are shown in decimals."""
 
 
-@dataclass(frozen=True)
-class ConditionRow:
+class ConditionRow(Frozen):
     """One line of the table.
 
     Attributes:
@@ -63,8 +62,7 @@ class ConditionRow:
         return vertex_letters(self.tree) if self.is_shape else None
 
 
-@dataclass(frozen=True)
-class Valued:
+class Valued(Frozen):
     """What a table with values is about.
 
     Attributes:
@@ -100,8 +98,7 @@ class Valued:
         return fails or row.condition is None or not self.only_failing
 
 
-@dataclass
-class Conditions:
+class Conditions(Mutable):
     """The conditions that were asked for.
 
     Attributes:

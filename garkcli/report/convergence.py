@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from flint import arb
@@ -10,6 +9,7 @@ from flint import arb
 from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Verdict
 from garkcli.convergence.result import Row as Step
 from garkcli.exact.display import to_float
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.asciiplot import POINT, terminal_curves
 from garkcli.page.figures import for_programs, rounded, scientific
@@ -47,8 +47,7 @@ _LONGEST_HEAD = 40  # characters of the name of an invariant above a column
 NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 
 
-@dataclass(frozen=True)
-class ConvergenceReport:
+class ConvergenceReport(Frozen):
     """What is told of one method.
 
     Attributes:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import isfinite, isnan
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from garkcli.exact.display import to_decimal, to_float
+from garkcli.frozen import Frozen
 from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Stability, Verdict
 from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.symplecticity import Symplecticity
@@ -54,8 +54,7 @@ _NEARLY = 2.0
 """How many times round-off an uncertainty is that is nothing but round-off."""
 
 
-@dataclass(frozen=True)
-class Claim:
+class Claim(Frozen):
     """What is claimed of a run, what was found, and whether the claim holds."""
 
     claim: str
@@ -63,8 +62,7 @@ class Claim:
     holds: bool
 
 
-@dataclass(frozen=True)
-class EnergyReport:
+class EnergyReport(Frozen):
     """A long run and what is said about it.
 
     Attributes:

@@ -5,7 +5,6 @@ to answers with exceptions.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from garkcli.check.every_facts import Fact, fact_text
@@ -15,6 +14,7 @@ from garkcli.check.every_properties import find_property
 from garkcli.design.stability_functions import FamilyFunction, family_functions
 from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.polynomial_text import power_text
+from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.properties.registry import KEYS
@@ -257,8 +257,7 @@ STABILITIES = ("a-stable", "l-stable", "p-stable", "algebraically-stable")
 LIMIT = 60
 
 
-@dataclass(frozen=True)
-class EveryStability:
+class EveryStability(Frozen):
     """What is known of the stability of a family.
 
     Attributes:

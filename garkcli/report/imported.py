@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.collecting import Result
 from garkcli.errors import counted
+from garkcli.frozen import replace
 from garkcli.tell.facts import Answer, Level, Row, Section, Status, parts, picture, table
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
 from garkcli.tell.report import Report

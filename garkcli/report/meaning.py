@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
+from garkcli.frozen import replace
 from garkcli.glossary.term import TOPICS, Term, terms_of
 from garkcli.page.paint import folded, indented
 from garkcli.properties.definitions import Definition

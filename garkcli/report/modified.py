@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.backward.summary import BackwardAnalysis
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.latex import number
 from garkcli.page.paint import counted
@@ -44,8 +44,7 @@ _FORMLESS = Reason("no Hamiltonian problem has its form")
 _ROUNDED = Status(open=Reason("coefficients are rounded"))
 
 
-@dataclass(frozen=True)
-class ModifiedReport:
+class ModifiedReport(Frozen):
     """What is told of one file.
 
     Attributes:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import ceil
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from garkcli.backward.energy import ModifiedEnergy, ModifiedRun, Verdict
 from garkcli.convergence.result import Row as Step
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.figures import scientific
 from garkcli.report.convergence import STEP_SIZE
@@ -39,8 +39,7 @@ MOST = 12
 """Rows of a table in a terminal, usually."""
 
 
-@dataclass(frozen=True)
-class ModifiedEnergyReport:
+class ModifiedEnergyReport(Frozen):
     """A measurement with the name of the method."""
 
     name: str

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
+from garkcli.frozen import Frozen
 from garkcli.page.paint import counted
 from garkcli.page.plain import printable
 from garkcli.reference import Reference
@@ -21,8 +21,7 @@ from garkcli.tell.report import Report
 DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
-@dataclass(frozen=True)
-class Shown:
+class Shown(Frozen):
     """A method.
 
     Attributes:

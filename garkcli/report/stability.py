@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ from garkcli.exact.polynomial_text import (
     polynomial_text,
 )
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.reason import NO_REASON, Reason
@@ -59,8 +59,7 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 
 
-@dataclass(frozen=True)
-class StabilityReport:
+class StabilityReport(Frozen):
     """What is told of one file.
 
     Attributes:

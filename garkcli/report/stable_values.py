@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from garkcli.design.design import Whose
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability

@@ -5,11 +5,11 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, counted
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
@@ -28,8 +28,7 @@ WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"
 """What is known of a find, as rows and as people have it."""
 
 
-@dataclass(frozen=True)
-class SweepReport(Shown):
+class SweepReport(Shown, Frozen):
     """What is told of a sweep.
 
     Attributes:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from garkcli.frozen import Frozen
 from garkcli.page.schema import Schema, counts_of, one_of, published
 from garkcli.report import trees
 from garkcli.report.symplectic_subject import SUBJECT, Subject
@@ -17,8 +17,7 @@ from garkcli.trees.symplectic import KINDS, ConditionClass
 from garkcli.trees.tree import Tree
 
 
-@dataclass(frozen=True)
-class FreeList:
+class FreeList(Frozen):
     """The classes that were asked for.
 
     Attributes:
@@ -49,8 +48,7 @@ class FreeTree(NamedTuple):
         return self.found.order
 
 
-@dataclass(frozen=True)
-class Counted:
+class Counted(Frozen):
     """How many conditions of an order are independent, and how many there are."""
 
     kind: str

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
+from garkcli.frozen import Frozen
 from garkcli.page.paint import counted
 from garkcli.tableau.meant import printed
 from garkcli.tell.facts import Level, Row, Section
@@ -36,8 +36,7 @@ _PROBLEMS = {
 }
 
 
-@dataclass(frozen=True)
-class Subject:
+class Subject(Frozen):
     """What the report is about: the symplectic methods of a kind, or one of them.
 
     Attributes:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
+from garkcli.frozen import Frozen, Mutable
 from garkcli.page.paint import counted
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
@@ -23,8 +23,7 @@ DRAWN_ORDER = 4
 DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
-@dataclass(frozen=True)
-class Query:
+class Query(Frozen):
     """What was asked for: colours count from 1 in ``root`` and from 0 in ``used``."""
 
     colours: int
@@ -53,8 +52,7 @@ class TreeRow(NamedTuple):
     gamma: int
 
 
-@dataclass
-class TreeList:
+class TreeList(Mutable):
     """The trees that were asked for.
 
     Attributes:
@@ -190,8 +188,7 @@ COUNTS = Section(
 COUNTED = Section(*(Row(key, COUNT) for key in ("order", "root", "count")))
 
 
-@dataclass(frozen=True)
-class Counted:
+class Counted(Frozen):
     """How many trees an order and a root colour have."""
 
     order: int

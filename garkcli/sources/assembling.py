@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
+from garkcli.frozen import Frozen, field, replace
 from garkcli.sources.blocks import assembled, table_of_blocks
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
@@ -33,8 +33,7 @@ class NoTable(Exception):
     """These arrays are no table, whatever they are called."""
 
 
-@dataclass(frozen=True)
-class Meant:
+class Meant(Frozen):
     """What may be a table.
 
     Attributes:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
+from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Grid, Row, Rows, Unreadable
 from garkcli.sources.scalars import Value, is_matrix, is_row, rows_of, whole
 from garkcli.sources.shaping import weights

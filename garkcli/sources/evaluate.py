@@ -8,9 +8,9 @@ own; where these are too many, what it assigns is unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Protocol, TypeAlias
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import MAX_STAGES

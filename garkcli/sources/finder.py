@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.assembling import Meant, NoTable, Roles, table_of

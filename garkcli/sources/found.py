@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from garkcli.errors import GarkError
+from garkcli.frozen import Frozen, field
 
 Row: TypeAlias = tuple[str, ...]
 """Numbers as texts of ``garkcli.exact.expression``."""
@@ -43,8 +43,7 @@ class TooLarge(GarkError):
         self.line = line
 
 
-@dataclass(frozen=True)
-class FoundTable:
+class FoundTable(Frozen):
     """The coefficients of one method, as a source has them.
 
     Attributes:
@@ -117,8 +116,7 @@ Find: TypeAlias = Callable[[str, str], list[FoundTable]]
 """From the text of a source and its name to the tables in it."""
 
 
-@dataclass(frozen=True)
-class Reader:
+class Reader(Frozen):
     """A format that is read.
 
     Attributes:

@@ -2,59 +2,53 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal as Choice
 from typing import TypeAlias
 
+from garkcli.frozen import Frozen
 
-@dataclass(frozen=True, slots=True)
-class Name:
+
+class Name(Frozen):
     """A name; in C++ with its namespaces."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Literal:
+class Literal(Frozen):
     """A number as it is printed; whole numbers divide as whole numbers in some languages."""
 
     text: str
     is_whole: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Frozen):
     """A text in quotes."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(Frozen):
     """``of.name``, ``of->name``."""
 
     of: Expr
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(Frozen):
     """From ``first`` to ``last``, both included; None is the end of the array on that side."""
 
     first: Expr | None = None
     last: Expr | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Index:
+class Index(Frozen):
     """``of[at, …]``; a ``Range`` takes a slice."""
 
     of: Expr
     at: tuple[Expr, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(Frozen):
     """A call with its arguments, those with a name apart."""
 
     callee: Expr
@@ -62,16 +56,14 @@ class Call:
     named: tuple[tuple[str, Expr], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Unary:
+class Unary(Frozen):
     """A sign before a value."""
 
     sign: str
     of: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Binary:
+class Binary(Frozen):
     """An operation on two values: ``+ - * /``, ``//`` of whole numbers, ``^``, or unknown."""
 
     sign: str
@@ -79,15 +71,13 @@ class Binary:
     right: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Items:
+class Items(Frozen):
     """A list."""
 
     items: tuple[Expr, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Rows:
+class Rows(Frozen):
     """A matrix by its rows, ``[a b; c d]``; blocks are joined.
 
     A single row is a matrix in Julia, a single column is one in MATLAB; the other is a list.
@@ -97,35 +87,30 @@ class Rows:
     is_row_a_matrix: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Transposed:
+class Transposed(Frozen):
     """``of'``, ``of.T``."""
 
     of: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Fields:
+class Fields(Frozen):
     """Values by their names: a named tuple, a dictionary, designated initialisers."""
 
     pairs: tuple[tuple[str, Expr], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Lambda:
+class Lambda(Frozen):
     """A function of one expression: a macro, ``f(x) = …``."""
 
     parameters: tuple[str, ...]
     body: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Nothing:
+class Nothing(Frozen):
     """``NULL``, ``None``, ``nothing``."""
 
 
-@dataclass(frozen=True, slots=True)
-class Opaque:
+class Opaque(Frozen):
     """What has no meaning here."""
 
     reason: str
@@ -151,8 +136,7 @@ Expr: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Assign:
+class Assign(Frozen):
     """A target has a value from a line on.
 
     Attributes:
@@ -171,16 +155,14 @@ class Assign:
     is_real: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Do:
+class Do(Frozen):
     """An expression for its effect: a call."""
 
     value: Expr
     line: int
 
 
-@dataclass(frozen=True, slots=True)
-class Return:
+class Return(Frozen):
     """The value of a function; nothing where it has none."""
 
     value: Expr
@@ -190,8 +172,7 @@ class Return:
 Kind: TypeAlias = Choice["module", "function", "class", "record", "entry"]
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(Frozen):
     """A function, a class, the fields of a record, an entry of a list of macros.
 
     Attributes:
@@ -213,8 +194,7 @@ class Scope:
     bases: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Branch:
+class Branch(Frozen):
     """One of several ways; without ``is_total`` none may be taken.
 
     Attributes:
@@ -228,8 +208,7 @@ class Branch:
     is_total: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Loop:
+class Loop(Frozen):
     """A body for every value of a name; an empty name is a loop that is not followed."""
 
     name: str

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from garkcli.frozen import Frozen
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import (
@@ -35,8 +35,7 @@ if TYPE_CHECKING:
     from garkcli.sources.evaluate import Evaluator
 
 
-@dataclass(frozen=True)
-class Call:
+class Call(Frozen):
     """A call of a known function, its arguments evaluated."""
 
     name: str

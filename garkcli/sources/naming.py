@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 
+from garkcli.frozen import Mutable, field
 from garkcli.sources.found import FoundTable, Row, Rows, Unreadable, unlike_a_table
 from garkcli.sources.scalars import Value, is_matrix, is_row, rows_of, whole
 from garkcli.sources.shaping import difference, square, weights
@@ -58,8 +58,7 @@ def role_of(name: str) -> tuple[str, str] | None:
     return None
 
 
-@dataclass
-class Group:
+class Group(Mutable):
     """The arrays and numbers of one scope whose names have one stem.
 
     Attributes:
@@ -77,8 +76,7 @@ class Group:
         return "A" in self.values and "b" in self.values
 
 
-@dataclass
-class Scope:
+class Scope(Mutable):
     """What is assigned in a part of a source: a function, a class, a block, the whole.
 
     Attributes:

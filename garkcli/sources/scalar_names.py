@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 
+from garkcli.frozen import Mutable, field
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import ONE, ZERO, Array, Number, Unknown, Value, computed
 
@@ -19,8 +19,7 @@ _Entries = dict[tuple[int, int], Value]
 _Row = dict[int, Value]
 
 
-@dataclass
-class Scalars:
+class Scalars(Mutable):
     """What names alone say of a table.
 
     Attributes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias, Union
 
 from garkcli.errors import ExpressionError
@@ -11,6 +10,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.root_of import polynomial_in_x
 from garkcli.exact.roots import real_roots
+from garkcli.frozen import Frozen
 from garkcli.sources.found import MAX_LENGTH, Unreadable
 
 SUM, PRODUCT, ATOM = range(3)
@@ -19,8 +19,7 @@ LEVELS = {"+": SUM, "-": SUM, "*": PRODUCT, "/": PRODUCT, "^": ATOM}
 ROOTS = {"sqrt": "sqrt", "cbrt": "cbrt", "root": "root"}
 
 
-@dataclass(frozen=True)
-class Scalar:
+class Scalar(Frozen):
     """A number as text, and how tightly it holds together."""
 
     text: str

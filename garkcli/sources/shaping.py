@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
+from garkcli.frozen import replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable
 from garkcli.sources.scalars import Value, combined, is_row, number, row_of
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+
+from garkcli.frozen import Frozen, field
 
 
-@dataclass(frozen=True)
-class Signature:
+class Signature(Frozen):
     """A call that makes a table.
 
     Attributes:

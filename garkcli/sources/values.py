@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -14,6 +13,7 @@ from flint import fmpq
 
 from garkcli.errors import ExpressionError
 from garkcli.exact.expression import read_decimal
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.sources.found import MAX_LENGTH, Unreadable
 from garkcli.sources.scalars import Scalar, combined, negated, number, rooted
 
@@ -30,8 +30,7 @@ MAX_BITS = 20_000
 MAX_POWER = 200
 
 
-@dataclass(frozen=True, slots=True)
-class Unknown:
+class Unknown(Frozen):
     """What is not known, and why: whatever is computed from it is unknown for the same reason.
 
     Attributes:
@@ -45,8 +44,7 @@ class Unknown:
     was_written: bool = False
 
 
-@dataclass(frozen=True, eq=False)
-class Number:
+class Number(Frozen, eq=False):
     """A number.
 
     Attributes:
@@ -76,8 +74,7 @@ class Number:
         return self.value is not None and not self.value
 
 
-@dataclass(eq=False)
-class Array:
+class Array(Mutable, eq=False):
     """Values in order; those of a matrix are its rows.
 
     Attributes:
@@ -109,8 +106,7 @@ class Array:
         return Array(items, self.base, self.is_growing)
 
 
-@dataclass(eq=False)
-class Record:
+class Record(Mutable, eq=False):
     """Values by name: of a structure, of a dictionary; or a call with its arguments.
 
     Attributes:
@@ -128,27 +124,23 @@ class Record:
     key: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(Frozen):
     """A text in quotes, or a symbol."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Null:
+class Null(Frozen):
     """Nothing: ``NULL``, ``None``, ``nothing``."""
 
 
-@dataclass(frozen=True, slots=True)
-class Type:
+class Type(Frozen):
     """A type: to call it is to convert. Its name is that of a known function, or empty."""
 
     name: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class Function:
+class Function(Frozen, eq=False):
     """A function of one expression, with the names that it sees."""
 
     parameters: tuple[str, ...]

@@ -9,7 +9,6 @@ basis: in the stage algebra of a family no node is needed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import chain, combinations, product
 from typing import Any
 
@@ -20,11 +19,11 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, outer, subtract, transpose
 from garkcli.exact.matrix import add as add_matrices
 from garkcli.exact.roots import sign
+from garkcli.frozen import Frozen
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class AlgebraicStability:
+class AlgebraicStability(Frozen):
     """What decides it.
 
     Attributes:

@@ -13,12 +13,12 @@ point is looked for where the polynomial is negative for all numbers in the ball
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise, zip_longest
 
 from flint import arb, arb_mat, arb_poly, fmpq
 
 from garkcli.exact.field import ZERO
+from garkcli.frozen import Frozen
 
 MOST_PIECES_OF_UNIT = 4000
 """Pieces of an interval on which a sign is tried before it is left undecided."""
@@ -132,8 +132,7 @@ MOST_TRIES = 60
 """Points that are tried at most behind the last piece, each twice as far from it."""
 
 
-@dataclass(frozen=True)
-class Bounds:
+class Bounds(Frozen):
     """A number known between bounds.
 
     Attributes:

@@ -14,7 +14,6 @@ z_E from 0 on is a root of a discriminant: an algebraic number.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from math import comb
 from typing import Any, TypeAlias
@@ -28,6 +27,7 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import RealRoot, real_roots, sign
+from garkcli.frozen import Frozen
 from garkcli.graph import components
 from garkcli.stability.fraction import Fraction
 from garkcli.stability.linear import exact_cauchy_index, poles_are_right
@@ -78,8 +78,7 @@ BITS = 192
 """Precision of the balls; where it is not enough, a point is decided exactly."""
 
 
-@dataclass(frozen=True)
-class Ray:
+class Ray(Frozen):
     """The z_E on half of an axis, from 0 on, for which all z_I are damped.
 
     Attributes:
@@ -89,8 +88,7 @@ class Ray:
     end: RealRoot | None
 
 
-@dataclass(frozen=True)
-class ImexPair:
+class ImexPair(Frozen):
     """A method of one explicit and one implicit colour.
 
     Attributes:
@@ -305,8 +303,7 @@ _Terms: TypeAlias = list[tuple[int, int, arb]]
 """The terms of a polynomial in (a, b): both exponents and the coefficient in a ball."""
 
 
-@dataclass(frozen=True)
-class _Enclosed:
+class _Enclosed(Frozen):
     """E and the parts of Q by powers of y, with coefficients in balls."""
 
     E: list[_Terms]

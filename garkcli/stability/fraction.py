@@ -15,7 +15,6 @@ is none, and where the degree of the denominator is not less than that of the wh
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import comb
 
 from flint import fmpq
@@ -23,6 +22,7 @@ from flint import fmpq
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate, from_lines, lattice
 from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.frozen import Frozen
 from garkcli.stability.linear import StepFunction, unreduced
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -33,8 +33,7 @@ OFFSETS = (1, 3, 7, 13, 29)
 """Where lattices of directions begin that are tried for common factors."""
 
 
-@dataclass(frozen=True)
-class Fraction:
+class Fraction(Frozen):
     """R = P/Q with Q(0) = 1.
 
     Attributes:

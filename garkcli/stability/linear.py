@@ -12,7 +12,6 @@ Both are decided from signs of polynomials at exact numbers; no grid is laid any
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 from garkcli.exact.cells import Interval, Point, sign_of, where
@@ -21,13 +20,13 @@ from garkcli.exact.matrix import Vector, apply, reciprocal_characteristic, trans
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.exact.roots import sign
+from garkcli.frozen import Frozen
 from garkcli.stepping.linear import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 
-@dataclass(frozen=True)
-class StepFunction:
+class StepFunction(Frozen):
     """M(z) as one denominator and a numerator an entry, without a common factor.
 
     Attributes:
@@ -90,8 +89,7 @@ def _reduced(step: StepFunction) -> StepFunction:
     return StepFunction(lowest * scale, tuple(numerators))
 
 
-@dataclass(frozen=True)
-class StabilityFunction(Shown):
+class StabilityFunction(Shown, Frozen):
     """R = P/Q in lowest terms, with Q(0) = 1.
 
     Attributes:

@@ -12,7 +12,6 @@ powers of M stay bounded only if M = ±I.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import chain
 
 from flint import fmpq
@@ -22,14 +21,14 @@ from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import StepFunction, step_function
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class Ratio:
+class Ratio(Frozen):
     """A rational function in lowest terms; the denominator is 1 at 0.
 
     Attributes:
@@ -55,8 +54,7 @@ class Ratio:
         return self.numerator == self.denominator
 
 
-@dataclass(frozen=True)
-class PhaseError:
+class PhaseError(Frozen):
     """The leading term of arccos(tr M / (2 √det M)) − z = constant · z^(order+1) + ….
 
     Attributes:
@@ -69,8 +67,7 @@ class PhaseError:
     constant: Number | None
 
 
-@dataclass(frozen=True)
-class OscillatorStability:
+class OscillatorStability(Frozen):
     """A method on the oscillator.
 
     Attributes:

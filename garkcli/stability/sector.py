@@ -12,7 +12,6 @@ one angle decides for all. The sector is closed: on its edge |R| ≤ 1 by contin
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from flint import fmpq
 
@@ -20,6 +19,7 @@ from garkcli.exact.cells import between
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial, interpolated, subresultant
 from garkcli.exact.roots import RealRoot, real_roots, sign
+from garkcli.frozen import Frozen
 from garkcli.stability.linear import StabilityFunction, is_a_stable
 
 MOST_POINTS = 400
@@ -80,8 +80,7 @@ def roots_between(
     return sorted(inside)
 
 
-@dataclass(frozen=True)
-class Sector:
+class Sector(Frozen):
     """The largest sector |arg(−z)| ≤ α in which |R| ≤ 1.
 
     Attributes:

@@ -5,7 +5,6 @@ Nothing is decided here; ``two_frequencies`` does that for one slow frequency.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ from flint import fmpq
 
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import to_float
+from garkcli.frozen import Frozen
 from garkcli.stability.two_frequencies import SplitSprings
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     from garkcli.exact.matrix import Matrix
 
 
-@dataclass(frozen=True)
-class SpringsPlane:
+class SpringsPlane(Frozen):
     """|tr M|/2 over both frequencies.
 
     Attributes:

@@ -16,18 +16,17 @@ once.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, apply, reciprocal_characteristic, scale, transpose
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class SspCoefficient:
+class SspCoefficient(Frozen):
     """The radius of absolute monotonicity.
 
     Attributes:
@@ -37,8 +36,7 @@ class SspCoefficient:
     value: RealRoot | None
 
 
-@dataclass(frozen=True)
-class AdditiveRadius:
+class AdditiveRadius(Frozen):
     """Where a line through the origin leaves the region of absolute monotonicity.
 
     Attributes:

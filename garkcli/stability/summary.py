@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import product, starmap
 
@@ -13,6 +12,7 @@ from garkcli.doing import doing
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
+from garkcli.frozen import Frozen
 from garkcli.order.deciding import order_of
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
@@ -36,8 +36,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 
-@dataclass(frozen=True)
-class Colours:
+class Colours(Frozen):
     """What several colours do together.
 
     Attributes:
@@ -108,8 +107,7 @@ def _word(word: str, is_so: bool | None) -> str:
     return word if is_so else f"not {word}"
 
 
-@dataclass(frozen=True)
-class LinearStability:
+class LinearStability(Frozen):
     """What a stability function R(z) tells; None where rounded coefficients leave it open.
 
     Attributes:
@@ -144,8 +142,7 @@ class LinearStability:
         return f"<LinearStability {self.name}: {words}>"
 
 
-@dataclass(frozen=True)
-class Stability(Shown):
+class Stability(Shown, Frozen):
     """The stability of one method.
 
     Attributes:

@@ -9,7 +9,6 @@ interpolated.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mpoly
 
@@ -22,14 +21,14 @@ from garkcli.exact.multivariate import Exponents, Multivariate, lattice, through
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
 from garkcli.exact.projection import PLANE, curves, projected
 from garkcli.exact.roots import RealRoot, number_of
+from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.oscillator import Ratio, stable_set
 from garkcli.stepping.linear import StageSystem, stage_system
 from garkcli.tableau.tableau import Colour, Tableau
 
 
-@dataclass(frozen=True)
-class SplitSprings:
+class SplitSprings(Frozen):
     """Which term has which spring.
 
     Attributes:
@@ -54,8 +53,7 @@ class SplitSprings:
         return ((ZERO, velocity), (-force, ZERO))
 
 
-@dataclass(frozen=True)
-class TwoFrequencies:
+class TwoFrequencies(Frozen):
     """A method on the two springs, for one slow frequency.
 
     Attributes:
@@ -178,8 +176,7 @@ def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
     return _reduced(determinants).stable()
 
 
-@dataclass(frozen=True)
-class _StepMatrix:
+class _StepMatrix(Frozen):
     """M over its common denominator, all polynomials in x.
 
     Attributes:
@@ -251,8 +248,7 @@ WITNESSES = 8
 """Parts of [A, B] whose ends are tried first: an unstable one decides."""
 
 
-@dataclass(frozen=True)
-class SlowInterval:
+class SlowInterval(Frozen):
     """A method on the two springs, for all slow frequencies of an interval.
 
     Attributes:

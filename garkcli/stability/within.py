@@ -9,7 +9,6 @@ more is used: the order p that the method has within its tolerance is taken for 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
@@ -17,6 +16,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.roots import sign
+from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
 from garkcli.stability.algebraic import rounded_balls
 from garkcli.stability.ball_polynomials import (
@@ -42,8 +42,7 @@ DIGITS = BITS // 4
 """Digits of exact numbers that become balls."""
 
 
-@dataclass(frozen=True)
-class BallFraction:
+class BallFraction(Frozen):
     """R = P/Q for all methods within a tolerance, coefficients from the lowest.
 
     Attributes:
@@ -164,8 +163,7 @@ def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> li
     return [[product[k] for k in range(n + 1)] for product in products]
 
 
-@dataclass(frozen=True)
-class StabilityWithin:
+class StabilityWithin(Frozen):
     """What holds for all methods within a tolerance; None where that is not decided.
 
     Attributes:

@@ -10,10 +10,10 @@ rectangular method has one.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
 from typing import Any, TypeAlias, TypeVar
 
+from garkcli.frozen import Frozen
 from garkcli.graph import components
 from garkcli.problems.vectorfield import Group
 from garkcli.stepping.fields import Fields
@@ -25,8 +25,7 @@ DIGITS = 60
 T = TypeVar("T", bound=Hashable)
 
 
-@dataclass(frozen=True)
-class Stage:
+class Stage(Frozen):
     """One group of numbers of stage ``index`` of the stage space ``space``: positions, momenta, all
     unknowns, or its time.
     """
@@ -36,8 +35,7 @@ class Stage:
     group: Group
 
 
-@dataclass(frozen=True)
-class FieldEvaluation:
+class FieldEvaluation(Frozen):
     """The vector field of ``colour`` that drives ``group``, at its stage ``index``."""
 
     colour: int
@@ -49,8 +47,7 @@ Vertex: TypeAlias = Stage | FieldEvaluation
 """A vertex of the graph."""
 
 
-@dataclass(frozen=True)
-class StageBlock:
+class StageBlock(Frozen):
     """Vertices that are computed together.
 
     Attributes:
@@ -62,8 +59,7 @@ class StageBlock:
     order: tuple[Vertex, ...]
 
 
-@dataclass(frozen=True)
-class DependencyGraph:
+class DependencyGraph(Frozen):
     """What a method computes on a problem.
 
     Attributes:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any, TypeAlias
 
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
+from garkcli.frozen import replace
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock

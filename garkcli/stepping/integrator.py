@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil, isfinite
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -15,6 +14,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.errors import GarkError
+from garkcli.frozen import Frozen, Mutable
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.problem import Problem
@@ -52,8 +52,7 @@ class NotSolved(Exception):
         self.number, self.residual = number, residual
 
 
-@dataclass(frozen=True)
-class Integrator:
+class Integrator(Frozen):
     """A method on a problem, ready to step.
 
     Attributes:
@@ -93,8 +92,7 @@ class Integrator:
         return f"<Integrator {self.problem.name}: {self.digits} digits>"
 
 
-@dataclass(frozen=True, eq=False)
-class Binding:
+class Binding(Frozen, eq=False):
     """A method on a problem, before it is said with how many digits it steps.
 
     Attributes:
@@ -227,8 +225,7 @@ class StepFailed(GarkError):
         self.residual = residual
 
 
-@dataclass(frozen=True)
-class Work:
+class Work(Frozen):
     """What a run of steps has cost.
 
     Attributes:
@@ -284,8 +281,7 @@ def integrate(
     return stepper.y
 
 
-@dataclass
-class Stepper:
+class Stepper(Mutable):
     """A trajectory at one time, to be advanced.
 
     Attributes:
@@ -299,10 +295,6 @@ class Stepper:
     h: fmpq
     initial: Sequence[Any] | None = None
     done: int = 0
-    _numbers: list[Real] = field(init=False)  # as ``Program`` describes them
-    _weights: list[Real] = field(init=False)
-    _iterations: list[int] = field(init=False)
-    _jacobians: int = 0
 
     def __post_init__(self) -> None:
         integrator = self.integrator
@@ -311,8 +303,10 @@ class Stepper:
             numbers = [integrator.number(x) for x in start]
             # time begins at 0; nothing has been lost or missed before the first step
             others = integrator.program.size - len(numbers)
-            self._numbers = numbers + [integrator.number(0)] * others
+            # as ``Program`` describes them
+            self._numbers: list[Real] = numbers + [integrator.number(0)] * others
         self._weights = integrator.weights(self.h)
+        self._jacobians = 0
         self._iterations = [0] * len(integrator.program.repeated)
 
     @property

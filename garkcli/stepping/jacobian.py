@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
+from garkcli.frozen import Frozen
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock, Vertex
 from garkcli.stepping.stagewriter import StageWriter
 
@@ -18,8 +18,7 @@ _Entry: TypeAlias = tuple[int, int, int]
 """Row, column and place of the number w of one entry of a matrix W of weights."""
 
 
-@dataclass(frozen=True)
-class _Layer:
+class _Layer(Frozen):
     """Stage values or field evaluations that do not depend on each other."""
 
     stages: Sequence[Stage]

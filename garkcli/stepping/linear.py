@@ -19,7 +19,6 @@ arithmetic in python-flint.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from flint import arb, arb_mat, fmpq, fmpq_mat
@@ -28,14 +27,14 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number, NumberField, coordinates
 from garkcli.exact.matrix import Matrix, identity, multiply, scale, subtract, transpose
+from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure
 from garkcli.tableau.tableau import Tableau
 
 _Rows: TypeAlias = list[list[Number]]
 
 
-@dataclass(frozen=True)
-class StageSystem:
+class StageSystem(Frozen):
     """W, E and B of this module's heading, over the domain K of the coefficients.
 
     Attributes:
@@ -49,8 +48,7 @@ class StageSystem:
     B: Matrix
 
 
-@dataclass(frozen=True)
-class _Term:
+class _Term(Frozen):
     """What the field of a colour does: component ``driven`` of y gets ``factor`` times component
     ``seen``.
     """
@@ -141,8 +139,7 @@ MAX_STEPS = 10**15
 """Most steps of a power of the step map."""
 
 
-@dataclass(frozen=True)
-class LinearStep:
+class LinearStep(Frozen):
     """A tableau on an oscillator: W, E and B of its stage system, over ℚ.
 
     Attributes:

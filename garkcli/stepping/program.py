@@ -11,9 +11,9 @@ found by Newton's method, see ``garkcli.stepping.newton``. The text has names of
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from itertools import product
 
+from garkcli.frozen import Frozen, replace
 from garkcli.problems.straightline import Code
 from garkcli.problems.vectorfield import Layout
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
@@ -25,8 +25,7 @@ from garkcli.stepping.stagewriter import Lines, StageWriter, names
 _INSIDE = "   "  # of the function, its try and its loop
 
 
-@dataclass(frozen=True)
-class Program:
+class Program(Frozen):
     """A step as text.
 
     Attributes:

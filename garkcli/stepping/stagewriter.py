@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 
+from garkcli.frozen import Frozen
 from garkcli.problems.straightline import Code, code_of
 from garkcli.problems.vectorfield import Group, Layout
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
@@ -38,8 +38,7 @@ class Lines:
         self._indent = self._indent[:-1]
 
 
-@dataclass(frozen=True)
-class Sum:
+class Sum(Frozen):
     """A sum of w f that a stage has: the w of each evaluation, and a text a component, empty where
     it is zero.
     """

@@ -7,7 +7,6 @@ themselves.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from math import isfinite
 from typing import TypeAlias
@@ -17,6 +16,7 @@ from flint import fmpq
 from garkcli.errors import GarkError, UsageProblem, ZeroWeight
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial_text import ball_decimal, root_decimal
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.order.constants import ErrorConstants, error_constants
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
@@ -30,8 +30,7 @@ from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class Judged:
+class Judged(Frozen):
     """A method with what is known of it.
 
     Attributes:
@@ -118,8 +117,7 @@ DIGITS = 12
 """Digits of real numbers, rounded from enclosures of exact ones."""
 
 
-@dataclass(frozen=True)
-class Column:
+class Column(Frozen):
     """A criterion.
 
     Attributes:

@@ -6,10 +6,11 @@ import hashlib
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import accumulate
 from typing import Any, Literal, TypeAlias, cast
 
+from garkcli.frozen import Frozen
 from garkcli.glossary.key import Files, Key
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.sweep_file import file_of, read_sweep, sweep_file_schema
@@ -19,8 +20,7 @@ from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
 Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
 
 
-@dataclass(frozen=True)
-class Condition:
+class Condition(Frozen):
     """What a method has to have to be kept.
 
     Attributes:
@@ -59,8 +59,7 @@ def number(value: Value) -> float:
     return float(value)
 
 
-@dataclass(frozen=True)
-class Template:
+class Template(Frozen):
     """A method file, with the parameters that a sweep gives values to.
 
     Attributes:
@@ -85,8 +84,7 @@ class Template:
         return self.order > 0
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(Frozen):
     """One method.
 
     Attributes:
@@ -102,8 +100,7 @@ class Point:
     seed: int | None = None
 
 
-@dataclass(frozen=True)
-class Criteria:
+class Criteria(Frozen):
     """What is told of each method.
 
     Attributes:
@@ -127,8 +124,7 @@ class Criteria:
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(Frozen):
     """A sweep.
 
     Attributes:
@@ -146,14 +142,10 @@ class Plan:
     criteria: Criteria
     best: tuple[str, ...] = ()
     pareto: tuple[str, ...] = ()
-    _starts: list[int] = field(default_factory=list, init=False, compare=False)
 
-    def __post_init__(self) -> None:
-        total = 0
-        for template in self.templates:
-            self._starts.append(total)
-            total += self._size(template)
-        self._starts.append(total)
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *accumulate(map(self._size, self.templates))]
 
     def __len__(self) -> int:
         """How many methods there are."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from time import process_time
 from typing import TypeAlias
 
 from garkcli.crew.hiring import hired
 from garkcli.errors import UsageProblem
+from garkcli.frozen import Mutable
 from garkcli.sweep.plan import Criteria, Plan, Point
 from garkcli.sweep.row import Row, crashed_row, row_of
 from garkcli.sweep.store import RowStore
@@ -34,8 +34,7 @@ CHUNK = 25
 """Methods of a task: the machinery of a task costs about as much as one of them."""
 
 
-@dataclass
-class Progress:
+class Progress(Mutable):
     """What a run has come to.
 
     Attributes:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import chain
 
 from garkcli.errors import ZeroWeight
@@ -20,6 +19,7 @@ from garkcli.exact.matrix import (
     subtract,
     transpose,
 )
+from garkcli.frozen import replace
 from garkcli.reason import Reason
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau

@@ -7,12 +7,12 @@ them in place of b is a tableau of its own, with the same blocks.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -20,8 +20,7 @@ Weights: TypeAlias = tuple[Vector, ...]
 """A row of weights a colour, one number a stage."""
 
 
-@dataclass(frozen=True)
-class DenseOutput:
+class DenseOutput(Frozen):
     """Weights that are polynomials: x(t + θh) ≈ x + h Σ b_i(θ) k_i, summed over the colours too.
 
     Attributes:
@@ -53,8 +52,7 @@ class DenseOutput:
         return tuple(map(rows, self.weights))
 
 
-@dataclass(frozen=True)
-class Further:
+class Further(Frozen):
     """Further weights of a method, each None where there are none.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
 from typing import Any, cast
 
@@ -17,13 +16,13 @@ from garkcli.exact.nodes import Root
 from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.pointwise import at_points, nodes_in_radicals
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class Radical:
+class Radical(Frozen):
     """A root among the coefficients of a family: an unknown of its own.
 
     Attributes:
@@ -42,8 +41,7 @@ class Radical:
     latex: str = ""
 
 
-@dataclass(frozen=True)
-class Stability:
+class Stability(Frozen):
     """A kind of stability that is wanted.
 
     Attributes:
@@ -67,8 +65,7 @@ class Stability:
         return f"{self} ({fields})"
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
-class Family:
+class Family(Frozen, kw_only=True):
     """A family of methods.
 
     Attributes:

@@ -5,12 +5,12 @@ cases; a tableau with time as a colour.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from typing import TypeAlias
 
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, apply
+from garkcli.frozen import replace
 from garkcli.tableau.conjugate import conjugate_of
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar
 
 from flint import fmpq
 
 from garkcli.errors import MethodError, counted
+from garkcli.frozen import Frozen
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.meant import AnyTableau, derived, meant
 from garkcli.tableau.tableau import Tableau
@@ -95,8 +95,7 @@ def word_for(method: GarkMethod | None) -> str:
     return derivation_of(method) or "method"
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
-class GarkMethod(Shown):
+class GarkMethod(Shown, Frozen, kw_only=True):
     """A GARK method of one colour or of several, with its entries as they are printed.
 
     Entries are exact numbers, ``flint.fmpq`` or elements of a number field, whose ``str`` is the

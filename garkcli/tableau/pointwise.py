@@ -8,7 +8,6 @@ the nodes; with the Vandermonde matrices V of the nodes that is V_l A V_m⁻¹.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from flint import arb, arb_mat, ctx
@@ -20,6 +19,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.polynomial_space import (
     PolynomialSpace,
@@ -38,8 +38,7 @@ BITS_OF_A_DIGIT = 3.33
 """Bits of a decimal digit, log2(10) rounded up."""
 
 
-@dataclass(frozen=True)
-class Entries:
+class Entries(Frozen):
     """The entries of a tableau, colour by colour.
 
     Attributes:

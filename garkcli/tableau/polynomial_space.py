@@ -7,7 +7,6 @@ lead from coordinates to values at the nodes, and back.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -39,7 +38,6 @@ MAX_MOMENTS = 8
 """So many functionals of a stage space have their moments kept."""
 
 
-@dataclass(frozen=True)
 class PolynomialSpace(StageSpace):
     """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with s distinct real roots, the
     nodes.

@@ -11,7 +11,6 @@ it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeAlias, cast
 
@@ -20,6 +19,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import apply
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.conjugate import are_opposite, conjugate
 from garkcli.tableau.embedded import Weights, with_weights
 from garkcli.tableau.forms import pair, with_time
@@ -39,8 +39,7 @@ DIGITS_OF_A_BIT = 0.302
 """Decimal digits of a bit, log10(2) rounded up."""
 
 
-@dataclass(frozen=True)
-class Enclosure:
+class Enclosure(Frozen):
     """Balls around the entries of a tableau, one coordinate a stage whatever the stage spaces are.
 
     Attributes:
@@ -122,8 +121,7 @@ Row: TypeAlias = list[arb]
 Rows: TypeAlias = list[Row]
 
 
-@dataclass(frozen=True, eq=False)
-class RoundedTableau:
+class RoundedTableau(Frozen, eq=False):
     """A tableau with the box of all tableaus that it may be a rounding of.
 
     Attributes:

@@ -11,9 +11,8 @@ block a matrix that acts on coordinates.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import combinations
 from math import prod
@@ -32,10 +31,11 @@ from garkcli.exact.matrix import (
     multiply,
     transpose,
 )
+from garkcli.frozen import Frozen
 from garkcli.reason import Formula, Reason
 
 
-class StageSpace(ABC):
+class StageSpace(Frozen):
     """A commutative algebra of dimension ``stages`` over the domain of the coefficients."""
 
     @property
@@ -149,7 +149,6 @@ MAX_BITS_COMPARED = 5_000_000
 """Longest denominators that are compared with each other only to tell what they share."""
 
 
-@dataclass(frozen=True)
 class PointSpace(StageSpace):
     """K^s: one coordinate a stage, in the order of the file. ``points`` are the nodes."""
 

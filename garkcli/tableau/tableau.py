@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
 from typing import Literal, TypeAlias
@@ -12,6 +11,7 @@ from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
+from garkcli.frozen import Frozen
 from garkcli.tableau.stages import PointSpace, StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
@@ -22,8 +22,7 @@ Edge: TypeAlias = tuple[int, int]
 """Who sees whom: two colours (l, m); or (k, m), where the stages of space k see colour m."""
 
 
-@dataclass(frozen=True)
-class Colour:
+class Colour(Frozen):
     """One vector field and the stages at which the method evaluates it.
 
     Attributes:
@@ -45,8 +44,7 @@ class Colour:
     is_linear: bool = False
 
 
-@dataclass(frozen=True, repr=False)
-class Tableau:
+class Tableau(Frozen):
     """A GARK tableau as a directed graph of colours.
 
     Colours and stage spaces are indices of ``colours`` and ``spaces`` here, from 0; those of
@@ -69,7 +67,7 @@ class Tableau:
 
     spaces: tuple[StageSpace, ...]
     colours: tuple[Colour, ...]
-    blocks: Mapping[Edge, Matrix] = field(hash=False)
+    blocks: Mapping[Edge, Matrix]
 
     def __post_init__(self) -> None:
         for number, colour in enumerate(self.colours, start=1):
@@ -89,6 +87,9 @@ class Tableau:
                 f"the block {space},{colour_seen} is not {rows} by {columns}",
                 f"it maps {seen} of colour {colour_seen} to {seeing}",
             )
+
+    def __hash__(self) -> int:
+        return hash((self.spaces, self.colours))
 
     def __repr__(self) -> str:
         numbers = [str(self.space(l).stages) for l in range(self.size)]
@@ -172,8 +173,7 @@ def _check_length(name: str, row: Vector, stages: int) -> None:
     raise ShapeMismatch(message, f"give {due}")
 
 
-@dataclass(frozen=True)
-class Method:
+class Method(Frozen):
     """A Runge–Kutta method over a stage space with s stages.
 
     Attributes:

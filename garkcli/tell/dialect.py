@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from itertools import islice, zip_longest
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -23,6 +22,7 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
+from garkcli.frozen import Mutable, field
 from garkcli.page.paint import Paint, folded, indented, shown_width
 from garkcli.page.plain import inert, printable
 from garkcli.page.plaintext import plain_text
@@ -98,8 +98,7 @@ def _beside(
             yield "  ".join(padded).rstrip()
 
 
-@dataclass
-class Plain:
+class Plain(Mutable):
     """The signs of a terminal.
 
     Attributes:

@@ -8,12 +8,12 @@ what lies too deep is not computed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 
+from garkcli.frozen import Frozen, replace
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
 
@@ -30,8 +30,7 @@ class Level(IntEnum):
     DATA = 3
 
 
-@dataclass(frozen=True)
-class Said:
+class Said(Frozen):
     """A value with its kind: what a reason is made of."""
 
     kind: Kind
@@ -48,8 +47,7 @@ class Said:
         return self.words(Plain())
 
 
-@dataclass(frozen=True)
-class Status:
+class Status(Frozen):
     """How a value is known. These are no alternatives: a rounded order can be all three.
 
     Attributes:
@@ -66,8 +64,7 @@ class Status:
 SURE = Status()
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(Frozen):
     """A value that comes with more than itself.
 
     Attributes:
@@ -88,8 +85,7 @@ class Answer:
 Words: TypeAlias = "Callable[[Any, Plain], str]"
 
 
-@dataclass(frozen=True)
-class Beside:
+class Beside(Frozen):
     """A field of JSON beside that of a row, from its answer.
 
     Attributes:
@@ -105,8 +101,7 @@ class Beside:
     is_optional: bool = True
 
 
-@dataclass(frozen=True)
-class Kind:
+class Kind(Frozen):
     """What a value is: its schema, its JSON, its words in a dialect.
 
     Attributes:
@@ -162,8 +157,7 @@ class Kind:
         return Said(self, value)
 
 
-@dataclass(frozen=True)
-class Fact:
+class Fact(Frozen):
     """An answer under its row: all that an output gets."""
 
     row: Row
@@ -184,8 +178,7 @@ class Fact:
         return not (isinstance(answer.value, (tuple, list, str)) and not answer.value)
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(Frozen):
     """What is declared of a fact.
 
     Attributes:

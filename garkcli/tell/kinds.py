@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
@@ -11,6 +10,7 @@ from flint import fmpq
 from garkcli.exact.display import decimal, plain_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
@@ -113,8 +113,7 @@ BLOCKS = Kind(
 )
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(Frozen):
     """How many conditions hold, a number a block; none where there is no block.
 
     Attributes:

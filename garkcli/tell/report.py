@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, Generic, TypeAlias, TypeVar
 
+from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint
 from garkcli.page.schema import Schema, array, one_of, published
@@ -40,8 +40,7 @@ def _dialect(format: str) -> type[Plain]:
     return Plain
 
 
-@dataclass(frozen=True)
-class Report(Generic[Whole]):
+class Report(Frozen, Generic[Whole]):
     """What a command tells: of each file a result, by the rows of its form.
 
     Attributes:
@@ -60,7 +59,7 @@ class Report(Generic[Whole]):
     title: str
     forms: Callable[[], Iterable[Section]]
     form: Callable[[Whole], Section]
-    signs: Callable[[Whole], Mapping[str, Any]] = field(default=lambda _: {})
+    signs: Callable[[Whole], Mapping[str, Any]] = lambda _: {}
     key: str = "files"
     tail: Section = NOTHING
     is_open: bool = False

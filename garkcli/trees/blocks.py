@@ -4,11 +4,11 @@ only.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from garkcli.frozen import Frozen
 from garkcli.trees.count import Admissible, Edges
 from garkcli.trees.table import Columns, TreeTable, first_ids, segments_of
 from garkcli.trees.tree import Tree
@@ -25,8 +25,7 @@ MAX_USING = 62
 """Colours that can be asked for at once: a bit each."""
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(Frozen):
     """Some trees of one order, following each other in the table unless they were selected.
 
     ``columns`` hold the trees, whose parents' ids are those of ``lower``, the table of the orders

@@ -16,12 +16,12 @@ chapter 2; van der Hoeven, "Relax, but don't be too lazy", J. Symb. Comput. 34 (
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpz, fmpz_poly
 
 from garkcli.errors import TreeError
+from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -37,8 +37,7 @@ Edges: TypeAlias = "Sequence[Sequence[bool]]"
 Colours: TypeAlias = tuple[int, ...]
 
 
-@dataclass(frozen=True)
-class Admissible:
+class Admissible(Frozen):
     """Which N-trees are meant: the colours, the edges between them, and the linear colours.
 
     ``branches[l]`` are the colours, in increasing order, that may stand on a vertex of colour l. A

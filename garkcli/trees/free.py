@@ -7,11 +7,11 @@ recognised by the rooting at its centroid, where no branch has more than half of
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, combinations_with_replacement, groupby, product
 from typing import Literal, TypeAlias
 
+from garkcli.frozen import Frozen
 from garkcli.trees.count import Admissible
 from garkcli.trees.tree import Tree
 
@@ -25,8 +25,7 @@ _Kind: TypeAlias = tuple[int, int]
 _PARTNER: dict[Part, Part] = {"y": "y", "q": "p", "p": "q"}
 
 
-@dataclass(frozen=True)
-class Structure:
+class Structure(Frozen):
     """The colours of a symplectic tableau and how a tree's root moves among them.
 
     A vertex of the free tree is a term H^{l} of the split; a colour is a term together with what it
@@ -203,8 +202,7 @@ def _twice_largest(tree: Tree) -> int:
     return 2 * tree.branches[-1].order
 
 
-@dataclass(frozen=True)
-class Grower:
+class Grower(Frozen):
     """Lists the free trees of a structure by their centroids, each once; keeps trees of half the
     order only.
     """

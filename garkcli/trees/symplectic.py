@@ -45,10 +45,10 @@ IX.10.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, TypeAlias, get_args
 
+from garkcli.frozen import Frozen
 from garkcli.trees.count import counts_upto
 from garkcli.trees.free import Grower, Structure
 from garkcli.trees.tree import Tree
@@ -91,8 +91,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
     return Structure.pair([0], [1], quadratic)
 
 
-@dataclass(frozen=True)
-class ConditionClass:
+class ConditionClass(Frozen):
     """Order conditions that are equivalent once those of lower order hold: a free tree.
 
     Attributes:

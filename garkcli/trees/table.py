@@ -15,13 +15,14 @@ root colour are a contiguous range of ids, so that a whole order is made with ``
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from garkcli.errors import UsageProblem, counted
+from garkcli.frozen import Frozen
 from garkcli.trees.count import Admissible, Edges, counts_upto
 from garkcli.trees.tree import Tree
 
@@ -44,8 +45,7 @@ def exact_dtype(order: int) -> DTypeLike:
     return np.int64 if order <= LAST_INT64_ORDER else np.dtype(object)
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
+class Columns(Frozen):
     """Trees as columns of equal length, one entry a tree.
 
     ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root
@@ -114,8 +114,7 @@ class Columns:
         return self
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(Frozen):
     """The trees of one order and root colour whose last branch has one order and root colour.
 
     They follow each other in the table at ``ids``; ``stems`` and ``branches`` are the ranges of ids
@@ -300,8 +299,7 @@ class TableTooLarge(UsageProblem):
     code = "too-many"
 
 
-@dataclass(frozen=True)
-class TreeTable:
+class TreeTable(Frozen):
     """All admissible N-trees of order 1, …, ``max_order``, sorted by order, root colour and last
     branch.
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
+from garkcli.frozen import Frozen
 from garkcli.report.check import METHOD, verdict_words
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
@@ -18,8 +18,7 @@ MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
 """The class of a verdict, by the exit code of ``gark check``."""
 
 
-@dataclass(frozen=True)
-class Heading:
+class Heading(Frozen):
     """What stands above the sections of a method.
 
     Attributes:

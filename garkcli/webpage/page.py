@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
@@ -14,6 +13,7 @@ from markupsafe import Markup
 
 from garkcli.doing import doing
 from garkcli.errors import counted, printable
+from garkcli.frozen import replace
 from garkcli.plots.svg import STYLE
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
 from garkcli.webpage.registry import SECTIONS

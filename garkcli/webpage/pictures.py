@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from garkcli.api.runs import converge, long_run
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.convergence.result import Convergence
 from garkcli.errors import GarkError
+from garkcli.frozen import Frozen
 from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import usual
 from garkcli.plots.convergence import comparison_panel, errors_panel
@@ -41,8 +41,7 @@ MOST_STAGES_OF_PAIR = 14
 """Of an implicit-explicit pair that is drawn."""
 
 
-@dataclass(frozen=True)
-class Picture:
+class Picture(Frozen):
     """A picture of a method, or of several.
 
     Attributes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +15,7 @@ from garkcli.check.check_file import check_method
 from garkcli.check.every_value import check_every
 from garkcli.check.outcome import Outcome
 from garkcli.errors import HasFreeParameters, MethodFileError
+from garkcli.frozen import Frozen
 from garkcli.methodfile.bibliography import reference_of
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import NO_SETTINGS, load
@@ -33,8 +33,7 @@ to ten seconds.
 """
 
 
-@dataclass(frozen=True)
-class Reported:
+class Reported(Frozen):
     """A method, or a file that is none.
 
     Attributes:
@@ -92,8 +91,7 @@ class Reported:
         return None if self.method is None else self.method.tolerance
 
 
-@dataclass(frozen=True)
-class _Wishes:
+class _Wishes(Frozen):
     """What the page is to have.
 
     Attributes:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
     from garkcli.webpage.reported import Reported
@@ -13,8 +14,7 @@ Content: TypeAlias = Mapping[str, Any]
 """What a template is given, by the names that it has there."""
 
 
-@dataclass(frozen=True)
-class Section:
+class Section(Frozen):
     """A section of the page of a method.
 
     Attributes:

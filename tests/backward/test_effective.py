@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from random import Random
 
 import pytest
@@ -13,6 +12,7 @@ from garkcli.backward import effective
 from garkcli.backward.effective import EffectiveOrder, effective_order
 from garkcli.backward.modified import modified_equation
 from garkcli.backward.series import Forest, logarithm, transported
+from garkcli.frozen import replace
 from garkcli.trees.count import Admissible
 
 BUTCHER = """

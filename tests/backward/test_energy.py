@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -18,6 +17,7 @@ from garkcli.backward import energy
 from garkcli.backward.energy import ModifiedRun, modified_run
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm, modified_formula
 from garkcli.errors import UsageProblem
+from garkcli.frozen import replace
 from garkcli.report.modified_energy import REPORT
 from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.forms import pair

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
+from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 
 RALSTON = """\

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.tableau.pointwise import in_points
 from tests.cli.harness import ROOT, gark

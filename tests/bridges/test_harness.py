@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from fractions import Fraction
 from math import cos, hypot, sin
 from typing import Any
@@ -20,6 +19,7 @@ from garkcli.bridges.rounding import nearest_float
 from garkcli.bridges.structure import composition, shared, table
 from garkcli.bridges.trials import STEPS, TRIALS, WHOLE, WORDS, Trial
 from garkcli.catalogue import open_method
+from garkcli.frozen import replace
 from tests.bridges import machine
 from tests.bridges.comparing import SIZES, allowed, own_errors
 from tests.bridges.machine import NotHad, Tool, need

@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from math import ulp
@@ -29,6 +28,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load
 from garkcli.sources.found import FoundTable
 

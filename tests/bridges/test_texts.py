@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -19,6 +18,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import EXACT
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
+from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.load import loads
 from tests.bridges.examples import RALSTON, payload_of
 from tests.bridges.test_hostile_names import METHODS, MULTIRATE, named
@@ -83,9 +83,9 @@ def strings(value: object) -> Iterator[str]:
     elif isinstance(value, (list, tuple, set, frozenset)):
         for item in value:
             yield from strings(item)
-    elif dataclasses.is_dataclass(value):
-        for field in dataclasses.fields(value):
-            yield from strings(getattr(value, field.name))
+    elif isinstance(value, Frozen):
+        for name in fields(value):
+            yield from strings(getattr(value, name))
 
 
 def test_no_text_of_a_file_is_given_to_a_template() -> None:

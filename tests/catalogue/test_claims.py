@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import csv
 import re
-from dataclasses import replace
 from decimal import Decimal
 from functools import cache
 from pathlib import Path
@@ -16,6 +15,7 @@ import pytest
 
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.page.paint import Paint
 from garkcli.page.plaintext import ascii_form

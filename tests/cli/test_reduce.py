@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from garkcli.api.methods import reduced
 from garkcli.exact.field import ZERO
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.reduction import is_reducible

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +22,7 @@ from garkcli.comparison.sameness import find_matching
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import Sheet, each_its_own, sheet_of
 from garkcli.errors import LimitExceeded
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_tableau_file
 from garkcli.order.conditions import elementary_weight

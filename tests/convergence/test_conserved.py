@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 import sympy
 from flint import fmpq
 
 from garkcli.convergence.reference import changing
+from garkcli.frozen import replace
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Row, observed_order
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair
 from garkcli.tableau.tableau import Tableau

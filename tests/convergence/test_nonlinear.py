@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -15,6 +14,7 @@ from garkcli.convergence.result import Convergence, Row, Visible
 from garkcli.convergence.stepped_solver import SteppedSolver
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of

@@ -87,7 +87,7 @@ def test_collision_has_no_solution(digits: int, monkeypatch: pytest.MonkeyPatch)
     """A planet without angular momentum falls into the sun at t = π/√8: nothing is made up
     beyond, however few steps are tried.
     """
-    from dataclasses import replace
+    from garkcli.frozen import replace
 
     monkeypatch.setattr(module, "MAX_TRIED", 200)
     monkeypatch.setattr(module, "_REFINED", 8)
@@ -100,8 +100,7 @@ def test_a_solution_that_ends_is_told_when() -> None:
     """q̈ = 4q³ leaves every bound at ∫ dq/√(2q⁴ − 1) from 1 to ∞, 0.7531…: that is told, no step
     size.
     """
-    from dataclasses import replace
-
+    from garkcli.frozen import replace
     from garkcli.problems.vectorfield import symbols
 
     ((x,), (p,)) = (symbols(("x",), group) for group in ("q", "p"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from garkcli.conversion.sheet import CannotConvert, Sheet, sheet_of
 from garkcli.conversion.targets import TARGETS, as_canonical, as_gark
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO, Number
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import can_spell_out, write_tableau_file
 from garkcli.order.conditions import admissible_trees, elementary_weight, is_admissible

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +26,7 @@ from garkcli.design.search.search import BITS, Search
 from garkcli.design.search.snap import values_near
 from garkcli.errors import NotDecided
 from garkcli.exact.field import Algebraic
+from garkcli.frozen import replace
 from garkcli.methodfile.family import FamilyFile
 from garkcli.order.conditions import elementary_weight
 from garkcli.report.schemas import report_schema

@@ -152,7 +152,8 @@ def signature(name: str, thing: Any) -> str:
     shape = inspect.signature(thing)
     shown = []
     for parameter in shape.parameters.values():
-        kind = str(parameter.annotation).replace('"', "")
+        written = thing.__annotations__ if inspect.isclass(thing) else {}
+        kind = str(written.get(parameter.name, parameter.annotation)).replace('"', "")
         shown.append(parameter.replace(annotation=_Plain(kind)))
     answer: Any = _Plain(shape.return_annotation)
     if isinstance(thing, type):

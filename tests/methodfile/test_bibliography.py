@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-
 import jsonschema
 import pytest
 import yaml
 
 from garkcli.errors import Fault, MethodFileError
+from garkcli.frozen import fields
 from garkcli.methodfile.bibliography import REFERENCE
 from garkcli.methodfile.carried import write_conjugate_of
 from garkcli.methodfile.file_keys import method_file_schema
@@ -149,5 +148,5 @@ def test_every_field_is_documented() -> None:
     text = page.read_text(encoding="utf-8")
     part = text.partition("### `reference`")[2].partition("\n### ")[0]
     keys = [key.name for key in REFERENCE.inside()]
-    assert sorted(keys) == sorted(field.name for field in fields(Reference))
+    assert sorted(keys) == sorted(fields(Reference))
     assert [x for x in keys if x not in part] == []

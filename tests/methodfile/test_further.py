@@ -1,6 +1,5 @@
 """Embedded weights and dense output in every form of method file: read, refused, written again."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +11,7 @@ from garkcli.errors import MethodFileError
 from garkcli.exact.display import to_text
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
+from garkcli.frozen import replace
 from garkcli.methodfile.carried import write_conjugate_of
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.methodfile.load import load, loads

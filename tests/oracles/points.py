@@ -5,7 +5,6 @@ nodes.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from flint import fmpq
 
@@ -13,6 +12,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.frozen import replace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Method, Tableau
 from tests.oracles.stages import image, pairing

@@ -5,13 +5,13 @@ ones.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from random import Random
 
 from flint import fmpq
 
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.tableau.forms import (
     additive,
     gark,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations
 
 import pytest
 from flint import fmpq
 
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.tableau.forms import gark
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from tests.oracles import samples

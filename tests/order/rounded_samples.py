@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from random import Random
 from typing import Any
 
@@ -14,6 +13,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.expression import parse
+from garkcli.frozen import replace
 from garkcli.tableau.forms import spelled_out
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +9,7 @@ from flint import fmpq
 
 from garkcli import Tableau, conjugate, find_order, load
 from garkcli.check.check_file import check_file
+from garkcli.frozen import replace
 from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.tolerance import within
 

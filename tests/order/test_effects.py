@@ -5,7 +5,6 @@ further, and the one at the worst corner goes nearly as far.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import product
 from random import Random
 
@@ -16,6 +15,7 @@ from hypothesis import strategies as st
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
+from garkcli.frozen import replace
 from garkcli.order.conditions import conditions, coupling_graph, elementary_weight
 from garkcli.order.effects import Effects
 from garkcli.order.tolerance import within

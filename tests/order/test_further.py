@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import TypeVar
@@ -22,6 +21,7 @@ from garkcli.errors import ShapeMismatch
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from random import Random
 
 import pytest
@@ -15,6 +14,7 @@ from garkcli.exact.display import to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.order.simplifying import (
     Defects,
     RoundedDefects,

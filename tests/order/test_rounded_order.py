@@ -4,7 +4,6 @@ against trees.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import log10
 from random import Random
 
@@ -15,6 +14,7 @@ from hypothesis import strategies as st
 
 from garkcli.errors import ZeroWeight
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.order import rounded as module
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import exp
 from xml.etree import ElementTree as ET
 
@@ -12,6 +11,7 @@ from flint import fmpq
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from garkcli import converge, find_stability, long_run
+from garkcli.frozen import replace
 from garkcli.plots.convergence import comparison_scene, convergence_scene
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure

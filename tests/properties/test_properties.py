@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -16,6 +15,7 @@ from garkcli.exact.matrix import identity
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import roots_below
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.algebra_shape import shape_of_families

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from garkcli.frozen import replace
 from garkcli.page.latex_letters import ascii_letters, letters
 from garkcli.reference import Reference
 from garkcli.report.citation import Cited, keys, render, title, together

@@ -7,7 +7,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -17,6 +16,7 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Row
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.page.figures import rounded, scientific
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator

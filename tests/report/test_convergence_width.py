@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -12,6 +11,7 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Visible
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.problems.builtin import hamiltonian
 from garkcli.report.comparison import REPORT as SEVERAL
 from garkcli.report.comparison import Compared, Entry

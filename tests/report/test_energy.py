@@ -6,7 +6,6 @@ import csv
 import io
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
+from garkcli.frozen import replace
 from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.longtime.symplecticity import Defect, Symplecticity

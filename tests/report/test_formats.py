@@ -8,7 +8,6 @@ import json
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -26,6 +25,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.cli.main import gark as commands
 from garkcli.cli.options import command_of
 from garkcli.errors import Fault, MethodFileError
+from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
 from garkcli.report import check_findings, check_text

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -22,6 +21,7 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.page.asciiplot import POINT, SEVERAL, terminal_curves
 from garkcli.plots import saving
 from garkcli.plots.convergence import comparison_scene, convergence_scene

@@ -6,7 +6,7 @@ import json
 import re
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from jsonschema import Draft7Validator
 
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
+from garkcli.frozen import replace
 from garkcli.glossary.labels import label_of
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render

@@ -10,8 +10,9 @@ of a step enters.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
 from typing import Any
@@ -26,6 +27,7 @@ from hypothesis import strategies as st
 from mpmath import mpf
 
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.integrator import bind, trajectory
@@ -479,5 +481,7 @@ def test_gark_method_is_not_variational(name: str) -> None:
 def test_other_tableau_is_not_variational() -> None:
     """The pair by collocation does not make the action by interpolation stationary."""
     case = CASES["collocation"]
-    found = imbalances(replace(case, tableau=CASES["interpolation"].tableau), case.path(MANY))
+    found = imbalances(
+        dataclasses.replace(case, tableau=CASES["interpolation"].tableau), case.path(MANY)
+    )
     assert min(found) > 1e-11

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from random import Random
 
 import pytest
@@ -13,6 +12,7 @@ from hypothesis import strategies as st
 
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.matrix import dot, identity, transpose
+from garkcli.frozen import replace
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import is_symplectic, simplifying
 from garkcli.tableau.conjugate import conjugate, conjugate_block

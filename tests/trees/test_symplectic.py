@@ -5,7 +5,6 @@ indeed.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -14,6 +13,7 @@ from flint import fmpq
 
 from garkcli.exact.matrix import Matrix, add, scale
 from garkcli.families.registry import diagonal_method
+from garkcli.frozen import replace
 from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
 from garkcli.order.simplifying import is_symplectic
 from garkcli.tableau.conjugate import conjugate

@@ -7,7 +7,6 @@ from __future__ import annotations
 import json
 import re
 from base64 import b64encode
-from dataclasses import replace
 from functools import cache
 from hashlib import sha256
 from html.parser import HTMLParser
@@ -22,6 +21,7 @@ from hypothesis import given, settings, strategies
 import garkcli
 from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError, printable
+from garkcli.frozen import replace
 from garkcli.order.conditions import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.registry import KEYS

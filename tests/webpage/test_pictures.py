@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import re
-from dataclasses import replace
 from itertools import pairwise
 from math import hypot
 from xml.etree import ElementTree as ET
@@ -16,6 +15,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from garkcli import convert, from_arrays, load, loads
+from garkcli.frozen import replace
 from garkcli.plots.plane import Point, outlines
 from garkcli.plots.scene import linear_marks, shortened
 from garkcli.plots.svg import STYLE, colour

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, MutableMapping
-from dataclasses import dataclass
 
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
 from garkcli.bridges.readers.parsing import ValueParser
+from garkcli.frozen import Frozen
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import Unreadable
 from garkcli.sources.scalars import Value
@@ -19,8 +19,7 @@ MAX_INDICES = 12
 _CLOSERS = {"(": ")", "[": "]", "{": "}"}
 
 
-@dataclass(frozen=True)
-class Assigned:
+class Assigned(Frozen):
     """A name with members, such as ``m.A``, that has a value from a line on.
 
     Attributes:
@@ -36,8 +35,7 @@ class Assigned:
     line: int
 
 
-@dataclass(frozen=True)
-class Begun:
+class Begun(Frozen):
     """A function, a branch or a title begins here."""
 
     title: str

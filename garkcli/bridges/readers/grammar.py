@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
+from garkcli.frozen import Frozen, field
 from garkcli.sources.scalars import ROOTS
 
 
-@dataclass(frozen=True)
-class Grammar:
+class Grammar(Frozen):
     """How values are written in a language.
 
     Attributes:

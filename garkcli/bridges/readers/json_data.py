@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
+from garkcli.frozen import replace
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.blocks import table_of_blocks
 from garkcli.sources.found import FoundTable, Reader

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import cache
 
+from garkcli.frozen import Frozen
 from garkcli.sources.found import TooLarge
 
 MAX_TOKENS = 1_000_000
 """Most tokens of a source."""
 
 
-@dataclass(frozen=True)
-class Token:
+class Token(Frozen):
     """A piece of a source.
 
     Attributes:
@@ -30,8 +29,7 @@ class Token:
     is_spaced: bool = False
 
 
-@dataclass(frozen=True)
-class Language:
+class Language(Frozen):
     """How a language is cut into tokens.
 
     Attributes:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from garkcli.bridges.readers.assignments import Assigned, Walk
 from garkcli.bridges.readers.finder import Finder, tables_of
 from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import MATHEMATICA, Token, tokens_of, without
+from garkcli.frozen import replace
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.blocks import table_of_blocks
 from garkcli.sources.found import FoundTable, Reader, Unreadable

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 from garkcli.bridges.comments import problem_class
@@ -11,6 +10,7 @@ from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
 from garkcli.exact.display import decimal
+from garkcli.frozen import replace
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import (
     COUNT,

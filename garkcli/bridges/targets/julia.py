@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
@@ -38,7 +36,6 @@ def _no_root(root: AlgebraicRoot) -> str:
 WORDS = Words(_coefficient, _root, _no_root, "^")
 
 
-@dataclass(frozen=True)
 class _Exact(Style):
     """Exact where Julia has it: fractions with //, square roots of BigFloat; else decimals."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 from flint import fmpq
@@ -14,6 +13,7 @@ from garkcli.bridges.registry import Bridge
 from garkcli.bridges.rounding import Cell
 from garkcli.exact.display import to_latex
 from garkcli.exact.field import Algebraic
+from garkcli.frozen import replace
 from garkcli.page.latex import number
 from garkcli.page.tableau_latex import displays
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from flint import fmpq
 
@@ -14,10 +13,10 @@ from garkcli.bridges.registry import Bridge
 from garkcli.bridges.structure import Table, composition, no_composition, shared, table, vanishes
 from garkcli.bridges.texts import Values
 from garkcli.bridges.trials import WORDS, trial_of
+from garkcli.frozen import Frozen
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(Frozen):
     """An explicit and a diagonally implicit table on the same stages.
 
     Attributes:

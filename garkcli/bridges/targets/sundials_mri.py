@@ -8,7 +8,6 @@ slow tendency Σ_j (a_{ij} − a_{i−1,j}) f_j / (c_i − c_{i−1}). The last 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -22,14 +21,14 @@ from garkcli.bridges.rounding import Cell, nearest_float
 from garkcli.bridges.structure import Rows, Table, table, vanishes
 from garkcli.bridges.texts import Values
 from garkcli.exact.field import ONE, ZERO
+from garkcli.frozen import Frozen
 from garkcli.tableau.pointwise import Row
 
 if TYPE_CHECKING:
     from garkcli.constructions.multirate import Coupling
 
 
-@dataclass(frozen=True)
-class Slow:
+class Slow(Frozen):
     """The slow part of a multirate infinitesimal step.
 
     Attributes:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
@@ -23,6 +22,7 @@ from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import Mutable, field, replace
 from garkcli.tableau.tableau import Tableau
 
 MOST_POINTS = 60
@@ -31,8 +31,7 @@ that.
 """
 
 
-@dataclass
-class Comparison(ABC):
+class Comparison(Mutable):
     """Collects values that are compared.
 
     Attributes:

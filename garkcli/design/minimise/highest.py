@@ -13,7 +13,6 @@ L − m has one sign between the t at which p(m, t) = 0 for some p, and one t ea
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby, pairwise
 from typing import TypeAlias
 
@@ -34,6 +33,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import PLANE, at_y, curves, in_t, in_y, projected, resultant
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
+from garkcli.frozen import Frozen
 
 TRIALS = 16
 """Numbers below the greatest level at which a smaller one may be seen."""
@@ -43,8 +43,7 @@ _Level: TypeAlias = "RealRoot | Root | None"
 """A level; that on a fibre is known to any number of digits."""
 
 
-@dataclass(frozen=True)
-class HighAt:
+class HighAt(Frozen):
     """The greatest level, at an allowed number.
 
     Attributes:
@@ -56,8 +55,7 @@ class HighAt:
     is_sample: bool = False
 
 
-@dataclass(frozen=True)
-class Levels:
+class Levels(Frozen):
     """What there is to be compared.
 
     Attributes:
@@ -286,7 +284,6 @@ def _in_turn(points: Sequence[RealRoot]) -> Iterator[Point]:
             yield right
 
 
-@dataclass
 class Highest(Comparison):
     """Levels at critical values and at samples between them."""
 

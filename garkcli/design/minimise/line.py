@@ -7,7 +7,6 @@ limits at ends that do not. Values at algebraic numbers are algebraic numbers, c
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import cast
 
 from flint import fmpq
@@ -18,10 +17,10 @@ from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import NumberField
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import Frozen
 
 
-@dataclass(frozen=True)
-class Conditions:
+class Conditions(Frozen):
     """Which numbers are allowed.
 
     Attributes:
@@ -51,16 +50,14 @@ class Conditions:
         return [*self.nonzero, *self.positive, *self.not_negative]
 
 
-@dataclass(frozen=True)
-class At:
+class At(Frozen):
     """The value at an allowed number."""
 
     value: RealRoot
     t: RealRoot
 
 
-@dataclass(frozen=True)
-class Toward:
+class Toward(Frozen):
     """The limit at an end that is not allowed.
 
     Attributes:
@@ -74,8 +71,7 @@ class Toward:
     is_right: bool
 
 
-@dataclass(frozen=True)
-class OnLine:
+class OnLine(Frozen):
     """What there is to be compared.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly
@@ -12,6 +11,7 @@ from garkcli.design.minimise.squared_error import Quotient
 from garkcli.exact.fibre import Holds
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.roots import RealRoot, square_root
+from garkcli.frozen import Frozen
 from garkcli.tableau.tableau import Tableau
 
 Formula: TypeAlias = Callable[[Tableau, int, "Parameters | None"], Quotient]
@@ -25,8 +25,7 @@ ORIGIN = RealRoot.rational(fmpq(0))
 """0."""
 
 
-@dataclass(frozen=True)
-class Objective:
+class Objective(Frozen):
     """Something that is made as small as possible, a rational function of the coefficients.
 
     Attributes:
@@ -45,8 +44,7 @@ def none_is_negative(signs: Sequence[int]) -> bool:
     return min(signs, default=0) >= 0
 
 
-@dataclass(frozen=True)
-class Signs:
+class Signs(Frozen):
     """What a level is decided by.
 
     Attributes:
@@ -64,8 +62,7 @@ class Signs:
     common: Sequence[fmpq_mpoly] = ()
 
 
-@dataclass(frozen=True)
-class Level:
+class Level(Frozen):
     """Something that is made as large as possible: the y up to which something holds from 0 on,
     which the signs of polynomials decide; 0 or infinity among them.
 
@@ -90,8 +87,7 @@ class Level:
         return square_root(y) if self.is_square and y is not None else y
 
 
-@dataclass(frozen=True)
-class Either:
+class Either(Frozen):
     """A name that means one thing for some methods and another one for others.
 
     Attributes:

@@ -8,7 +8,6 @@ solution is in one part, and no part is lost.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly
@@ -18,12 +17,12 @@ from garkcli.design.ideal import Ideal, factors, rational
 from garkcli.design.member import value_of
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, fraction
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class Changes:
+class Changes(Frozen):
     """Unknowns that are replaced by others.
 
     Attributes:
@@ -102,8 +101,7 @@ def _places(p: fmpq_mpoly) -> list[int]:
 Values: TypeAlias = dict[str, Mixed]
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Frozen):
     """Solutions with common coordinates.
 
     Attributes:
@@ -172,8 +170,7 @@ def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
         yield replace(smaller, values=values)
 
 
-@dataclass(frozen=True)
-class _Linear:
+class _Linear(Frozen):
     """A v + B, a polynomial in which v has degree one."""
 
     name: str
@@ -182,8 +179,7 @@ class _Linear:
     cost: tuple[bool, int, int, int]
 
 
-@dataclass(frozen=True)
-class _Splitting:
+class _Splitting(Frozen):
     """Takes solution sets apart; polynomials are in the ring of all unknowns."""
 
     ring: Parameters

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from garkcli.design.design import Design, Found, Step
@@ -10,6 +9,7 @@ from garkcli.design.minimise.line import Toward
 from garkcli.design.minimise.objective import Level, Objective
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen
 from garkcli.upward import Shown
 
 Extent: TypeAlias = Literal["all", "nearly", "critical-points", "found"]
@@ -25,8 +25,7 @@ a method it is exact in any case.
 """
 
 
-@dataclass(frozen=True)
-class Candidate:
+class Candidate(Frozen):
     """A method with its objective.
 
     Attributes:
@@ -44,8 +43,7 @@ class Candidate:
     proof: Proof = "exact"
 
 
-@dataclass(frozen=True)
-class Limit:
+class Limit(Frozen):
     """What the objective comes near to without reaching it there.
 
     Attributes:
@@ -59,8 +57,7 @@ class Limit:
     toward: Toward
 
 
-@dataclass(frozen=True)
-class Minimum(Shown):
+class Minimum(Shown, Frozen):
     """The methods with the least value of an objective.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import combinations
 from math import comb
@@ -193,7 +192,6 @@ def _bound(best: RealRoot) -> fmpq:
     return between(low, high)
 
 
-@dataclass
 class Smallest(Comparison):
     """Critical points, ends and limits of N/D."""
 

@@ -15,7 +15,6 @@ and these are few. The work grows with the order as a polynomial, whatever the n
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 from flint import fmpq
@@ -24,22 +23,21 @@ from garkcli.deadline import check_time
 from garkcli.design.conditions import Cleared, Entry, Row, Square
 from garkcli.exact.matrix import apply, dot
 from garkcli.exact.parametric import Parameters
+from garkcli.frozen import Frozen
 from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.polynomial_space import PolynomialSpace, convolution
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(Frozen):
     """(v, w): a stage vector and a number."""
 
     v: Row
     w: Entry
 
 
-@dataclass(frozen=True)
-class Tensor:
+class Tensor(Frozen):
     """A symmetric element of S ⊗ S: its parts v ⊗ v, v ⊗ w and w ⊗ w."""
 
     vv: Square
@@ -129,8 +127,7 @@ def squared(x: Pair) -> Tensor:
     return Tensor(vv, vw, ww)
 
 
-@dataclass(frozen=True)
-class Quotient:
+class Quotient(Frozen):
     """A value as numerator and denominator, the latter a square.
 
     Attributes:
@@ -165,8 +162,7 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
     return Quotient(numerator, total.denominator)
 
 
-@dataclass(frozen=True)
-class _Branch:
+class _Branch(Frozen):
     """One tree as it stands on a forest.
 
     Attributes:

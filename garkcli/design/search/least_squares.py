@@ -13,10 +13,10 @@ What happens to a start depends on nothing but the start: not on the others, and
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from garkcli.deadline import check_time
+from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
@@ -35,8 +35,7 @@ PATIENCE = 35
 """Steps in which the sum of squares has to fall by half."""
 
 
-@dataclass(frozen=True)
-class Minima:
+class Minima(Frozen):
     """Where the starts ended.
 
     Attributes:

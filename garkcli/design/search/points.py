@@ -10,13 +10,13 @@ If K(X) lies in the interior of X, F has exactly one zero in X (R. Krawczyk, 196
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.deadline import check_time
 from garkcli.design.search.rational import RationalFunction, as_ball, as_float, over_box
+from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,8 +30,7 @@ RANK = 1e-7
 FIRST_BITS = 106
 
 
-@dataclass(frozen=True)
-class Fixed:
+class Fixed(Frozen):
     """A function of the unknowns that is given a value.
 
     Attributes:
@@ -88,8 +87,7 @@ class Fixings:
         return np.concatenate([values, more]), np.concatenate([gradients, slopes])
 
 
-@dataclass(frozen=True)
-class Rank:
+class Rank(Frozen):
     """Rows and columns of a matrix with a determinant that is not zero, as many as there are.
 
     Attributes:

@@ -9,12 +9,12 @@ same to the last bit on every machine with IEEE arithmetic.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, fmpq, fmpq_mpoly
 
 from garkcli.exact.parametric import Parameters, fraction
+from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
     import numpy as np
@@ -46,8 +46,7 @@ def in_decimals(ball: arb, count: int) -> int:
     return int((midpoint(ball) * 10**count + fmpq(1, 2)).floor())
 
 
-@dataclass(frozen=True)
-class _Polynomial:
+class _Polynomial(Frozen):
     """Terms: a coefficient and the unknowns that it is multiplied with, as often as it takes."""
 
     terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
@@ -72,8 +71,7 @@ class _Polynomial:
         return constant(fmpq(0)) if total is None else total
 
 
-@dataclass(frozen=True)
-class Slope:
+class Slope(Frozen):
     """A value and its derivatives.
 
     Attributes:

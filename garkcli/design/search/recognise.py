@@ -6,7 +6,6 @@ What is told here is a guess, which an exact certificate has to confirm: a wrong
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
 
@@ -15,13 +14,13 @@ from garkcli.design.search.rational import midpoint
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import Frozen
 
 MAX_DEGREE = 8
 """Largest degree that is tried."""
 
 
-@dataclass(frozen=True)
-class Recognised:
+class Recognised(Frozen):
     """Numbers of one field.
 
     Attributes:

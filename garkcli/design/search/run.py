@@ -5,7 +5,6 @@ method files: what reports and files need of it, without exact numbers.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
 from math import floor, log10
@@ -27,6 +26,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import Frozen, Mutable, field
 from garkcli.tableau.family import Family
 
 DECIMALS = 40
@@ -39,8 +39,7 @@ TOLERANCE = "1e-30"
 """What a file with so many decimals is meant up to."""
 
 
-@dataclass(frozen=True)
-class Method:
+class Method(Frozen):
     """A method that was found.
 
     Attributes:
@@ -118,8 +117,7 @@ SAME = 1e-6
 """Solutions no further apart in any unknown are one solution."""
 
 
-@dataclass
-class Result:
+class Result(Mutable):
     """What a search has found so far.
 
     Attributes:
@@ -155,16 +153,14 @@ class Result:
         return f"<Result {methods} of {counted(self.starts, 'start')}>"
 
 
-@dataclass(frozen=True)
-class Timed:
+class Timed(Frozen):
     """The result of some work and the seconds of the processor that it took."""
 
     result: object
     seconds: float
 
 
-@dataclass(frozen=True)
-class Batch:
+class Batch(Frozen):
     """Work: the solutions that some starts lead to, as ``Search.solve`` has them."""
 
     starts: list[Start]
@@ -174,8 +170,7 @@ class Batch:
         return search.solve(self.starts)
 
 
-@dataclass(frozen=True)
-class Solution:
+class Solution(Frozen):
     """Work: the method that a solution in floats makes, or None.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -23,6 +22,7 @@ from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution
+from garkcli.frozen import Frozen
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 
@@ -89,8 +89,7 @@ MOST_STARTS = 1024
 """Starts of one batch at most."""
 
 
-@dataclass(frozen=True)
-class Find:
+class Find(Frozen):
     """A method that was found.
 
     Attributes:

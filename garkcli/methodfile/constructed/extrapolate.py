@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from flint import fmpq
 from yaml.nodes import Node, SequenceNode
@@ -12,6 +11,7 @@ from garkcli.constructions.composition import extrapolated
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
 from garkcli.families.extrapolated import SEQUENCES, sequence
+from garkcli.frozen import Frozen
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.grammar import (
@@ -138,8 +138,7 @@ def _read(at: PartReader, found: Found, _: str) -> ConstructionText:
     return at.made(found.node, made)
 
 
-@dataclass(frozen=True)
-class _Plan:
+class _Plan(Frozen):
     """How far a method is extrapolated.
 
     Attributes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
@@ -22,6 +21,7 @@ from garkcli.constructions.multirate import (
 from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
+from garkcli.frozen import Frozen
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.grammar import (
@@ -137,8 +137,7 @@ _KEYS = mapping(
 )
 
 
-@dataclass(frozen=True)
-class Infinitesimal:
+class Infinitesimal(Frozen):
     """What makes a multirate infinitesimal method.
 
     Attributes:

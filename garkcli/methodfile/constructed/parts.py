@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from flint import fmpq
@@ -11,6 +10,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.families.registry import FAMILIES
+from garkcli.frozen import Frozen
 from garkcli.methodfile.build import families_of, nodes_to_spell_out
 from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
 from garkcli.methodfile.grammar import defined
@@ -25,8 +25,7 @@ METHOD = defined("part", lambda at, node, where: at.method(node, where))
 """A method inside of a construction."""
 
 
-@dataclass(frozen=True)
-class Opened:
+class Opened(Frozen):
     """A method of the catalogue, as it was read."""
 
     source: Source

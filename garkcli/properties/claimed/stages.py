@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import chain, combinations
 
 from flint import arb, ctx, fmpq, fmpq_poly
@@ -10,6 +9,7 @@ from flint import arb, ctx, fmpq, fmpq_poly
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.roots import roots_below, sign
+from garkcli.frozen import replace
 from garkcli.properties.last_stage import (
     first_same_as_last,
     is_stiffly_accurate,

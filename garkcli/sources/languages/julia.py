@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import tree_sitter_julia
 from tree_sitter import Language, Node
 
+from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.lowering import MAX_NESTING, TOO_DEEP, Lowering, line_of, unmeant
@@ -54,8 +54,7 @@ _DEFINITIONS = frozenset(
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
 
 
-@dataclass(frozen=True)
-class Token:
+class Token(Frozen):
     """An operand or a sign of an expression.
 
     Attributes:
@@ -68,7 +67,7 @@ class Token:
     sign: str
     start: int
     end: int
-    operand: ir.Expr = ir.Nothing()  # noqa: RUF009 it never changes
+    operand: ir.Expr = ir.Nothing()
     is_prefix: bool = False
 
 

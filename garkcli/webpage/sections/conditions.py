@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from garkcli.frozen import Frozen
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
 from garkcli.report.conditions import ConditionRow, is_parametric, row_of
 from garkcli.tableau.meant import meant
@@ -19,8 +19,7 @@ from garkcli.webpage.tree_picture import tree_picture
 _STATES = ("holds", "within", "varies", "fails")
 
 
-@dataclass(frozen=True)
-class Listed:
+class Listed(Frozen):
     """The conditions that are shown.
 
     Attributes:

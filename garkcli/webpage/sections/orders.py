@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
+from garkcli.frozen import Frozen
 from garkcli.order.certificate import Witness
 from garkcli.report.check import hints
 from garkcli.report.checked import REPORT
@@ -27,8 +27,7 @@ NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
 """Rows that are told below others."""
 
 
-@dataclass(frozen=True)
-class Shown:
+class Shown(Frozen):
     """An order as the page has it.
 
     Attributes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from flint import arb, fmpq
 from markupsafe import Markup
@@ -11,6 +10,7 @@ from markupsafe import Markup
 from garkcli.check.analysis import is_pair_of_itself
 from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.parametric import Parametric
+from garkcli.frozen import Frozen
 from garkcli.page.cells import remark
 from garkcli.page.tableau_latex import dense_polynomials, parts_of
 from garkcli.page.tableau_text import readable
@@ -32,8 +32,7 @@ _WIDE, _VAST = 6, 12
 """More columns need smaller letters on paper."""
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(Frozen):
     """Cells of a colour in one row.
 
     Attributes:
@@ -47,8 +46,7 @@ class Block:
     cells: list[Markup]
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(Frozen):
     """A row of a tableau.
 
     Attributes:
@@ -66,8 +64,7 @@ class Line:
     colour: int = 0
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(Frozen):
     """A tableau, or why it is not shown.
 
     Attributes:
