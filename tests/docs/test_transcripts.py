@@ -15,6 +15,7 @@ EMPTY = (
     "tutorial-student",
     "tutorial-maintainer",
     "tutorial-designer",
+    "errata",
     "howto-from-a-paper",
     "howto-other-codes",
     "howto-imex",
