@@ -150,6 +150,8 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
     >>> plain_line("z = hω, ω²q"), plain_line("bᵀA")
     ('z = h omega, omega^2 q', 'b^T A')
     """
+    if line.isascii():
+        return line
     for phrase, form in PHRASES.items():
         if not _has(encoding, phrase):
             line = line.replace(phrase, form)

@@ -9,7 +9,9 @@ import json
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -18,6 +20,7 @@ import pytest
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import XML, C, Comment, harmless
 from garkcli.bridges.names import LONGEST, RESERVED, class_name, identifier
+from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import Bridge, bridges
 from garkcli.methodfile.load import loads
@@ -56,10 +59,11 @@ METHODS = {
     "b: [1/2, 1/2]}}\n",
     "kicks": "prk: {q: {A: [[0], [1]], b: [1]}, p: {A: [[1/2, 0]], b: [1/2, 1/2]}}\n"
     "structure: separable\n",
+    "multirate": (ROOT / "garkcli/catalogue/data/multirate/mri-gark-erk22a.gark.yaml").read_text(
+        encoding="utf-8"
+    ),
 }
-"""A method of each form; between them every target holds one, but for what is multirate."""
-_DATA = ROOT / "garkcli/catalogue/data/multirate"
-MULTIRATE = (_DATA / "mri-gark-erk22a.gark.yaml").read_text(encoding="utf-8")
+"""A method of each form; between them every target holds one."""
 
 
 def named(name: str, method: str) -> str:
@@ -68,20 +72,62 @@ def named(name: str, method: str) -> str:
     return f"name: {json.dumps(name)}\nreference: {json.dumps(name)}\n{text}"
 
 
-def exported(name: str, methods: tuple[str, ...] = tuple(METHODS)) -> Iterator[tuple[Bridge, str]]:
-    """What every target writes of methods with a name, and its programs of Python, C, C++, R, …"""
-    for text in (*(METHODS[x] for x in methods), MULTIRATE):
-        payload = prepared(loads(named(name, text)))
-        for bridge in bridges().values():
+@cache
+def _payload(method: str) -> Payload:
+    """What writers get of a method file."""
+    return prepared(loads(method))
+
+
+@cache
+def _said(name: str) -> dict[str, str]:
+    """The name and the reference that a file says, as writers get them."""
+    payload = prepared(loads(named(name, METHODS["rk"])))
+    return {"name": payload.name, "reference": payload.reference}
+
+
+def payload_of(name: str, method: str) -> Payload:
+    """What writers get of a method with a name and a reference; its numbers are those of before."""
+    return replace(_payload(method), **_said(name))
+
+
+def exported(
+    name: str, methods: Sequence[str] = tuple(METHODS), suffix: str = "", once: bool = False
+) -> Iterator[tuple[Bridge, str]]:
+    """What targets write of methods with a name, and their programs of Python, C, C++, R, …
+
+    Args:
+        name: and reference, of the methods.
+        methods: which of them, in this order.
+        suffix: of the files of the targets, where not all are meant.
+        once: each target writes the first of the methods that it holds.
+    """
+    for bridge in bridges().values():
+        if not bridge.suffix.endswith(suffix):
+            continue
+        for method in methods:
             try:
-                yield bridge, bridge.written(payload)
-                if bridge.test_driver is None:
-                    continue
-                for written in bridge.test_driver(payload, f"neutral{bridge.suffix}"):
-                    if not written.ending.endswith(".yaml"):
-                        yield bridge, written.text
+                texts = _texts(bridge, payload_of(name, METHODS[method]))
             except CannotExport:
                 continue
+            yield from ((bridge, text) for text in texts)
+            if once:
+                break
+
+
+def _texts(bridge: Bridge, payload: Payload) -> list[str]:
+    """The file of a method, and the program that runs it."""
+    texts = [bridge.written(payload)]
+    if bridge.test_driver is not None:
+        written = bridge.test_driver(payload, f"neutral{bridge.suffix}")
+        texts += [x.text for x in written if not x.ending.endswith(".yaml")]
+    return texts
+
+
+def turned(place: int) -> list[str]:
+    """The methods in turn, so that each target writes all of them under one name or another."""
+    methods = list(METHODS)
+    place %= len(methods)
+    return methods[place:] + methods[:place]
 
 
 def _without(pattern: str) -> Callable[[str], str]:
@@ -104,10 +150,11 @@ WITHOUT_COMMENTS: dict[str, Callable[[str], str]] = {
 @pytest.mark.parametrize("end", ENDS, ids=ascii)
 def test_nothing_leaves_its_comment(end: str) -> None:
     """No target, no name and no reference: without comments nothing is left of them."""
-    begin = BEGINS[ENDS.index(end) % len(BEGINS)]
+    place = ENDS.index(end)
+    begin = BEGINS[place % len(BEGINS)]
     name = f"{end}{MARK}(){end} {MARK}() {begin}"
     seen = set()
-    for bridge, text in exported(name):
+    for bridge, text in exported(name, turned(place), once=True):
         seen.add(bridge.name)
         lines = re.split(r"\r\n|[\n\r\v\f\x1c\x1d\x1e\x85\u2028\u2029]", text)
         assert lines == text.split("\n")
@@ -195,23 +242,22 @@ def _parted(word: str) -> str:
 @pytest.mark.parametrize("name", WORDS)
 def test_modules_of_python_compile(name: str) -> None:
     """Every module and every program; what runs with NumPy alone has its arrays."""
-    for bridge, text in exported(name):
-        if bridge.suffix == ".py":
-            tree = ast.parse(text)
-            imported = {
-                alias.asname or alias.name
-                for node in ast.walk(tree)
-                if isinstance(node, (ast.Import, ast.ImportFrom))
-                for alias in node.names
-            }
-            classes = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
-            assert not classes & imported
+    for _, text in exported(name, turned(WORDS.index(name)), ".py", once=True):
+        tree = ast.parse(text)
+        imported = {
+            alias.asname or alias.name
+            for node in ast.walk(tree)
+            if isinstance(node, (ast.Import, ast.ImportFrom))
+            for alias in node.names
+        }
+        classes = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
+        assert not classes & imported
 
 
 def test_a_module_with_any_name_runs() -> None:
     """It has the arrays, and nothing else."""
     for name in (*WORDS, *HOSTILE):
-        payload = prepared(loads(named(name, METHODS["rk"])))
+        payload = payload_of(name, METHODS["rk"])
         written = bridges()["numpy"].written(payload)
         names: dict[str, object] = {}
         exec(compile(written, "exported", "exec"), names)
@@ -267,28 +313,30 @@ def built(command: list[str], folder: Path) -> None:
 @pytest.mark.skipif(CC is None, reason="no C compiler here")
 def test_headers_of_c_compile(tmp_path: Path) -> None:
     """With any name, all of them in one program."""
-    texts = [
-        text for x in WORDS for bridge, text in exported(x, ("rk", "ark")) if bridge.name == "c"
-    ]
-    for k, text in enumerate(texts):
-        (tmp_path / f"header{k}.h").write_text(text)
-        (tmp_path / f"program{k}.c").write_text(f'#include "header{k}.h"\n')
-    sources = [f"program{k}.c" for k in range(len(texts))]
     options = ["-std=c11", "-Wall", "-Werror", "-Wno-unused-variable", "-Wno-unused-const-variable"]
-    built([str(CC), *options, "-fsyntax-only", *sources], tmp_path)
+    for method in ("rk", "ark"):
+        texts = [text for x in WORDS for _, text in exported(x, [method], ".h")]
+        for k, text in enumerate(texts):
+            (tmp_path / f"header{k}.h").write_text(text)
+        (tmp_path / "program.c").write_text(
+            "".join(f'#include "header{k}.h"\n' for k in range(len(texts)))
+        )
+        built([str(CC), *options, "-fsyntax-only", "program.c"], tmp_path)
 
 
 @pytest.mark.skipif(CXX is None, reason="no C++ compiler here")
 @pytest.mark.parametrize("target", ["boost", "mfem"])
 def test_headers_of_cpp_compile(target: str, tmp_path: Path) -> None:
-    """With any name, and with the program that runs them."""
+    """With any name, and with the program that runs them. What stands behind ``method_`` is a name:
+    a word of the language and a word of these files are enough.
+    """
     for name, text in STUBS.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
     sources = []
-    own = [x for x in RESERVED["cpp"] if len(x) < 6]
-    for k, name in enumerate([*WORDS, *own]):
-        payload = prepared(loads(named(name, METHODS["pair"])))
+    bare = [x for x in WORDS if not identifier(x, "cpp").startswith("method_")]
+    for k, name in enumerate([*bare, "int", "errno"]):
+        payload = payload_of(name, METHODS["pair"])
         bridge = bridges()[target]
         assert bridge.test_driver is not None
         (tmp_path / f"x{k}.hpp").write_text(bridge.written(payload))
@@ -309,7 +357,7 @@ def test_modules_of_fortran_compile(tmp_path: Path) -> None:
     """With any name."""
     sources = []
     for k, name in enumerate(WORDS):
-        payload = prepared(loads(named(name, METHODS["ark"])))
+        payload = payload_of(name, METHODS["ark"])
         (tmp_path / f"x{k}.f90").write_text(bridges()["fortran"].written(payload))
         sources.append(f"x{k}.f90")
     built(["gfortran", "-fsyntax-only", *sources], tmp_path)
@@ -320,7 +368,7 @@ def test_lists_of_r_are_made(tmp_path: Path) -> None:
     """With any name, and the program has its syntax."""
     lines = ["options(warn = 2)"]
     for k, name in enumerate([*WORDS, *sorted(RESERVED["r"])]):
-        payload = prepared(loads(named(name, METHODS["pair"])))
+        payload = payload_of(name, METHODS["pair"])
         bridge = bridges()["desolve"]
         assert bridge.test_driver is not None
         (tmp_path / f"x{k}.R").write_text(bridge.written(payload))
@@ -336,7 +384,7 @@ def test_functions_of_octave_are_called(tmp_path: Path) -> None:
     """With any name: the function returns its struct."""
     lines = []
     for name in [*WORDS, *sorted(RESERVED["matlab"])]:
-        payload = prepared(loads(named(name, METHODS["pair"])))
+        payload = payload_of(name, METHODS["pair"])
         function = identifier(name, "matlab")
         (tmp_path / f"{function}.m").write_text(bridges()["matlab"].written(payload))
         lines.append(f"assert(numel({function}().b), 2);")

@@ -21,7 +21,7 @@ from garkcli.bridges.registry import bridges
 from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.load import loads
 from tests.bridges.examples import RALSTON, payload_of
-from tests.bridges.test_hostile_names import METHODS, MULTIRATE, named
+from tests.bridges.test_hostile_names import METHODS, named
 from tests.cli.harness import ROOT
 from tests.cli.test_process import run
 
@@ -98,7 +98,7 @@ def test_no_text_of_a_file_is_given_to_a_template() -> None:
         return render(self, *values, **further)
 
     with patch.object(Template, "render", spying):
-        for method in (*METHODS.values(), MULTIRATE):
+        for method in METHODS.values():
             payload = prepared(loads(named(SECRET, method)))
             assert SECRET in (payload.name, payload.reference)
             for bridge in bridges().values():
