@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.methodfile import reading
@@ -13,6 +13,7 @@ from garkcli.methodfile.composing import TooLargeError, compose
 from garkcli.methodfile.source import METHOD_FILE
 
 PIECES = ["a", "1/2", ": ", "- ", ", ", "[", "]", "{", "}", "\n", "  ", "'", "? ", "# x"]
+PIECES += [":", ",", "#", " ", "\r\n", "\u2028", "\ufeff", "\t", "---\n", "|\n", "&a ", "*a"]
 FORMS = sorted(Path("methods").glob("*.yaml")) + sorted(
     Path("tests/examples/invalid").glob("*.yaml")
 )
@@ -47,6 +48,7 @@ def by_pyyaml(text: str) -> yaml.Node | None:
 
 
 @given(st.lists(st.sampled_from(PIECES), max_size=25).map("".join))
+@settings(max_examples=200)
 def test_composing_is_pyyaml_s(text: str) -> None:
     """The same nodes at the same places, or the same complaint, whatever the text."""
     assert found(compose, text) == found(by_pyyaml, text)
