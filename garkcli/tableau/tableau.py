@@ -77,7 +77,7 @@ class Tableau(Frozen):
         for (k, m), block in self.blocks.items():
             rows = self.spaces[k].stages
             columns = self.space(m).stages
-            if len(block) == rows and all(len(row) == columns for row in block):
+            if len(block) == rows and {*map(len, block)} <= {columns}:
                 continue
             seen = counted(columns, "stage")
             seeing = counted(rows, "stage")

@@ -42,10 +42,19 @@ def process(command: Sequence[str]) -> Callable[[], object]:
 
     Byte code is kept, as it is where a package is installed, and made by a first run.
     """
+    return side_by_side([command])
+
+
+def side_by_side(commands: Sequence[Sequence[str]]) -> Callable[[], object]:
+    """Processes that run at the same time; as :func:`process`."""
     kept = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
 
-    def run() -> object:
-        return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, env=kept)
+    def run() -> None:
+        begun = [
+            subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, env=kept)
+            for command in commands
+        ]
+        assert [one.wait() for one in begun] == [0] * len(begun)
 
     run()
     return run
