@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.importing import orders_of, read
-from garkcli.bridges.judging import Judged, digits_of, judged
+from garkcli.bridges.judging import Judged, careless_digits, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
 from garkcli.bridges.sources import source_text
@@ -27,9 +27,7 @@ Level: TypeAlias = Literal["error", "warning", "note"]
 """Errors fail an audit; warnings and notes are told."""
 HIGH = 10
 """A declared order from which on no higher one is looked for."""
-CARELESS = 1_000
-"""Units of the last place that a careless rounding may be off by."""
-_BY_DIGITS = frozenset({"order", "weights", "embedded-order", "embedded-weights"})
+_BY_DIGITS = frozenset({"order", "weights", "nodes", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is looked for."""
 
@@ -155,10 +153,10 @@ def audit(table: FoundTable) -> Audited | None:
     declared = table.order or 0
     # of high orders it takes long to see that a method has not one more than it declares
     order, embedded_order = orders_of(method, table, declared if declared >= HIGH else None)
-    if table.is_assembled and order.order < 2 and not declared:
+    subject = Subject(table, method, order, embedded_order)
+    if table.is_assembled and order.order < 2 and not declared and not subject.is_slightly_off:
         message = "numbers with the names of coefficients whose roles are not recognised"
         return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
-    subject = Subject(table, method, order, embedded_order)
     findings: list[AuditFinding] = []
     for check in CHECKS:
         findings += [_weighed(x, subject) for x in check(subject)]
@@ -172,8 +170,9 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
     if finding.level != "error":
         return finding
     if finding.code in _BY_DIGITS and _is_explained(finding.code, subject):
-        message = f"{finding.message}: {CARELESS} units of the last digits explain it"
-        return AuditFinding("open", message, level="note")
+        code = "nodes" if finding.code == "nodes" else "open"
+        message = f"{finding.message}: careless rounding explains it"
+        return AuditFinding(code, message, level="note")
     if subject.table.is_assembled:
         message = f"{finding.message}; in doubt, as the table is put together from single numbers"
         return replace(finding, message=message, level="warning")
@@ -182,12 +181,14 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
 
 def _is_explained(code: str, subject: Subject) -> bool:
     """Whether rounding by many units of the last digits might be why an order is missed."""
+    if code == "nodes":
+        return not subject.misprinted_rows
     tableau, method, table = subject.tableau, subject.method, subject.table
     wanted = table.order or 1
     if code.startswith("embedded"):
         tableau = with_weights(tableau, method.embedded or ())
         wanted = table.embedded_order or 1 if code == "embedded-order" else 1
-    rounded = digits_of(method, tableau, CARELESS)
+    rounded = careless_digits(method, tableau)
     return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
 
 
@@ -315,24 +316,33 @@ def _weights(subject: Subject) -> Iterator[AuditFinding]:
 def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     """Nodes that are no row sums, as far as they cost an order."""
     rows = subject.wrong_rows
-    if not rows or subject.misses_order:
+    if subject.misses_order:
+        return
+    if not rows:
+        careless = subject.careless_rows
+        if careless:
+            message = f"{_listed(careless)}: careless rounding explains it"
+            yield AuditFinding("nodes", message, level="note")
         return
     declared = subject.table.order
     timed = subject.nonautonomous
     wanted = subject.order.order if declared is None else declared
     loses = timed is not None and timed.order < min(wanted, subject.order.order)
-    text = "; ".join(rows[:3])
-    if len(rows) > 3:
-        text += f"; and {len(rows) - 3} more"
+    text = _listed(rows)
     if (loses or declared is None or _is_upper(subject)) and _is_turned(subject):
         yield AuditFinding("transposed", "the columns have the nodes for sums")
     elif loses and timed is not None:
         message = f"order {timed.order} where f depends on t, and else {wanted}"
         yield AuditFinding("nodes", f"{message}: {text}")
     else:
-        is_error = declared is None and not subject.is_slightly_off
+        is_error = declared is None or subject.is_misprinted
         level: Level = "error" if is_error else "note"
         yield AuditFinding("nodes", text, level=level)
+
+
+def _listed(rows: Sequence[str]) -> str:
+    text = "; ".join(rows[:3])
+    return f"{text}; and {len(rows) - 3} more" if len(rows) > 3 else text
 
 
 def _is_upper(subject: Subject) -> bool:

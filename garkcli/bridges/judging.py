@@ -8,7 +8,7 @@ from flint import arb, fmpq
 
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.printed import approximant_units
+from garkcli.methodfile.printed import approximant_units, careless_units
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.rounded import RoundedOrder, find_order_within
 from garkcli.order.suggestion import SLACK, enough
@@ -100,6 +100,11 @@ def digits_of(method: MethodFile, tableau: Tableau, slack: int = SLACK) -> Round
     units = approximant_units(method.printed)
     wide = {value: slack * unit for value, unit in units.items()}
     return RoundedTableau.printed(tableau, wide)
+
+
+def careless_digits(method: MethodFile, tableau: Tableau) -> RoundedTableau:
+    """A tableau with what careless rounding may have left."""
+    return RoundedTableau.printed(tableau, careless_units(method.printed))
 
 
 def _judged(found: RoundedOrder, exact: Order, tableau: Tableau) -> Judged:

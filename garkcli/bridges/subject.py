@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
-from garkcli.bridges.judging import Judged, digits_of, judged
+from garkcli.bridges.judging import Judged, careless_digits, digits_of, judged
 from garkcli.exact.display import to_ball, to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
@@ -16,8 +16,8 @@ from garkcli.tableau.forms import with_time
 from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 
-SLIGHT = 1e-10
-"""Nodes that are off by less are no misprints: coefficients of ten digits and more are rounded."""
+NEAR = 1e-3
+"""Row sums and nodes that differ by less are meant to be the same."""
 
 
 class Subject(Frozen):
@@ -45,20 +45,36 @@ class Subject(Frozen):
         """The method with what its digits leave open."""
         return digits_of(self.method, self.tableau)
 
-    @property
+    @cached_property
     def wrong_rows(self) -> tuple[str, ...]:
         """The nodes that are no row sums, beyond what rounding explains, in words."""
-        return tuple(self._wrong)
+        return tuple(self._off(self.rounded))
+
+    @property
+    def careless_rows(self) -> tuple[str, ...]:
+        """The nodes that are no sums of numbers which are off by one unit of their last place."""
+        return tuple(self._off(digits_of(self.method, self.tableau, slack=1)))
+
+    @cached_property
+    def misprinted_rows(self) -> Mapping[str, Number]:
+        """Those that no careless rounding explains either, with by how much they are off."""
+        return self._off(careless_digits(self.method, self.tableau))
+
+    @property
+    def is_misprinted(self) -> bool:
+        """Whether a row sum is next to its node, and no rounding explains that it is not the node:
+        nodes that are meant to be others are further away.
+        """
+        return any(abs(to_ball(x)) < NEAR for x in self.misprinted_rows.values())
 
     @property
     def is_slightly_off(self) -> bool:
-        """Whether these nodes differ by so little that fractions may be cut short."""
-        return bool(self._wrong) and all(abs(to_ball(x)) < SLIGHT for x in self._wrong.values())
+        """Whether a sum is not what it should be: that of a row, or that of the weights."""
+        return not self.order.order or bool(self.wrong_rows)
 
-    @cached_property
-    def _wrong(self) -> Mapping[str, Number]:
-        """These nodes in words, with by how much they are off."""
-        defects = RoundedDefects(self.rounded)
+    def _off(self, rounded: RoundedTableau) -> dict[str, Number]:
+        """The nodes that are no row sums within a rounding, in words, with by how much."""
+        defects = RoundedDefects(rounded)
         found: dict[str, Number] = {}
         for l, m in self.tableau.edges():
             block = self.tableau.block(l, m) or ()

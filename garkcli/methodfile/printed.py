@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.exact.display import to_ball
 from garkcli.exact.enclosing import OPERATIONS, enclose, integer_power
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
@@ -22,8 +23,17 @@ MANY_DIGITS = 14
 """In the source of a solver a decimal of so many digits is a rounded one, however long others are:
 products of two that are written out have twice as many.
 """
-LONG_DENOMINATOR = 10**9
+LONG_DENOMINATOR = 10**6
 """Fractions with a smaller denominator are no approximants."""
+LONG_DECIMAL = 10**9
+"""Decimals that were written as fractions with a smaller one are exact."""
+
+CARELESS = 1_000
+"""Units of the last place that a careless rounding may be off by."""
+FLOAT = fmpq(1, 2**53)
+"""By how much of itself the float next to a number is off."""
+SHORTER = 100
+"""A decimal of so many times finer units than a float never was one."""
 
 
 def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmpq]:
@@ -78,6 +88,20 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
     return units
 
 
+def careless_units(printed: Printed) -> dict[Number, fmpq]:
+    """The same where numbers are rounded carelessly: ``CARELESS`` units of their last place. What
+    may have been computed in floats before it was printed, fractions and decimals that are no
+    longer than floats, may be off by so many units of these.
+    """
+    units = approximant_units(printed)
+    fractions = {value for expression, value in printed if _is_whole(expression)}
+    for value, unit in units.items():
+        of_float = rounded_up(abs(to_ball(value))) * FLOAT
+        is_float = unit and (value in fractions or unit > of_float / SHORTER)
+        units[value] = CARELESS * (max(unit, of_float) if is_float else unit)
+    return units
+
+
 def _is_whole(expression: Expression) -> bool:
     """Whether only whole numbers are in it, 2.0 as C has it among them."""
     return all(x.value.q == 1 for x in _literals(expression))
@@ -91,7 +115,7 @@ def _approximation(value: Number) -> fmpq:
     for places in range(len(str(q)), len(str(q)) + SHORTENED):
         # a decimal that was written as a fraction, in lowest terms
         if not 10**places % q:
-            return fmpq(1, 10**places)
+            return fmpq(1, 10**places) if q >= LONG_DECIMAL else fmpq(0)
     return fmpq(100, q * q)
 
 

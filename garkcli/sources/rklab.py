@@ -7,6 +7,11 @@ from collections.abc import Mapping
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import Array, Number, Value, whole
 
+NEAR = 0.01
+"""Sums that differ by less are meant to be the same."""
+FAR = 0.5
+"""Weights have a sum that is nearer to 1, misprints included."""
+
 
 def block_roles(value: Value) -> Mapping[str, Value] | None:
     """The roles of the parts of a block matrix; None where it is none.
@@ -25,6 +30,11 @@ def block_roles(value: Value) -> Mapping[str, Value] | None:
     entries = [x for row in rows for x in row]
     order = whole(rows[stages][0])
     if not order or order < 1 or not all(isinstance(x, Number) for x in entries):
+        return None
+    near = [[x.near for x in row if isinstance(x, Number)] for row in rows]
+    agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
+    if abs(sum(near[stages][1:]) - 1) > FAR or 2 * agreeing < stages:
+        # a matrix like any other
         return None
     roles: dict[str, Value] = {
         "A": Array([Array(row[1:]) for row in rows[:stages]]),

@@ -317,6 +317,11 @@ class JuliaLowering(Lowering):
                 return ir.Name(self.text(node))
             case "parenthesized_expression" if len(inside) == 1:
                 return self.expr(inside[0])
+            case "vector_expression" if len(inside) == 1 and self.text(node)[-2:] != ",]":
+                # [1 (2)] is a row of two
+                rows = self._entries(inside[0])
+                is_list = len(rows) == len(rows[0]) == 1
+                return ir.Items(tuple(rows[0])) if is_list else ir.Rows(tuple(map(tuple, rows)))
             case "vector_expression" | "tuple_expression" | "open_tuple":
                 return self._tuple(node, inside)
             case "matrix_expression":
