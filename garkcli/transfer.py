@@ -8,17 +8,21 @@ s_m).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import reduce
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial, reduce
 from typing import TypeAlias
 
 from flint import fmpq
 
 from garkcli.errors import BlockTooLarge, counted
 from garkcli.exact.field import Number
-from garkcli.exact.matrix import Matrix, add, multiply, scale, transpose
+from garkcli.exact.matrix import Matrix, add, multiply, outer, scale, transpose
+from garkcli.families.collocation import legendre as legendre_polynomial
 from garkcli.frozen import Frozen
+from garkcli.order.pair_order import pair_criterion
 from garkcli.tableau.conjugate import conjugate_block
+from garkcli.tableau.forms import gark
+from garkcli.tableau.meant import AnyTableau
 from garkcli.tableau.polynomial_space import antiderivative
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
@@ -58,6 +62,47 @@ def interpolation(l: Method, m: Method) -> Matrix:
     _refuse_large(l, m)
     columns = [l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()]
     return multiply(transpose(tuple(columns)), m.A)
+
+
+MAX_DEGREE = 100
+"""Largest degree of a Legendre transfer."""
+
+
+def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
+    """A^{l,m} g = Σ (2j + 1) b_m(P_j g) ∫_0^x P_j over j ≤ K, with the Legendre polynomials P_j of
+    [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md.
+
+    A^{m,l} is then the symplectic conjugate. Nodes may coincide, and weights may be zero.
+
+    Args:
+        l: whose stages see the other method.
+        m: the other method.
+        degree: K; by default that of the two methods.
+    """
+    if degree is None:
+        degree = legendre_degree([gark([l], {}), gark([m], {})])
+    P = [legendre_polynomial(j) for j in range(degree + 1)]
+    blocks = []
+    for j, P_j in enumerate(P):
+        # (2j + 1) ∫_0^x P_j is (P_{j+1} − P_{j−1})/2, and (P_1 + P_0)/2 for j = 0
+        integral = P[j - 1] / -2 if j else P[0] / 2
+        if j < degree:
+            integral += P[j + 1] / 2
+        functional = m.space.times(m.b, m.space.of_polynomial(P_j.coeffs()))
+        blocks.append(outer(l.space.of_polynomial(integral.coeffs()), functional))
+    return reduce(add, blocks)
+
+
+def legendre_degree(methods: Iterable[AnyTableau]) -> int:
+    """K = ⌊p/2⌋, p the least order of the pairs of the diagonal ``methods`` that the criterion
+    bears out: of all transfers whose pair keeps the order p that one has the least error.
+    """
+    return min(pair_criterion(method).order for method in methods) // 2
+
+
+def legendre_rule(methods: Iterable[AnyTableau], degree: int | None) -> Rule:
+    """The rule ``legendre`` for blocks between ``methods``, of one degree."""
+    return partial(legendre, degree=legendre_degree(methods) if degree is None else degree)
 
 
 def _refuse_large(l: Method, m: Method) -> None:
@@ -119,6 +164,9 @@ _ENTRIES: Mapping[str, _Entry] = {
     ),
     "conjugate-interpolation": _Entry(
         conjugate_rule(interpolation), _OF_CONJUGATE.format("interpolation")
+    ),
+    "legendre": _Entry(
+        legendre, "Legendre polynomials up to a degree: the symplectic pair keeps the order always"
     ),
     "symplectic-collocation": _Entry(collocation, _OF_PAIR.format("collocation"), makes_both=True),
     "symplectic-interpolation": _Entry(

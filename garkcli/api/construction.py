@@ -13,7 +13,7 @@ from garkcli.families import registry
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Method
-from garkcli.transfer import RULES
+from garkcli.transfer import RULES, legendre_rule
 
 Blocks: TypeAlias = "Mapping[tuple[int, int], Any]"
 """Matrices by pairs (l, m) of colours, counted from 1."""
@@ -37,7 +37,9 @@ def diagonal_method(name: str, stages: Whole | None = None) -> GarkMethod:
 
 
 def gark(
-    methods: Sequence[AnyMethod | Method], transfer: str | Blocks = "collocation"
+    methods: Sequence[AnyMethod | Method],
+    transfer: str | Blocks = "collocation",
+    degree: Whole | None = None,
 ) -> GarkMethod:
     """The method with diagonal ``methods`` and the blocks between them, eq. (GARK).
 
@@ -46,10 +48,11 @@ def gark(
         transfer: a rule for all blocks, as ``gark list transfer`` shows it; or the blocks between
             them, by pairs (l, m) of colours counted from 1, of shape (s_l, s_m). A pair that is
             left out is a block that is not there.
+        degree: of the rule ``legendre``, which finds one by itself.
 
     Raises:
-        MethodError: there is no such rule, a method has several colours, or a block goes with none
-            of them.
+        MethodError: there is no such rule, or it has no degree; a method has several colours, or a
+            block goes with none of them.
 
     >>> gark(["gauss-2", "lobatto-iiia-3"])
     <GarkMethod 2 colours, stages 2, 3>
@@ -68,7 +71,14 @@ def gark(
         raise MethodError(
             f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES), code="unknown-word"
         )
+    if degree is not None and transfer != "legendre":
+        raise MethodError(
+            f"{transfer} has no degree", "leave it out, or take legendre", code="not-together"
+        )
     rule = RULES[transfer]
+    if transfer == "legendre":
+        K = None if degree is None else whole(degree, "degree")
+        rule = legendre_rule([method.meant for method in given], K)
     numbered = list(enumerate(diagonal))
     blocks = {(l, m): rule(here, other) for l, here in numbered for m, other in numbered if l != m}
     return method_of(forms.gark(diagonal, blocks))

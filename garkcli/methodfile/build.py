@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
+from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
@@ -45,10 +47,19 @@ from garkcli.tableau.forms import (
     with_linear,
 )
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Method, Tableau, butcher
-from garkcli.transfer import PAIR_RULES, RULES, build_on, combination, symplectic_blocks
+from garkcli.transfer import (
+    PAIR_RULES,
+    RULES,
+    Rule,
+    build_on,
+    combination,
+    legendre_rule,
+    symplectic_blocks,
+)
 
 if TYPE_CHECKING:
     from garkcli.methodfile.printed import Printed
@@ -65,15 +76,22 @@ class BlockBuilder:
         values: of the coefficients.
         text: what the file says.
         methods: the diagonal ones.
+        tolerance: the rounding of their coefficients.
     """
 
     def __init__(
-        self, source: Source, values: Values, text: MethodsText, methods: list[Method]
+        self,
+        source: Source,
+        values: Values,
+        text: MethodsText,
+        methods: list[Method],
+        tolerance: fmpq | None,
     ) -> None:
         self.source = source
         self.values = values
         self.text = text
         self.methods = methods
+        self.tolerance = tolerance
         self._orders: dict[int, int] = {}
 
     def built(self, is_general: bool) -> Blocks:
@@ -131,8 +149,18 @@ class BlockBuilder:
             return self._combined(text, l, m)
         if rule in PAIR_RULES:
             return self._of_both(rule, l, m)
-        make = RULES[rule]
-        return make(self.methods[l], self.methods[m])
+        return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
+
+    def _rule(self, name: str, degree: int | None = None) -> Rule:
+        """A rule that makes one block, with its degree where it has one."""
+        if name != "legendre":
+            return RULES[name]
+        return legendre_rule(self._alone, degree)
+
+    @cached_property
+    def _alone(self) -> list[AnyTableau]:
+        """The diagonal methods on their own, rounded where the file is."""
+        return [meant(gark([method], {}), self.tolerance) for method in self.methods]
 
     def _of_both(self, rule: str, l: int, m: int) -> Matrix:
         """A block by a rule that makes it together with the opposite one."""
@@ -148,7 +176,8 @@ class BlockBuilder:
         Raises:
             MethodError: its weights do not sum to 1.
         """
-        terms = [(self.values.number(tau), RULES[x]) for x, tau in text.terms if tau is not None]
+        given = [(x, tau) for x, tau in text.terms if tau is not None]
+        terms = [(self.values.number(tau), self._rule(x)) for x, tau in given]
         total = sum((tau for tau, _ in terms), start=ZERO)
         if total != ONE:
             raise MethodError(
@@ -234,7 +263,7 @@ class Builder:
         content = description.content
         match content:
             case MethodsText():
-                tableau = self._methods(content, description.structure)
+                tableau = self._methods(content, description)
             case TableauText():
                 tableau = self._spelled_out(content)
             case ArkText():
@@ -309,10 +338,12 @@ class Builder:
         """A, b and c of one part."""
         return self.values.matrix(text.A), self.values.vector(text.b), self._vector(text.c)
 
-    def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
+    def _methods(self, text: MethodsText, description: Description) -> Tableau:
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
+        structure = description.structure
         is_general = structure == "general"
-        blocks = BlockBuilder(self.source, self.values, text, methods)
+        tolerance = description.tolerance
+        blocks = BlockBuilder(self.source, self.values, text, methods, tolerance)
         tableau = gark(methods, blocks.built(is_general))
         if is_general:
             return tableau

@@ -110,10 +110,13 @@ class ButcherText(Frozen):
 
 
 class RuleText(Frozen):
-    """A block made by rules: ``(rule, weight)``, the weight None for a rule on its own."""
+    """A block made by rules: ``(rule, weight)``, the weight None for a rule on its own; the degree
+    of that, where the file gives it.
+    """
 
     node: Node
     terms: tuple[tuple[str, Entry | None], ...]
+    degree: int | None = None
 
 
 class MatrixText(Frozen):

@@ -35,10 +35,10 @@ from garkcli.methodfile.grammar import (
 )
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
-from garkcli.methodfile.nodes import shortened
+from garkcli.methodfile.nodes import keys_of, shortened
 from garkcli.methodfile.parameters import SIGNS
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.methodfile.transfers import ALL_RULES, OF_DEGREE
 from garkcli.transfer import RULES
 
 STARTS = 20
@@ -160,15 +160,19 @@ def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
     return text
 
 
-def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str]:
-    """Rules with their weights."""
+def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | Found | None:
+    """Rules with their weights, or a rule with its degree."""
+    if keys_of(node) & {"rule", "degree"}:
+        found_degree: Found | None = OF_DEGREE.read(at, node, where)
+        return found_degree
     entries = at.source.mapping(node, where, RULES)
     found = {rule: _weight(at, x, f"{where}, weight of {rule}") for rule, x in entries.items()}
     return {rule: text for rule, text in found.items() if text is not None}
 
 
 _RULES = by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
-TRANSFER = one_or_more(either(word(lambda: ALL_RULES), at_mapping=Kind(_RULES.schema, _weights)))
+_SCHEMAS = Kind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
+TRANSFER = one_or_more(either(word(lambda: ALL_RULES), at_mapping=_SCHEMAS))
 """Rules between methods, each tried."""
 
 
@@ -207,10 +211,15 @@ class MethodsReader:
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
 
-    def _rule(self, given: str | dict[str, str]) -> tuple[str, str, set[str]]:
+    def _rule(self, given: str | dict[str, str] | Found) -> tuple[str, str, set[str]]:
         """A rule as method files have it, as people read it, and the parameters in it."""
         if isinstance(given, str):
             return given, given, set()
+        if isinstance(given, Found):
+            degree = given.get("degree")
+            if degree is None:
+                return "legendre", "legendre", set()
+            return f"{{rule: legendre, degree: {degree}}}", f"legendre, degree {degree}", set()
         rule = "{" + ", ".join(f'{rule}: "{text}"' for rule, text in given.items()) + "}"
         shown = " + ".join(f"({text}) {rule}" for rule, text in given.items())
         return rule, shown, {name for x in given.values() for name in NAME.findall(x)} & self.names

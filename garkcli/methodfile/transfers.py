@@ -14,11 +14,21 @@ from garkcli.methodfile.description import (
     TransferText,
     block_name,
 )
-from garkcli.methodfile.grammar import Key, Kind, OfSchema, by_name, defined, mapping, word
+from garkcli.methodfile.grammar import (
+    Found,
+    Key,
+    Kind,
+    OfSchema,
+    by_name,
+    count,
+    defined,
+    mapping,
+    word,
+)
 from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
 from garkcli.methodfile.numbers import Reading
 from garkcli.methodfile.parameters import NUMBER
-from garkcli.transfer import PAIR_RULES, RULES, SUMMARIES
+from garkcli.transfer import MAX_DEGREE, PAIR_RULES, RULES, SUMMARIES
 
 
 def _weight(rule: str) -> Key:
@@ -30,7 +40,25 @@ ALL_RULES = (*RULES, *PAIR_RULES)
 """The words for rules."""
 _WORDS = word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
 _WEIGHTS = mapping(*map(_weight, RULES), rules=[OfSchema({"minProperties": 1})])
-RULE = Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema()]})
+OF_DEGREE = mapping(
+    Key(
+        "rule: legendre",
+        word(lambda: ("legendre",)),
+        "The rule that has a degree.",
+        is_needed=True,
+        is_word=False,
+    ),
+    Key(
+        "degree: 2",
+        count(0, MAX_DEGREE),
+        "K, the largest degree of the Legendre polynomials; by default ⌊p/2⌋, where p is the least "
+        "order of the symplectic pairs of the diagonal methods.",
+        page="docs/pair-order.md",
+    ),
+    form="write {rule: legendre, degree: 2}",
+)
+"""The rule legendre with its degree."""
+RULE = Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]})
 """How a block is made: one of the rules, or several with weights."""
 _OF_RULE = defined("rule").schema()
 _PARTS = mapping(
@@ -52,7 +80,7 @@ _PARTS = mapping(
 )
 TRANSFER = Kind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema()]},
-    inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside()],
+    inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
 """The rules between methods; they are read where the number of colours is known."""
 _BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
@@ -121,6 +149,11 @@ def _rule(at: Reading, node: Node, where: str) -> RuleText | None:
     if isinstance(node, ScalarNode):
         rule = at.source.choice(node, where, ALL_RULES)
         return RuleText(node, ((rule, None),)) if rule else None
+    if keys_of(node) & {"rule", "degree"}:
+        found: Found | None = OF_DEGREE.read(at, node, where)
+        if found is None or not found.is_right:
+            return None
+        return RuleText(node, (("legendre", None),), found.get("degree"))
     of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
     if of_pairs:
         why = "makes both blocks of a pair of colours"

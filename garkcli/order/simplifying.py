@@ -82,6 +82,16 @@ class Defects:
             rest = _minus_part(there.one, self.power(m, k), 1)
             return _minus_part(left, there.times(b_m, rest), k)
 
+    def even(self, l: int, m: int, k: int) -> Vector:
+        """b_l(c_l^k A^{l,m} c_m^k) − 1/(2 (k + 1)²), what an even pair order 2k + 2 asks of a
+        block.
+        """
+        with self.precision():
+            (image,) = self._map(l, m).images([self.power(m, k)])
+            b_l = self.entries.colours[l].b
+            weighted = self.entries.space(l).times(b_l, self.power(l, k))
+            return (dot(weighted, image) - fmpq(1, 2 * (k + 1) ** 2),)
+
     def _map(self, l: int, m: int) -> LinearMap | EntrywiseMap:
         key = self.tableau.colours[l].space, m
         if key not in self._maps:

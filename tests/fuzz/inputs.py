@@ -13,7 +13,7 @@ WORDS = (
     "methods", "transfer", "tableau", "ark", "prk", "structure", "linear", "parameters", "tolerance", "expect",
     "family", "stages", "A", "b", "c", "q", "p", "default", "blocks", '"1,2"', '"2,1"', "gauss", "lobatto-iiia",
     "radau-iia", "rk4", "heun", "collocation", "interpolation", "conjugate-collocation", "symplectic-collocation",
-    "separable", "semi-separable", "nystrom", "general", "order", "pair-order", "C", "symplectic", "conjugate",
+    "legendre", "rule", "degree", "separable", "semi-separable", "nystrom", "general", "order", "pair-order", "C", "symplectic", "conjugate",
     "true", "false", "null", "~", "yes", "tau", "1", "2", "3", "0", "-1", "1/2", "1/0", "sqrt(3)", "sqrt(-1)",
     "1/2 - sqrt(3)/6", "root(2, 5)", "cbrt(-2)", "9**9**9", "1e999", "0.1", "010", "1:30", ".nan", ".inf", "1_0",
     "__import__('os')", "!!python/object/apply:os.system [true]", "&a", "*a", "<<", "- ", "{", "}", "[", "]", ": ",
@@ -127,7 +127,8 @@ class _Writer:
         if len(sizes) == 1:
             return text
         rules = ("collocation", "interpolation", "conjugate-collocation", "symplectic-collocation")
-        rule = random.choice((*rules, "{collocation: tau, interpolation: 1 - tau}"))
+        mixed = "{collocation: tau, interpolation: 1 - tau}"
+        rule = random.choice((*rules, mixed, "legendre", "{rule: legendre, degree: 2}"))
         if random.random() < 0.4:
             rule = f'{{default: {rule}, blocks: {{"1,2": {self.matrix(sizes[0], sizes[1])}}}}}'
         structure = random.choice(("general", "semi-separable", "separable", "nystrom"))

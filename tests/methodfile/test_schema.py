@@ -166,10 +166,11 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     assert set(properties["tableau"]["properties"]) == {*PLAIN, *BESIDE}
     assert properties["structure"]["enum"] == list(STRUCTURES)
     assert set(properties["expect"]["properties"]) == set(CLAIMS)
-    *words, combination = SCHEMA["definitions"]["rule"]["oneOf"]
+    *words, combination, of_degree = SCHEMA["definitions"]["rule"]["oneOf"]
     assert [word["const"] for word in words] == list(ALL_RULES)
     assert all(word["description"] for word in words)
     assert set(combination["properties"]) == set(RULES)
+    assert set(of_degree["properties"]) == {"rule", "degree"}
     family, _ = SCHEMA["definitions"]["method"]["oneOf"]
     assert family["properties"]["family"]["enum"] == list(FAMILIES)
     stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}

@@ -42,6 +42,7 @@ _FAMILIES = (
     "rk4",
     "ssp2",
 )
+_RULES = ("collocation", "interpolation", "conjugate-collocation", "conjugate-interpolation")
 """Those that methods are drawn from; with another one all draws would be others."""
 _MOST_STAGES = 3
 _Item = TypeVar("_Item")
@@ -116,7 +117,7 @@ def _family(draw: Draw) -> str:
 
 def _block(draw: Draw, combine: bool, own: Method, other: Method) -> Matrix:
     """The block A^{l,m} by a rule, or halfway between two rules."""
-    rules = list(RULES.values())
+    rules = [RULES[name] for name in _RULES]
     first = _one_of(draw, rules)
     if not combine:
         return first(own, other)

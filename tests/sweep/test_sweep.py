@@ -65,6 +65,20 @@ def rows_in(path: Path) -> list[Row]:
     return [json.loads(line) for line in path.read_text("utf-8").splitlines()]
 
 
+def test_a_rule_with_its_degree_is_one_of_the_rules(tmp_path: Path) -> None:
+    """The Legendre transfer with the degree that it takes, and with others: of these K = 0 loses
+    the order of the pair.
+    """
+    rules = "[legendre, {rule: legendre, degree: 0}, {rule: legendre, degree: 1}]"
+    methods = "[{family: rk4}, {family: gauss, stages: 2}]"
+    path = tmp_path / "spec.yaml"
+    path.write_text(f"methods: {methods}\ntransfer: {rules}\ncolumns: [pair-order]\n", "utf-8")
+    assert gark("sweep", str(path)).code == 0
+    found = {row["method"]: row["pair-order"] for row in rows_in(path.with_suffix(".jsonl"))}
+    names = ("legendre", "legendre, degree 0", "legendre, degree 1")
+    assert found == {f"rk4 4 + gauss 2; {x}": y for x, y in zip(names, (4, 2, 4), strict=True)}
+
+
 def test_all_methods_once(spec: Path) -> None:
     """Families × stages × rules × values: a key each, and the verdicts of ``gark check``."""
     assert gark("sweep", str(spec)).code == 0

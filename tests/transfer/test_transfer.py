@@ -98,7 +98,7 @@ def test_conjugate_rules_are_their_definition(l: Method, m: Method) -> None:
         assert conjugate_rule(rule)(l, m) == wanted
 
 
-@given(names, names, st.lists(rationals, min_size=4, max_size=4))
+@given(names, names, st.lists(rationals, min_size=len(RULES), max_size=len(RULES)))
 def test_combinations_are_sums(l: str, m: str, weights: list[fmpq]) -> None:
     """Σ τ_k A_k entry by entry, with the rules in any order."""
     here, there = samples.method(l), samples.method(m)

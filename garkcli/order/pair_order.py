@@ -1,0 +1,103 @@
+"""The order of the symplectic pair by simplifying conditions alone: the criterion of
+docs/pair-order.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, Literal
+
+from garkcli.frozen import Frozen
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.simplifying import Defects, defects_of
+
+if TYPE_CHECKING:
+    from garkcli.tableau.meant import AnyTableau
+
+
+class Condition(Frozen):
+    """A condition of one colour or of one block.
+
+    Attributes:
+        letter: B, C or D; or ``even``, b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
+        number: as in B(n), C(k), D(k), and that k.
+        l: a colour.
+        m: another, where it is about the block A^{l,m}; the same as ``l`` for B.
+    """
+
+    letter: Literal["B", "C", "D", "even"]
+    number: int
+    l: int
+    m: int
+
+
+class PairCriterion(Frozen):
+    """What the criterion says of a tableau.
+
+    With nodes that are row sums and edges closed under reversal the pair has at least this order;
+    it has no larger one where all weights are positive and no colour is linear.
+
+    Attributes:
+        order: the largest n for which its conditions hold, up to the limit.
+        missing: the conditions that order n + 1 needs besides, and that do not hold; none at the
+            limit.
+    """
+
+    order: int
+    missing: tuple[Condition, ...]
+
+
+def added(order: int) -> Iterator[tuple[Literal["B", "C", "D", "even"], int]]:
+    """The conditions that an order needs besides those of the orders below.
+
+    >>> list(added(5)), list(added(6))
+    ([('B', 5), ('C', 2), ('D', 2)], [('B', 6), ('even', 2)])
+    """
+    yield "B", order
+    k = (order - 1) // 2
+    if order % 2 == 0:
+        yield "even", k
+    elif k:
+        yield "C", k
+        yield "D", k
+
+
+def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriterion:
+    """The largest order of the pair that the criterion bears out, up to ``limit``.
+
+    Args:
+        method: exact, or rounded: then a condition holds where rounding explains its defect.
+        limit: the order at which to stop.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> pair_criterion(gark([diagonal_method("ssprk3")], {})).order
+    2
+    """
+    defects = defects_of(method)
+    for order in range(1, limit + 1):
+        missing = tuple(_missing(defects, order))
+        if missing:
+            return PairCriterion(order - 1, missing)
+    return PairCriterion(limit, ())
+
+
+def _missing(defects: Defects, order: int) -> Iterator[Condition]:
+    """Those of the conditions that an order adds which do not hold."""
+    tableau = defects.tableau
+    diagonal = [(l, l) for l in range(tableau.size)]
+    for letter, number in added(order):
+        for l, m in diagonal if letter == "B" else tableau.edges():
+            if not defects.vanish(_defect(defects, letter, number, l, m)):
+                yield Condition(letter, number, l, m)
+
+
+def _defect(defects: Defects, letter: str, number: int, l: int, m: int) -> Any:
+    match letter:
+        case "B":
+            return defects.B(l, number)
+        case "C":
+            return defects.C(l, m, number)
+        case "D":
+            return defects.D(l, m, number)
+    return defects.even(l, m, number)
