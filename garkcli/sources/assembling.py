@@ -6,12 +6,9 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from garkcli.frozen import Frozen, field, replace
-from garkcli.sources.blocks import assembled, table_of_blocks
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
-from garkcli.sources.scalars import Value as Plain
-from garkcli.sources.scalars import rows_of
-from garkcli.sources.shaping import difference, is_zero, square, symplectic, total, weights
+from garkcli.sources.shaping import Texts, changed, is_zero, rows_of, square, symplectic, weights
 from garkcli.sources.signatures import Signature
 from garkcli.sources.values import (
     Array,
@@ -63,7 +60,7 @@ class Meant(Frozen):
     is_assembled: bool = False
 
 
-def plain(value: Value | None) -> Plain:
+def plain(value: Value | None) -> Texts:
     """A value as texts.
 
     Raises:
@@ -73,7 +70,7 @@ def plain(value: Value | None) -> Plain:
         case None | Null():
             return None
         case Number():
-            return value.scalar
+            return value.scalar.text
         case Word(text=text):
             return text
         case Array(items=items):
@@ -112,7 +109,8 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
     if not signature and not meant.is_sure:
         _refuse_uses(roles)
     try:
-        return _built(meant, roles, empty)
+        table = _told(roles, _built(meant, roles, empty))
+        return replace(table, is_sure=True) if signature and signature.is_guess else table
     except Unreadable as error:
         if meant.is_sure or meant.is_assembled:
             return troubled(empty, error.message, isinstance(error, Misshapen))
@@ -154,6 +152,23 @@ def _flags(roles: Roles) -> dict[str, bool]:
     return {}
 
 
+def _told(roles: Roles, table: FoundTable) -> FoundTable:
+    """The table with what data say besides: what colours drive, the rounding."""
+    told = {key: x.text for key in _WORDS if isinstance(x := roles.get(key), Word)}
+    linear = roles.get("linear")
+    numbers = map(whole, linear.items) if isinstance(linear, Array) else ()
+    return replace(
+        table,
+        tolerance=told.get("tolerance", table.tolerance),
+        parts=tuple(told["parts"].split()) if "parts" in told else table.parts,
+        structure=told.get("structure", table.structure).replace("general", ""),
+        linear=tuple(x for x in numbers if x is not None),
+    )
+
+
+_WORDS = ("tolerance", "parts", "structure")
+
+
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     form = meant.signature.form if meant.signature else "rk"
     if form == "ark":
@@ -165,14 +180,59 @@ def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         drifts = weights(plain(roles.get("drifts")), stages)
         kicks = weights(plain(roles.get("kicks")), stages)
         return symplectic(empty, drifts, kicks, is_force_first=form == "force-first")
-    values = {role: roles.get(role) for role in ("A", "b", "c", "embedded", "dense", "order")}
-    if _is_grid(values["A"]):
-        read = {role: plain(_block_rows(role, x)) for role, x in values.items() if x is not None}
-        table = table_of_blocks(read, empty.source, empty.format, empty.name, empty.line)
-        if table is None:
-            raise Unreadable("blocks that do not fit together")
-        return replace(table, order=empty.order, embedded_order=empty.embedded_order)
+    if _is_grid(roles.get("A")):
+        return _of_blocks(roles, empty)
     return _single(meant, roles, empty)
+
+
+MAX_COLOURS = 60
+"""Most vector fields of a table."""
+
+
+def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
+    """The method whose blocks are ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``."""
+    blocks = plain(_block_rows(roles.get("A")))
+    rows = [x for x in blocks if isinstance(x, list)] if isinstance(blocks, list) else []
+    if max(len(rows), *map(len, rows)) > MAX_COLOURS:
+        raise Unreadable(f"more than {MAX_COLOURS} vector fields")
+    grid = tuple(tuple(None if x is None else rows_of(x) for x in row) for row in rows)
+    b, c, embedded = (_row_each(plain(roles.get(x))) for x in ("b", "c", "embedded"))
+    if b is None:
+        raise Unreadable("weights are expected")
+    dense = plain(roles.get("dense"))
+    return assembled(
+        replace(
+            empty,
+            is_sure=True,
+            A=grid,
+            b=b,
+            c=(None,) * len(grid) if c is None else c,
+            embedded=embedded,
+            dense=tuple(map(rows_of, dense)) if isinstance(dense, list) and dense else None,
+        )
+    )
+
+
+def _row_each(value: Texts) -> Rows | None:
+    """A row for each vector field, or the one that all share."""
+    if not isinstance(value, list) or not value:
+        return None
+    is_each = all(isinstance(x, list) for x in value)
+    return tuple(map(weights, value)) if is_each else (weights(value),)
+
+
+def assembled(table: FoundTable) -> FoundTable:
+    """The same with shared stages as one row of blocks, and one row of weights for each colour."""
+    colours = len(table.A[0])
+    b, c, embedded = table.b, table.c, table.embedded
+    are_alike = all(row == table.A[0] for row in table.A) and len(set(c)) == 1
+    return replace(
+        table,
+        A=table.A[:1] if are_alike else table.A,
+        b=b * colours if len(b) == 1 else b,
+        c=c[:1] if are_alike else c,
+        embedded=embedded * colours if embedded and len(embedded) == 1 else embedded,
+    )
 
 
 def _is_grid(value: Value | None) -> bool:
@@ -183,11 +243,11 @@ def _is_grid(value: Value | None) -> bool:
     return any(isinstance(x, Array) for x in items)
 
 
-def _block_rows(role: str, value: Value) -> Value:
+def _block_rows(value: Value | None) -> Value | None:
     """Blocks of one row or one entry, which MATLAB has as lists and numbers, as matrices; one
     without entries is none.
     """
-    if role != "A" or not isinstance(value, Array):
+    if not isinstance(value, Array):
         return value
 
     def block(x: Value) -> Value:
@@ -315,8 +375,8 @@ def _embedded(
     if not is_error:
         return A, b, c, row
     # E is b̂ − b in the classes of SciPy; the other sign, which others have, changes no order
-    made = total if any("RungeKutta" in x for x in meant.bases) else difference
-    return A, b, c, made(b, row)
+    sign = "+" if any("RungeKutta" in x for x in meant.bases) else "-"
+    return A, b, c, changed(sign, b, row)
 
 
 def _dense(roles: Roles, stages: int) -> tuple[Rows, ...] | None:

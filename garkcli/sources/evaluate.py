@@ -527,8 +527,8 @@ class Evaluator:
                 return self._entry(expr, space)
             case ir.Field():
                 return self._field(expr, space)
-            case ir.Fields(pairs=pairs):
-                line = self.line
+            case ir.Fields(pairs=pairs, line=line):
+                line = line or self.line
                 fields = {name: self._kept(self.value(x, space)) for name, x in pairs}
                 for name, value in fields.items():
                     if isinstance(value, Record):

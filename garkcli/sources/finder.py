@@ -14,7 +14,7 @@ from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES, role_of
 from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
-from garkcli.sources.signatures import SIGNATURES, other_kind
+from garkcli.sources.signatures import PRINTED, SIGNATURES, other_kind
 from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word
 
 _NUMBERED = re.compile(
@@ -54,8 +54,8 @@ class TableFinder:
             except NoTable:
                 continue
             key = (table.A, table.b, table.c, table.line, table.name)
-            if key not in found:
-                found[key] = self._allowance.table(table)
+            self._allowance.table(table, is_kept=key not in found)
+            found.setdefault(key, table)
         tables = [*found.values(), *self._other.values()]
         sure = {(x.A, x.b) for x in tables if x.is_sure and x.b}
         kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b) not in sure]
@@ -128,7 +128,7 @@ class TableFinder:
             if any(isinstance(x, Unknown) and _is_given(x) for x in roles.values()):
                 return
         for name, value in fields.items():
-            role = ROLES.get(name)
+            role = name if record.kind == PRINTED else ROLES.get(name)
             if role is not None and not isinstance(value, Null):
                 roles.setdefault(role, value)
         _with_diagonal(roles, fields)
@@ -136,6 +136,9 @@ class TableFinder:
             roles.pop("embedded", None)
         if "title" not in roles or not isinstance(roles["title"], Word):
             roles.pop("title", None)
+        are_arrays = all(isinstance(roles.get(x), Array) for x in ("A", "b"))
+        if signature and signature.is_guess and not are_arrays:
+            return
         is_complete = ("A" in roles and ("b" in roles or "A2" in roles)) or "drifts" in roles
         if signature is None and not is_complete:
             self._scalars(self._name(record, scope), fields, record.line)
@@ -145,7 +148,7 @@ class TableFinder:
         line = record.line
         if record.kind == _TABLE and scope.kind == "entry":
             line = scope.line
-        is_sure = signature is not None or record.kind == _TABLE
+        is_sure = bool(signature and not signature.is_guess) or record.kind == _TABLE
         self._meant.append(
             Meant(
                 self._name(record, scope),

@@ -148,9 +148,3 @@ def troubled(table: FoundTable, trouble: str, is_misshapen: bool = False) -> Fou
         trouble=trouble,
         is_misshapen=is_misshapen,
     )
-
-
-def unlike_a_table(source: str, line: int, format: str, name: str, trouble: str) -> FoundTable:
-    """Arrays with the names of a method that make none; nothing says that they are meant to."""
-    empty: Rows = ()
-    return FoundTable(source, line, format, name, (), empty, (), is_sure=False, trouble=trouble)

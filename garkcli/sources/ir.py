@@ -94,9 +94,10 @@ class Transposed(Frozen):
 
 
 class Fields(Frozen):
-    """Values by their names: a named tuple, a dictionary, designated initialisers."""
+    """Values by their names: a named tuple, a dictionary, designated initialisers; in ``line``."""
 
     pairs: tuple[tuple[str, Expr], ...]
+    line: int = 0
 
 
 class Lambda(Frozen):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.frozen import Frozen
 from garkcli.sources import ir
-from garkcli.sources.found import MAX_STAGES
+from garkcli.sources.found import MAX_STAGES, Unreadable
+from garkcli.sources.scalars import Scalar, real_root
 from garkcli.sources.values import (
     FILL,
     NULL,
@@ -57,99 +59,6 @@ class Call(Frozen):
 Known: TypeAlias = Callable[[Call], Value | None]
 """The value of a call; None where the function is another one of that name."""
 
-CONVERSIONS = frozenset(
-    [
-        "convert",
-        "big",
-        "BigFloat",
-        "BigInt",
-        "Rational",
-        "float",
-        "Float64",
-        "Float32",
-        "Float16",
-        "Double64",
-        "Int",
-        "Int64",
-        "collect",
-        "SVector",
-        "SMatrix",
-        "SArray",
-        "MVector",
-        "MMatrix",
-        "Vector",
-        "Matrix",
-        "Array",
-        "Tuple",
-        "tuple",
-        "list",
-        "array",
-        "asarray",
-        "ImmutableMatrix",
-        "float64",
-        "float32",
-        "longdouble",
-        "double",
-        "single",
-        "tensor",
-        "as_tensor",
-        "Fraction",
-        "mpf",
-        "mpq",
-        "mpfr",
-        "fmpq",
-        "fmpz",
-        "QQ",
-        "Decimal",
-        "Float",
-        "S",
-        "sympify",
-        "str",
-        "int",
-        "Integer",
-        "SUN_RCONST",
-        "RCONST",
-        "PetscRealConstant",
-        "sunrealtype",
-        "realtype",
-        "real_t",
-        "PetscReal",
-        "PetscScalar",
-        "real",
-        "Real",
-        "dble",
-        "identity",
-        "parse",
-        "vec",
-        "fraction",
-        "static_cast",
-        "Number",
-        "vector",
-        "make_array",
-        "sym",
-        "vpa",
-        "mp",
-        "str2sym",
-        "full",
-        "num2cell",
-        "cell2mat",
-        "as_double",
-        "deepcopy",
-        "copy",
-        "freeze",
-        "array_from",
-        "rational",
-        "float128",
-        "cpp_bin_float",
-        "String",
-        "LinearAlgebra",
-        "string",
-        "value_type",
-        "RC",
-        "REAL",
-    ]
-)
-"""Types, and functions that give back the number, the list or the matrix that they get."""
 CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("NULL", "nullptr", "nothing", "None", "missing", "PETSC_NULLPTR"), NULL),
     **{name: Word("true") for name in ("true", "True", "SUNTRUE", "PETSC_TRUE")},
@@ -157,7 +66,9 @@ CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("ZERO",), ZERO),
     "ONE": real(ONE),
     "TWO": real(integer(2)),
+    "#": Number(None, math.nan, written=Scalar("x")),
 }
+"""Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
 
 
 def conversion(args: Sequence[Value], line: int) -> Value:
@@ -199,8 +110,8 @@ def _converted(call: Call) -> Value | None:
 def _root(call: Call) -> Value | None:
     if not call.args:
         return None
-    index = 3 if call.name == "cbrt" else 2
-    if call.name in {"nthroot", "real_nthroot", "root"}:
+    index = 3 if call.name in {"cbrt", "CubeRoot"} else 2
+    if call.name in {"nthroot", "real_nthroot", "root", "Surd"}:
         given = whole(call.args[1]) if len(call.args) == 2 else None
         if given is None:
             return call.unknown()
@@ -209,6 +120,23 @@ def _root(call: Call) -> Value | None:
     if isinstance(value, Array):
         return value.map(lambda x: root(x, index, call.line))
     return root(value, index, call.line)
+
+
+def _root_of(call: Call) -> Value | None:
+    """A root of a polynomial: by its number in Mathematica, and else by a decimal near it."""
+    if len(call.args) != 2 or not all(isinstance(x, Number) for x in call.args):
+        return call.unknown()
+    polynomial, which = call.args
+    assert isinstance(polynomial, Number)
+    assert isinstance(which, Number)
+    try:
+        if call.name == "Root":
+            text = real_root(polynomial.scalar, whole(which) or 0)
+            return Number(None, float(text.text.rpartition(",")[2].strip(" )")), written=text)
+    except Unreadable as error:
+        return call.evaluator.unknown(error.message)
+    text = Scalar(f"root_of({polynomial.scalar.text}, {which.scalar.text})")
+    return Number(None, which.near, written=text)
 
 
 def _sizes(values: Sequence[Value]) -> list[int] | None:
@@ -410,7 +338,19 @@ def _butcher_table(call: Call) -> Value | None:
 
 
 _BY_FUNCTION: Mapping[Known, str] = {
-    _root: "sqrt Sqrt PetscSqrtReal SUNRsqrt cbrt nthroot root √ dsqrt std_sqrt",
+    _converted: """
+        convert big BigFloat BigInt Rational float Float64 Float32 Float16 Double64 Int
+        Int64 collect SVector SMatrix SArray MVector MMatrix Vector Matrix Array Tuple
+        tuple list array asarray ImmutableMatrix float64 float32 longdouble double single
+        tensor as_tensor Fraction mpf mpq mpfr fmpq fmpz QQ Decimal Float S sympify str
+        int Integer SUN_RCONST RCONST PetscRealConstant sunrealtype realtype real_t
+        PetscReal PetscScalar real Real dble identity parse vec fraction static_cast
+        Number vector make_array sym vpa mp str2sym full num2cell cell2mat as_double
+        deepcopy copy freeze array_from rational float128 cpp_bin_float String
+        LinearAlgebra string value_type RC REAL N SetPrecision SetAccuracy Rationalize
+    """,
+    _root: "sqrt Sqrt PetscSqrtReal SUNRsqrt cbrt CubeRoot nthroot root Surd √ dsqrt std_sqrt",
+    _root_of: "Root root_of",
     _zeros: "zeros zeros_like",
     _ones: "ones",
     _fill: "fill",
@@ -422,18 +362,19 @@ _BY_FUNCTION: Mapping[Known, str] = {
     _reshaped: "reshape",
     _stacked: "vcat concatenate hstack vstack",
     _mapped: "map",
-    _power: "power pow",
-    _quotient: "rdivide",
+    _power: "power pow Power",
+    _quotient: "rdivide Rational",
     _square: "PetscSqr SUNSQR",
     _length: "length len size",
     _diagonal: "diag",
     _record: "struct",
     _butcher_table: "ARKodeButcherTable_Alloc",
 }
+CONVERSIONS = frozenset(_BY_FUNCTION[_converted].split())
+"""Types, and functions that give back the number, the list or the matrix that they get."""
 CALLS: Mapping[str, Known] = {
     "list *": _repeated,
     "list +": _stacked,
-    **dict.fromkeys(CONVERSIONS, _converted),
     **{name: known for known, names in _BY_FUNCTION.items() for name in names.split()},
 }
 """What is known of each function."""

@@ -3,15 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 from garkcli.frozen import replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable
-from garkcli.sources.scalars import Value, combined, is_row, number, row_of
 
+Texts: TypeAlias = "str | list[Texts] | None"
+"""Numbers as texts, in lists; nothing where nothing is meant to be."""
 ZERO = "0"
 
 
-def weights(value: Value, stages: int = 0) -> Row:
+def row_of(value: Texts) -> Row:
+    """A list of numbers.
+
+    Raises:
+        Unreadable: it is none.
+    """
+    row = tuple(x for x in value if isinstance(x, str)) if isinstance(value, list) else ()
+    if not isinstance(value, list) or len(row) != len(value):
+        raise Unreadable("a list of numbers is expected")
+    return row
+
+
+def rows_of(value: Texts) -> Rows:
+    """A list of lists of numbers.
+
+    Raises:
+        Unreadable: it is none.
+    """
+    if not isinstance(value, list):
+        raise Unreadable("a matrix is expected")
+    return tuple(map(row_of, value))
+
+
+def is_row(value: Texts) -> bool:
+    """Whether it is a list of numbers that is not empty."""
+    return isinstance(value, list) and bool(value) and all(isinstance(x, str) for x in value)
+
+
+def weights(value: Texts, stages: int = 0) -> Row:
     """A row of numbers, also one that stands in a matrix of one row or of one column.
 
     Args:
@@ -36,7 +66,7 @@ def weights(value: Value, stages: int = 0) -> Row:
     return row + (ZERO,) * missing
 
 
-def square(value: Value, stages: int) -> Rows:
+def square(value: Texts, stages: int) -> Rows:
     """The matrix of a method.
 
     Args:
@@ -50,8 +80,7 @@ def square(value: Value, stages: int) -> Rows:
     Raises:
         Unreadable: it has no such shape.
 
-    >>> one = number("1")
-    >>> square([[one], [one, one]], 3)
+    >>> square([["1"], ["1", "1"]], 3)
     (('0', '0', '0'), ('1', '0', '0'), ('1', '1', '0'))
     """
     if is_row(value) and stages > 1:
@@ -62,14 +91,7 @@ def square(value: Value, stages: int) -> Rows:
         raise Unreadable("a matrix is expected")
     if len(value) > stages:
         raise Misshapen(f"{len(value)} rows for {stages} stages")
-    rows = [_row(row) for row in value]
-    return _padded(rows, stages)
-
-
-def _row(value: Value) -> Row:
-    if value == []:
-        return ()
-    return row_of(value)
+    return _padded(rows_of(value), stages)
 
 
 def _padded(rows: Sequence[Row], stages: int) -> Rows:
@@ -103,37 +125,9 @@ def _of_flat(entries: Row, stages: int) -> Rows:
     return _padded(rows, stages)
 
 
-def difference(row: Row, error: Row) -> Row:
-    """The embedded weights b − e from the weights and their difference.
-
-    Raises:
-        Unreadable: the rows have different lengths.
-    """
-    return _entrywise("-", row, error)
-
-
-def total(row: Row, error: Row) -> Row:
-    """The embedded weights b + e, where e is their difference the other way round.
-
-    Raises:
-        Unreadable: the rows have different lengths.
-    """
-    return _entrywise("+", row, error)
-
-
-def _entrywise(sign: str, row: Row, error: Row) -> Row:
-    if len(row) != len(error):
-        raise Misshapen(f"{len(error)} numbers for {len(row)} stages")
-    found: list[Value] = []
-    for x, y in zip(row, error, strict=True):
-        left, right = _in_parentheses(x), _in_parentheses(y)
-        found.append(combined(sign, left, right))
-    return row_of(found)
-
-
-def _in_parentheses(text: str) -> Value:
-    is_plain = text.replace(".", "", 1).isdigit()
-    return number(text) if is_plain else number(f"({text})")
+def changed(sign: str, row: Row, error: Row) -> Row:
+    """The embedded weights from the weights and their error: ``b - e`` or ``b + e``."""
+    return tuple(x if is_zero(y) else f"{x} {sign} ({y})" for x, y in zip(row, error, strict=True))
 
 
 def is_zero(text: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from garkcli.frozen import Frozen, field
+from garkcli.frozen import Frozen
 
 
 class Signature(Frozen):
@@ -18,6 +18,7 @@ class Signature(Frozen):
         counts: how many arguments it has; empty where that is not fixed.
         format: of the table, where it is another one than that of the language.
         has_default_weights: whether missing weights are the last row of the matrix.
+        is_guess: whether other data look so, too: only arrays that fit together are a table.
     """
 
     roles: Sequence[str]
@@ -25,7 +26,7 @@ class Signature(Frozen):
     counts: Sequence[int] = ()
     format: str = ""
     has_default_weights: bool = False
-    flags: Mapping[str, bool] = field(default_factory=dict)
+    is_guess: bool = False
 
 
 def _rk(roles: str, *counts: int) -> Signature:
@@ -38,7 +39,13 @@ _PETSC_RK = Signature(
     format="petsc",
     has_default_weights=True,
 )
+PRINTED = "a printed tableau"
+"""What stands for a call where data are a table."""
+NDSOLVE = "coefficients of NDSolve"
+"""The same for the lists that a function of Mathematica gives."""
 SIGNATURES: Mapping[str, Signature] = {
+    PRINTED: Signature([], is_guess=True),
+    NDSOLVE: Signature(["A", "b", "c", "error"], is_guess=True),
     "ARKodeButcherTable_Create": _rk("stages order embedded_order c A b embedded", 7),
     "ARKodeSPRKTable_Create": Signature(
         ["stages", "order", "drifts", "kicks"], "force-first", counts=(4,)

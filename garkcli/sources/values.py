@@ -15,7 +15,7 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.expression import read_decimal
 from garkcli.frozen import Frozen, Mutable, field
 from garkcli.sources.found import MAX_LENGTH, Unreadable
-from garkcli.sources.scalars import Scalar, combined, negated, number, rooted
+from garkcli.sources.scalars import ATOM, PRODUCT, Scalar, combined, negated, number, rooted
 
 if TYPE_CHECKING:
     from garkcli.sources.evaluate import Space
@@ -231,7 +231,6 @@ def _written(sign: str, x: Number, y: Number, found: Number, line: int) -> Value
         text = combined(sign, x.scalar, y.scalar)
     except Unreadable as error:
         return Unknown(error.message, line)
-    assert isinstance(text, Scalar)
     if value is not None and found.unit and len(text.text) > LONG_TEXT:
         places = 1 - math.floor(math.log10(found.unit))
         if 0 < places < MAX_LENGTH:
@@ -283,14 +282,8 @@ def negative(x: Value, line: int) -> Value:
         return x.map(lambda y: negative(y, line))
     if not isinstance(x, Number):
         return x if isinstance(x, Unknown) else Unknown(f"a sign before {described(x)}", line)
-    text = None if x.written is None else _negated(x.written)
+    text = None if x.written is None else negated(x.written)
     return Number(None if x.value is None else -x.value, -x.near, x.unit, text, x.is_whole)
-
-
-def _negated(text: Scalar) -> Scalar:
-    found = negated(text)
-    assert isinstance(found, Scalar)
-    return found
 
 
 def real(value: Value) -> Value:
@@ -309,10 +302,31 @@ def _power(x: Number, y: Number, line: int) -> Value:
     if abs(p) > MAX_POWER:
         return Unknown("a power that is too high", line)
     base: Value = x if q == 1 else root(x, q, line)
-    found: Value = base if p else ONE
-    for _ in range(abs(p) - 1):
-        found = computed("*", found, base, line)
-    return found if p >= 0 else computed("/", ONE, found, line)
+    if not isinstance(base, Number) or not p:
+        return ONE if not p else base
+    found = base if abs(p) == 1 else _multiplied(base, abs(p), line)
+    return found if p > 0 else computed("/", ONE, found, line)
+
+
+def _multiplied(x: Number, times: int, line: int) -> Value:
+    value = None if x.value is None else x.value**times
+    if value is not None and max(map(abs, (int(value.p), int(value.q)))).bit_length() > MAX_BITS:
+        return Unknown("a number that is too long", line)
+    if value is not None and x.written is None:
+        return exact(value, x.is_whole)
+    near = _power_near(x.near, times)
+    unit = times * abs(near / x.near) * x.unit if x.near else 0.0
+    text = f"{x.scalar.inside(ATOM)}**{times}"
+    if len(text) > MAX_LENGTH:
+        return Unknown(f"a number of more than {MAX_LENGTH} characters", line)
+    return Number(value, near, unit, Scalar(text, PRODUCT))
+
+
+def _power_near(near: float, times: int) -> float:
+    try:
+        return float(near**times)
+    except OverflowError:
+        return math.inf
 
 
 def root(x: Value, index: int, line: int) -> Value:
@@ -327,7 +341,10 @@ def root(x: Value, index: int, line: int) -> Value:
             return exact(fmpq(-p if x.near < 0 else p, q))
     near = math.copysign(abs(x.near) ** (1 / index), x.near)
     unit = x.unit / (index * abs(near) ** (index - 1)) if x.unit and near else 0.0
-    return Number(None, near, unit, rooted(x.scalar, index))
+    try:
+        return Number(None, near, unit, rooted(x.scalar, index))
+    except Unreadable as error:
+        return Unknown(error.message, line)
 
 
 def _whole_root(n: int, index: int) -> int | None:

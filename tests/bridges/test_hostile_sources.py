@@ -12,7 +12,7 @@ import pytest
 
 from garkcli.bridges.readers.registry import all_readers, find_tables, reader_named, readers_for
 from garkcli.sources import allowance
-from garkcli.sources.scalars import MAX_LENGTH
+from garkcli.sources.found import MAX_LENGTH
 from tests.cli.harness import gark
 
 SOURCES = sorted((Path(__file__).parent / "sources").iterdir())
@@ -146,15 +146,6 @@ def _calls(reader: str, text: str) -> int:
     finally:
         sys.setprofile(None)
     return count
-
-
-def test_what_is_read_again_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Calls that are not closed end the reading, with the reason."""
-    monkeypatch.setattr(allowance, "MAX_READ_AGAIN", 100_000)
-    (table,) = find_tables("x = Sqrt[" * 3_000, "x", [reader_named("mathematica")])
-    assert table.trouble == "the source has more than 100000 words in values and brackets that " + (
-        "do not end"
-    )
 
 
 def test_tables_have_a_limit() -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Iterator, Mapping
 
 from garkcli.bridges.readers.latex_numbers import number_of
-from garkcli.sources.allowance import Allowance
-from garkcli.sources.found import MAX_STAGES, FoundTable, Grid, Reader, Row, Rows, Unreadable
+from garkcli.bridges.readers.printed import Nested, found_in, printed
+from garkcli.sources import ir
+from garkcli.sources.found import MAX_STAGES, FoundTable, Reader, Unreadable
 
 NAME = "latex"
 _BEGIN = re.compile(r"\\begin\{(?:array|tabular|butchertable)\}")
@@ -26,28 +28,27 @@ MAX_ARRAY = 400_000
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The arrays of a text that are tableaus."""
+    return found_in(source, NAME, _tableaus(text))
+
+
+def _tableaus(text: str) -> Iterator[ir.Statement]:
     comments = [x.group()[1:].strip() for x in _COMMENT.finditer(text)]
     is_general = any(_GENERAL in comment for comment in comments)
-    plain = _COMMENT.sub("", text)
-    arrays = list(_arrays(plain))
-    allowance = Allowance()
-    found: list[FoundTable] = []
-    place = 0
-    while place < len(arrays):
-        line, before, columns, body = arrays[place]
-        pair = None
-        if _letter(before) == "Q" and place + 1 < len(arrays):
-            two = arrays[place], arrays[place + 1]
-            pair = _pair(*two, source, is_general)
-        if pair is not None:
-            found.append(allowance.table(pair))
-            place += 2
+    arrays = deque(_arrays(_COMMENT.sub("", text)))
+    while arrays:
+        line, before, columns, body = arrays.popleft()
+        values: Mapping[str, Nested] = {}
+        try:
+            read = _read(columns, body)
+            if _letter(before) == "Q" and arrays:
+                values = _pair(read, _read(*arrays[0][2:]), is_general)
+                if values:
+                    arrays.popleft()
+            values = values or _table(read)
+        except Unreadable:
             continue
-        table = _table(line, columns, body, source)
-        if table is not None:
-            found.append(allowance.table(table))
-        place += 1
-    return found
+        if values:
+            yield printed(line, **values)
 
 
 _Parts = tuple[list[int], list[list[list[str]]], list[list[str]]]
@@ -175,111 +176,78 @@ def _split(row: list[str], groups: list[int]) -> list[list[str]]:
     return found
 
 
-def _filled(row: list[str]) -> Row:
-    return tuple(x or "0" for x in row)
+def _filled(row: list[str]) -> list[str]:
+    return [x or "0" for x in row]
 
 
-def _blocks(
-    groups: list[int], stages: list[list[list[str]]]
-) -> tuple[Grid, tuple[Row | None, ...]]:
-    """The blocks of each set of stages; an empty one is none."""
-    grid: list[tuple[Rows | None, ...]] = []
-    nodes: list[Row | None] = []
-    for rows in stages:
-        nodes.append(_filled([row[0] for row in rows]))
-        blocks: list[Rows | None] = []
-        columns = [_split(row[1:], groups) for row in rows]
-        for m in range(len(groups)):
-            cells = [row[m] for row in columns]
-            is_empty = len(groups) > 1 and not any(map(any, cells))
-            block = tuple(_filled(row) for row in cells)
-            blocks.append(None if is_empty else block)
-        grid.append(tuple(blocks))
-    return tuple(grid), tuple(nodes)
+def _blocks(groups: list[int], rows: list[list[str]]) -> list[Nested]:
+    """The blocks of a set of stages; an empty one of several is none."""
+    columns = [_split(row[1:], groups) for row in rows]
+    blocks: list[Nested] = []
+    for m in range(len(groups)):
+        cells = [row[m] for row in columns]
+        is_empty = len(groups) > 1 and not any(map(any, cells))
+        blocks.append(None if is_empty else list(map(_filled, cells)))
+    return blocks
 
 
-def _table(line: int, columns: str, body: str, source: str) -> FoundTable | None:
-    try:
-        groups, stages, weights = _read(columns, body)
-        if len(stages) == 1 and len(groups) > 1:
-            # colours that share their stages, or a bar that means nothing
-            shared = len(set(groups)) == 1 and groups[0] == len(stages[0])
-            groups = groups if shared else [sum(groups)]
-        elif len(stages) not in (1, len(groups)):
-            return None
-        grid, nodes = _blocks(groups, stages)
-    except Unreadable:
-        return None
-    if not _fits(grid, groups, len(stages) == 1):
-        return None
-    rows = [tuple(map(_filled, _split(row, groups))) for row in weights]
-    return FoundTable(
-        source, line, NAME, "", grid, rows[0], nodes, embedded=rows[1] if len(rows) == 2 else None
-    )
+def _nodes(rows: list[list[str]]) -> list[str]:
+    return _filled([row[0] for row in rows])
 
 
-def _fits(grid: Grid, groups: list[int], is_shared: bool) -> bool:
-    """Whether each set of stages has as many rows as its columns."""
-    for l, row in enumerate(grid):
-        due = groups[0] if is_shared else groups[l]
-        if any(block is not None and len(block) != due for block in row):
-            return False
-    return True
+def _table(read: _Parts) -> Mapping[str, Nested]:
+    groups, stages, weights = read
+    if len(stages) == 1 and len(groups) > 1:
+        # colours that share their stages, or a bar that means nothing
+        is_shared = len(set(groups)) == 1 and groups[0] == len(stages[0])
+        groups = groups if is_shared else [sum(groups)]
+    elif len(stages) not in (1, len(groups)):
+        return {}
+    due = groups if len(stages) > 1 else groups[:1]
+    if [len(rows) for rows in stages] != due:
+        return {}
+    below = [list(map(_filled, _split(row, groups))) for row in weights]
+    return {
+        "A": [_blocks(groups, rows) for rows in stages],
+        "b": below[0],
+        "c": list(map(_nodes, stages)),
+        "embedded": below[1] if len(below) == 2 else None,
+    }
 
 
-def _pair(first: _Array, second: _Array, source: str, is_general: bool) -> FoundTable | None:
+def _pair(of_q: _Parts, of_p: _Parts, is_general: bool) -> Mapping[str, Nested]:
     """The arrays Q and P of a partitioned method, with columns of one vector field each."""
-    try:
-        of_q = _read(first[2], first[3])
-        of_p = _read(second[2], second[3])
-    except Unreadable:
-        return None
     if len(of_q[1]) == len(of_p[0]) == 2 and len(of_p[1]) == 1:
-        return _semi_separable(first[0], of_q, of_p, source)
-    parts = []
-    for groups, stages, weights in (of_q, of_p):
-        if len(stages) != 1:
-            return None
-        whole = [sum(groups)]
-        grid, nodes = _blocks(whole, stages)
-        block = grid[0][0]
-        assert block is not None
-        parts.append((block, _filled(weights[0]), nodes[0]))
-    (A_q, b_q, c_q), (A_p, b_p, c_p) = parts
-    if len(A_q) != len(b_p) or len(A_p) != len(b_q):
-        return None
-    is_shared = is_general and c_q == c_p and len(b_q) == len(b_p)
-    grid_of_pair: Grid = ((None, A_p), (A_q, None))
-    return FoundTable(
-        source,
-        first[0],
-        NAME,
-        "",
-        ((A_q, A_p),) if is_shared else grid_of_pair,
-        (b_q, b_p),
-        (c_q,) if is_shared else (c_p, c_q),
-        parts=("q", "p"),
-        structure="general" if is_shared else "separable",
-    )
+        return _semi_separable(of_q, of_p)
+    if len(of_q[1]) != 1 or len(of_p[1]) != 1:
+        return {}
+    (A_q,), (A_p,) = (_blocks([sum(x[0])], x[1][0]) for x in (of_q, of_p))
+    (b_q, c_q), (b_p, c_p) = ((_filled(x[2][0]), _nodes(x[1][0])) for x in (of_q, of_p))
+    if len(c_q) != len(b_p) or len(c_p) != len(b_q):
+        return {}
+    both: Mapping[str, Nested] = {"b": [b_q, b_p], "parts": ir.Text("q p")}
+    if is_general and c_q == c_p and len(b_q) == len(b_p):
+        return {**both, "A": [[A_q, A_p]], "c": [c_q], "structure": ir.Text("general")}
+    A: Nested = [[None, A_p], [A_q, None]]
+    return {**both, "A": A, "c": [c_p, c_q], "structure": ir.Text("separable")}
 
 
-def _semi_separable(line: int, of_q: _Parts, of_p: _Parts, source: str) -> FoundTable | None:
+def _semi_separable(of_q: _Parts, of_p: _Parts) -> Mapping[str, Nested]:
     """A pair whose second Hamiltonian is of q alone: vector fields V1, F1 and F2.
 
     V1 and F1 have the stages of the first rows of Q, which are those of P; F2 has the others,
     which see V1 alone.
     """
     groups, _, weights = of_p
-    grid_q, nodes = _blocks([sum(of_q[0])], of_q[1])
-    grid_p, _ = _blocks(groups, of_p[1])
-    shared = (grid_q[0][0], *grid_p[0])
-    of_forces = tuple(map(_filled, _split(weights[0], groups)))
-    b = (_filled(of_q[2][0]), *of_forces)
-    grid: Grid = (shared, shared, (grid_q[1][0], None, None))
-    if [len(x) for x in b[1:]] != [len(x) for x in nodes if x]:
-        return None
-    c = (nodes[0], *nodes)
-    return FoundTable(source, line, NAME, "", grid, b, c)
+    first, last = of_q[1]
+    whole = [sum(of_q[0])]
+    shared = [*_blocks(whole, first), *_blocks(groups, of_p[1][0])]
+    of_forces = list(map(_filled, _split(weights[0], groups)))
+    if [len(x) for x in of_forces] != [len(first), len(last)]:
+        return {}
+    nodes = [_nodes(first), _nodes(first), _nodes(last)]
+    A: Nested = [shared, shared, [*_blocks(whole, last), None, None]]
+    return {"A": A, "b": [_filled(of_q[2][0]), *of_forces], "c": nodes}
 
 
 READER = Reader(

@@ -2,157 +2,95 @@
 
 from __future__ import annotations
 
-from garkcli.bridges.readers.assignments import Assigned, Walk
-from garkcli.bridges.readers.finder import Finder, tables_of
-from garkcli.bridges.readers.grammar import Grammar
-from garkcli.bridges.readers.lexing import MATHEMATICA, Token, tokens_of, without
-from garkcli.frozen import replace
-from garkcli.sources.allowance import Allowance
-from garkcli.sources.blocks import table_of_blocks
-from garkcli.sources.found import FoundTable, Reader, Unreadable
-from garkcli.sources.naming import ROLES
-from garkcli.sources.scalars import Scalar, Value, is_matrix, is_row, row_of
-from garkcli.sources.shaping import difference, square, weights
+from collections.abc import Iterator
+
+from garkcli.sources import ir
+from garkcli.sources.formulas import Formulas
+from garkcli.sources.found import FoundTable, Reader
+from garkcli.sources.lowering import MAX_NESTING
+from garkcli.sources.reading import tables_in
+from garkcli.sources.signatures import NDSOLVE
 
 NAME = "mathematica"
-GRAMMAR = Grammar(
-    lists={"{": "}"},
-    calls={"[": "]"},
-    roots={
-        "sqrt": "sqrt",
-        "cuberoot": "cbrt",
-        "surd": "root",
-        "rational": "rational",
-        "power": "power",
-        "root": "algebraic",
-    },
-    passed=frozenset({"N", "SetPrecision", "Rationalize", "SetAccuracy"}),
-    nothing=frozenset({"None", "Null"}),
-    is_implicit=True,
-)
-_ENDS = frozenset({";", ",", "|", "}", "]", "&"})
-_ORDERS = {"DifferenceOrder": "order", "EmbeddedDifferenceOrder": "embedded_order"}
+_ROUNDED = frozenset({"N", "SetPrecision", "SetAccuracy", "Rationalize"})
+_ORDER = ir.Name("order")
+_JOINING = frozenset({"=", ":=", "+", "-", "*", "/", "^", ",", "->"})
+"""What a line that goes on may end with."""
+
+
+class MathematicaLowering(Formulas):
+    """Assignments, associations and functions of Mathematica."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text, call="[")
+
+    def block(self, start: int, end: int, depth: int = 0) -> ir.Body:
+        """The statements between two places."""
+        found: list[ir.Statement] = []
+        first: int | None = None
+        for begin, behind in self.parts(start, end, ";", "\n"):
+            if begin == behind:
+                continue
+            first = begin if first is None else first
+            if self.sign(behind - 1) not in _JOINING:
+                found += self._statement(first, behind, depth)
+                first = None
+        return tuple(found)
+
+    def _statement(self, start: int, end: int, depth: int) -> Iterator[ir.Statement]:
+        *targets, value = self.parts(start, end, "=", ":=")
+        line = self.tokens[start].line
+        if not targets:
+            yield from self._inside(*value, depth)
+        for target in targets:
+            match self.expression(*target):
+                case ir.Call(callee=ir.Name(name=name), args=args):
+                    body = self._inside(*value, depth)
+                    if args and isinstance(args[0], ir.Literal):
+                        # coefficients[order, precision_] := …
+                        body = (ir.Assign(_ORDER, args[0], line), *body)
+                    yield ir.Scope("function", name, body, line)
+                case ir.Name(name=name) as made:
+                    assigned = ir.Assign(made, self.expression(*value), line)
+                    is_entry = isinstance(assigned.value, ir.Fields)
+                    yield ir.Scope("entry", name, (assigned,), line) if is_entry else assigned
+                case ir.Index() as entry:
+                    yield ir.Assign(entry, self.expression(*value), line)
+
+    def _inside(self, start: int, end: int, depth: int) -> ir.Body:
+        """What a value does: the statements between its brackets, ``With[{x = 1}, …]``, or it is a
+        table itself.
+        """
+        value, line = self.expression(start, end), self.tokens[start].line
+        listed = _of_ndsolve(value)
+        if listed:
+            return (ir.Do(ir.Call(ir.Name(NDSOLVE), listed, (("order", _ORDER),)), line),)
+        opener = start + (self.sign(start + 1) == "[")
+        if self.closes.get(opener, 0) < end - 1 or depth > MAX_NESTING:
+            return (ir.Do(value, line),)
+        parts = self.parts(opener + 1, self.closes[opener], ",")
+        return tuple(x for part in parts for x in self.block(*part, depth + 1))
+
+
+def _of_ndsolve(value: ir.Expr) -> tuple[ir.Expr, ...]:
+    """The lists of ``N[{amat, bvec, cvec, evec}, precision]``; none of another value."""
+    match value:
+        case ir.Call(callee=ir.Name(name=name), args=(first, *_)) if name in _ROUNDED:
+            value = first
+    match value:
+        case ir.Items(items=[ir.Items() | ir.Name(), _, _] | [ir.Items() | ir.Name(), _, _, _]):
+            return value.items
+    return ()
+
+
+def _lowered(text: str) -> ir.Body:
+    source = MathematicaLowering(text)
+    return source.block(0, len(source.tokens))
 
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Mathematica source."""
-    tokens = without(tokens_of(text, MATHEMATICA), "comment")
-    allowance = Allowance()
-    walk = Walk(_with_names(_on_their_lines(tokens)), GRAMMAR, _ENDS, _title, allowance)
-    walk.names["x"] = Scalar("x")
-    return tables_of(walk, _Finder(source, allowance))
-
-
-def _on_their_lines(tokens: list[Token]) -> list[Token]:
-    """The tokens without the ends of lines in brackets, where they end nothing."""
-    found = []
-    depth = 0
-    for token in tokens:
-        if token.kind == "sign":
-            depth += token.text in "([{"
-            depth -= token.text in ")]}"
-        if token.kind != "line" or depth <= 0:
-            found.append(token)
-    return found
-
-
-def _with_names(tokens: list[Token]) -> list[Token]:
-    """The same with ``"A" -> …`` as ``A = …``."""
-    tokens = [_variable(token) for token in tokens if token.text != "&"]
-    found = list(tokens)
-    for place in range(len(tokens) - 1):
-        token, behind = tokens[place], tokens[place + 1]
-        is_rule = behind.kind == "sign" and behind.text == "->"
-        if token.kind == "text" and is_rule:
-            found[place] = replace(token, kind="name")
-            found[place + 1] = replace(behind, text="=")
-    return found
-
-
-def _variable(token: Token) -> Token:
-    """The variable of a pure function, ``#``, as a name."""
-    is_slot = token.kind == "sign" and token.text == "#"
-    return replace(token, kind="name", text="x") if is_slot else token
-
-
-def _title(tokens: list[Token], place: int) -> str:
-    """The name of an association: ``name = <|``."""
-    token = tokens[place]
-    if token.kind != "name" or place + 3 >= len(tokens):
-        return ""
-    signs = [x.text for x in tokens[place + 1 : place + 4]]
-    return token.text if signs == ["=", "<", "|"] else ""
-
-
-class _Finder(Finder):
-    """Collects lists into tables."""
-
-    def __init__(self, source: str, allowance: Allowance) -> None:
-        super().__init__(source, allowance)
-        self._values: dict[str, Value] = {}
-        self._line = 0
-        self._listed: list[FoundTable] = []
-
-    def end(self) -> None:
-        """The tables of what has ended."""
-        title = self._scope.title
-        found = self._allowance.tables(self._scope.tables(self._source, NAME))
-        blocks = table_of_blocks(self._values, self._source, NAME, title, max(self._line, 1))
-        if blocks is not None:
-            found = [self._allowance.table(blocks)]
-        # the lists of {amat, bvec, cvec} are often named before
-        listed = [_coefficients_of(table) for table in self._listed]
-        self.found += self._listed
-        self.found += [x for x in found if _coefficients_of(x) not in listed]
-        self._listed = []
-        self._values = {}
-        self._line = 0
-
-    def assigned(self, event: Assigned) -> None:
-        """A list has a name."""
-        name = _ORDERS.get(event.name, event.name)
-        if name in ROLES:
-            self._line = self._line or event.line
-            self._values[ROLES[name]] = event.value
-        self._scope.add(name, event.value, event.line)
-        listed = _coefficients(event, self._source)
-        if listed is not None:
-            self._listed.append(self._allowance.table(listed))
-
-
-def _coefficients_of(table: FoundTable) -> tuple[object, ...]:
-    return table.A, table.b, table.c
-
-
-def _coefficients(event: Assigned, source: str) -> FoundTable | None:
-    """``f[order_, prec_] := N[{amat, bvec, cvec, evec}, prec]``."""
-    value = event.value
-    if not isinstance(value, list) or len(value) not in (3, 4):
-        return None
-    if not is_matrix(value[0]) or not all(is_row(x) for x in value[1:]):
-        return None
-    try:
-        b = weights(value[1])
-        A = square(value[0], len(b))
-        c = row_of(value[2])
-        if len(c) == len(b) - 1:
-            c = ("0", *c)
-        error = row_of(value[3]) if len(value) == 4 else None
-        embedded = None if error is None else (difference(b, error),)
-    except Unreadable:
-        return None
-    first = event.indices[0] if event.indices else 0
-    return FoundTable(
-        source,
-        event.line,
-        NAME,
-        event.name,
-        ((A,),),
-        (b,),
-        (c,),
-        embedded=embedded,
-        order=first or None,
-    )
+    return tables_in(text, source, NAME, _lowered, base=1)
 
 
 READER = Reader(
