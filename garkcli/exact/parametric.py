@@ -8,7 +8,7 @@ and a method with them goes through the same constructions as one with numbers.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from math import comb, prod
 from typing import TypeAlias, cast
@@ -107,12 +107,13 @@ class Parameters:
         if self.rules:
             numerator = self.reduced(numerator)
             denominator = self.reduced(denominator)
-        common = numerator.gcd(denominator)
-        if not common.is_one():
-            numerator, denominator = numerator // common, denominator // common
-        leading = denominator.leading_coefficient()
-        if leading != 1:
-            numerator, denominator = numerator / leading, denominator / leading
+        if not denominator.is_one():
+            common = numerator.gcd(denominator)
+            if not common.is_one():
+                numerator, denominator = numerator // common, denominator // common
+            leading = denominator.leading_coefficient()
+            if leading != 1:
+                numerator, denominator = numerator / leading, denominator / leading
         if numerator.is_constant() and denominator.is_one():
             return numerator.leading_coefficient() if numerator else fmpq(0)
         return Parametric(self, numerator, denominator)
@@ -259,7 +260,7 @@ class Parametric:
     def height_bits(self) -> int:
         """Bits of its longest coefficient."""
         coefficients = [*self.numerator.coeffs(), *self.denominator.coeffs()]
-        return max(int(a.height_bits()) for a in coefficients)
+        return max(map(_height_bits, coefficients))
 
     def latex(self) -> str:
         """The function in LaTeX."""
@@ -275,12 +276,17 @@ class Parametric:
         return f"({numerator})/({self.ring.text(self.denominator)})"
 
 
+_height_bits: Callable[[fmpq], int] = fmpq.height_bits
+
+
 def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
     """The product of two polynomials.
 
     Raises:
         TooManyTerms: it would fill the memory, and is not computed.
     """
+    if q.is_one():  # most denominators
+        return p
     refuse_long(p, q)
     return p * q
 

@@ -22,10 +22,11 @@ class Run:
 
 
 class _Input(io.TextIOWrapper):
-    """Standard input with the given text."""
+    """Standard input with the given text, or with what is none."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(io.BytesIO(text.encode()), encoding="utf-8")
+    def __init__(self, given: str | bytes) -> None:
+        content = given.encode() if isinstance(given, str) else given
+        super().__init__(io.BytesIO(content), encoding="utf-8")
 
 
 ASKING = ("NO_COLOR", "FORCE_COLOR", "GITHUB_ACTIONS")
@@ -33,7 +34,7 @@ ASKING = ("NO_COLOR", "FORCE_COLOR", "GITHUB_ACTIONS")
 
 
 def gark(
-    *arguments: str, stdin: str = "", cwd: Path = ROOT, encoding: str = "", **variables: str
+    *arguments: str, stdin: str | bytes = "", cwd: Path = ROOT, encoding: str = "", **variables: str
 ) -> Run:
     """Run ``gark`` with ``arguments`` in ``cwd``, 80 columns wide, with no colour asked for.
 

@@ -39,17 +39,6 @@ def test_exit_codes_of_the_process(code: int, arguments: tuple[str, ...]) -> Non
     assert "Traceback" not in done.stderr
 
 
-def test_a_reader_that_goes_away_is_no_fault() -> None:
-    """``| head -1`` shows the first line; the program ends quietly, with nothing on stderr."""
-    command = f'"{sys.executable}" -m garkcli trees -N 3 -n 8 | head -1'
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    done = subprocess.run(
-        command, shell=True, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60
-    )
-    assert done.stdout == "order 8, root colour 1\n"
-    assert done.stderr == ""
-
-
 def test_check_imports_no_heavy_package() -> None:
     """``gark check`` on a file of families needs neither sympy nor numpy, nor what figures and pages are made
     with.

@@ -26,8 +26,7 @@ class Copy:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        skipped = shutil.ignore_patterns("__pycache__")
-        shutil.copytree(PACKAGE, folder / "garkcli", ignore=skipped)
+        shutil.copytree(PACKAGE, folder / "garkcli")  # with the byte code of what stays as it is
         (folder / "m.yaml").write_text(RK4)
 
     def write(self, path: str, text: str) -> None:

@@ -19,6 +19,7 @@ from pathlib import Path
 import pytest
 
 from garkcli import loads
+from garkcli.check import deciding
 from garkcli.errors import MethodFileError
 from tests.cli.harness import ROOT, Run
 from tests.cli.harness import gark as call
@@ -44,13 +45,13 @@ def environment() -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80", "OPENBLAS_NUM_THREADS": "1"}
 
 
-def gark(*arguments: str, cwd: Path = ROOT, stdin: bytes = b"") -> subprocess.CompletedProcess[str]:
+def gark(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     """A run within the limits."""
     done = subprocess.run(
         [sys.executable, "-m", "garkcli", *arguments],
         cwd=cwd,
         env=environment(),
-        input=stdin,
+        stdin=subprocess.DEVNULL,
         capture_output=True,
         timeout=PATIENCE,
         preexec_fn=_limited,  # no threads here
@@ -278,12 +279,13 @@ def test_a_hostile_file_is_refused(what: str, answers: dict[str, Answer]) -> Non
     assert max(map(len, lines)) < 12_000
 
 
-def test_a_tag_runs_nothing(tmp_path: Path) -> None:
+def test_a_tag_runs_nothing(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """A Python tag on a coefficient changes nothing: the text is read as the number it is."""
     (tmp_path / "m.gark.yaml").write_text(
         "methods: [{A: [[!!python/object/apply:os.system 'echo pwned']], b: [1]}]\n"
     )
-    assert "pwned" not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
+    assert "pwned" not in refused(call("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
+    assert capfd.readouterr() == ("", "")
 
 
 def big_explicit(stages: int, entry: str) -> str:
@@ -360,7 +362,7 @@ def test_other_commands_refuse_them_too(command: str, tmp_path: Path) -> None:
     options = ("-n", "2") if command == "conditions" else ()
     for name in ("fifo.gark.yaml", "bomb.gark.yaml"):
         refused(call(command, name, *options, cwd=tmp_path))
-    refused(gark(command, "-", *options, stdin=bytes(range(256))))
+    refused(call(command, "-", *options, stdin=bytes(range(256))))
 
 
 def test_an_endless_standard_input_is_refused() -> None:
@@ -393,12 +395,14 @@ def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
 # -- where a report goes
 # ------------------------------------------------------------------------------------------
 
-RUNS = [("check", FAILING), ("trees", "-N", "3", "-n", "7"), ("list",), ("schema",)]
+RUNS = [("check", FAILING), ("trees", "-N", "3", "-n", "8"), ("list",), ("schema",)]
 
 
-@pytest.mark.parametrize("arguments", RUNS, ids=lambda arguments: arguments[0])
+@pytest.mark.parametrize("arguments", RUNS[:2], ids=lambda arguments: arguments[0])
 def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
-    """A full disk under stdout, or under -o, is exit code 2 and one line that says so."""
+    """A full disk under stdout is exit code 2 and one line that says so, whether a report is written
+    at once or as it is made.
+    """
     command = [sys.executable, "-m", "garkcli", *arguments]
     with Path("/dev/full").open("w", encoding="utf-8") as full:
         done = subprocess.run(
@@ -408,6 +412,11 @@ def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
         2,
         "gark: the report cannot be written: No space left on device\n",
     )
+
+
+@pytest.mark.parametrize("arguments", RUNS, ids=lambda arguments: arguments[0])
+def test_a_full_disk_under_a_file_is_said(arguments: tuple[str, ...]) -> None:
+    """So it is with -o."""
     run = call(*arguments, "-o", "/dev/full")
     assert (run.code, run.out) == (2, "")
     assert run.err.startswith("gark: cannot write /dev/full: No space left on device\n")
@@ -525,16 +534,7 @@ def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        "check methods -v",
-        "check methods -v -j 2",
-        "trees -N 3 -n 8 --format csv",
-        "conditions -n 6",
-        "schema",
-    ],
-)
+@pytest.mark.parametrize("arguments", ["check methods -v -j 2", "trees -N 3 -n 8 --format csv"])
 def test_a_reader_that_goes_away(arguments: str) -> None:
     """``| head -1`` of any long report ends quietly, with a line on stdout and nothing on
     stderr.
@@ -551,30 +551,26 @@ def test_a_reader_that_goes_away(arguments: str) -> None:
 # --------------------------------------------------------------------------------------------
 
 
-def broken(*arguments: str) -> subprocess.CompletedProcess[str]:
-    """A run of a program whose order finder is broken."""
-    script = (
-        "import sys\n"
-        "import garkcli.check.deciding as check\n"
-        "def order_of(*_): raise RuntimeError('broken\\nin two lines')\n"
-        "check.order_of = order_of\n"
-        "from garkcli.cli import main\n"
-        "main(sys.argv[1:])\n"
-    )
-    command = [sys.executable, "-c", script, *arguments]
-    return subprocess.run(
-        command, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
-    )
+BREAKING = (
+    "import sys\n"
+    "import garkcli.check.deciding as check\n"
+    "def order_of(*_): raise RuntimeError('broken\\nin two lines')\n"
+    "check.order_of = order_of\n"
+    "from garkcli.cli import main\n"
+    "main(sys.argv[1:])\n"
+)
+"""A program whose order finder is broken."""
 
 
-@pytest.mark.parametrize("jobs", [(), ("-j", "2")], ids=["alone", "by twos"])
-def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
-    """A fault of the program is told of the file that meets it, the others are gone on with, and the
-    exit code is 3, in a worker as in the program itself.
-    """
-    run = broken("check", "methods", *jobs)
-    assert run.returncode == 3
-    lines = run.stdout.splitlines()
+def order_of(*_: object) -> object:
+    """An order finder that is broken."""
+    raise RuntimeError("broken\nin two lines")
+
+
+def told_of_each_file(run: Run) -> None:
+    """A fault of the program is told of every file that meets it, and the exit code is 3."""
+    assert run.code == 3
+    lines = run.out.splitlines()
     told = [
         line
         for line in lines
@@ -583,16 +579,33 @@ def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
     helps = [line for line in lines if "please report it" in line]
     count = len(list((ROOT / "methods").rglob("*.gark.yaml")))
     assert len(told) == len(helps) == count
-    assert "Traceback" not in run.stdout + run.stderr
+    assert "Traceback" not in run.out + run.err
 
 
-def test_a_fault_of_our_own_in_full() -> None:
+def test_a_fault_of_our_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The others are gone on with."""
+    monkeypatch.setattr(deciding, "order_of", order_of)
+    told_of_each_file(call("check", "methods"))
+
+
+def test_a_fault_of_our_own_in_a_worker() -> None:
+    """As in the program itself."""
+    command = [sys.executable, "-c", BREAKING, "check", "methods", "-j", "2"]
+    done = subprocess.run(
+        command, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=PATIENCE
+    )
+    told_of_each_file(Run(done.returncode, done.stdout, done.stderr))
+
+
+def test_a_fault_of_our_own_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
     """``--debug`` shows the traceback of the fault."""
-    run = broken("--debug", "check", "methods/rectangular.gark.yaml")
-    assert run.returncode == 3
-    assert run.stderr.startswith("Traceback")
-    assert "in order_of" in run.stderr
-    assert "RuntimeError: broken" in run.stderr
+    monkeypatch.setattr(deciding, "order_of", order_of)
+    monkeypatch.setattr(sys, "argv", ["gark", "--debug"])  # a check of one file looks there
+    run = call("--debug", "check", "methods/rectangular.gark.yaml")
+    assert run.code == 3
+    assert run.err.startswith("Traceback")
+    assert "in order_of" in run.err
+    assert "RuntimeError: broken" in run.err
 
 
 @pytest.mark.parametrize("text", ["null", "1", "{a: 1}"])
