@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem
 from garkcli.frozen import Frozen, field
 from garkcli.methodfile.naming import every_shelf, visible
-from garkcli.methodfile.shelves import Package, Shelf, Shelved
+from garkcli.methodfile.shelves import Package, Shelf, Shelved, letters_of
 from garkcli.properties.registry import KEYS
 
 if TYPE_CHECKING:
@@ -181,7 +181,8 @@ class Wanted(Frozen):
         truths: of properties, by their keys; one that is not known is neither true nor false.
         values: of texts, by their keys.
         folder: of the catalogue; empty for any.
-        words: each is in the name, an alias, the title or the reference.
+        words: each is in the name, an alias, the title or the reference, or is one of the first
+            two in another spelling.
     """
 
     ranges: Mapping[str, Range] = field(default_factory=dict)
@@ -205,7 +206,8 @@ class Wanted(Frozen):
             return True
         texts = [entry[key] for key in _SEARCHED]
         told = _plain(" ".join([*texts, *entry["aliases"]]))
-        return all(_plain(word) in told for word in self.words)
+        names = set(map(letters_of, (entry["name"], *entry["aliases"])))
+        return all(_plain(word) in told or letters_of(word) in names for word in self.words)
 
 
 def _plain(text: str) -> str:

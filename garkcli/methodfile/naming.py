@@ -2,7 +2,8 @@
 
 An argument with a separator of paths in it is a file, and so is one that exists as a file; any
 other is a name. Folders of one's own come before the package, the package before packages of
-others, and in all of them a name before an alias.
+others, and in all of them a name before an alias, and both before what has the same letters and
+digits: ``ARS(2,2,2)`` is ``ARS222``.
 """
 
 from __future__ import annotations
@@ -15,7 +16,16 @@ from itertools import chain
 from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
 from garkcli.files import STDIN
 from garkcli.methodfile.reading import read_text
-from garkcli.methodfile.shelves import Shelf, Shelved, key_of, others, own_folders, package
+from garkcli.methodfile.shelves import (
+    Found,
+    Shelf,
+    Shelved,
+    key_of,
+    letters_of,
+    others,
+    own_folders,
+    package,
+)
 from garkcli.methodfile.source import METHOD_FILE
 
 PREFIX = "catalogue:"
@@ -103,7 +113,8 @@ def look_up(name: str) -> Shelved | None:
         for shelf in shelves:
             if key in shelf.methods:
                 return _only(name, shelf.methods[key])
-        found = _by_alias(key, shelves)
+        found = _called(key, (shelf.aliases for shelf in shelves))
+        found = found or _called(letters_of(name), (shelf.spellings for shelf in shelves))
         if found:
             return _only(name, found)
     return None
@@ -115,11 +126,11 @@ def _in_turn() -> Iterator[Sequence[Shelf]]:
     yield others()
 
 
-def _by_alias(key: str, shelves: Iterable[Shelf]) -> list[Shelved]:
-    """The methods with an alias; of two that have one name the first."""
+def _called(key: str, known: Iterable[Found]) -> list[Shelved]:
+    """The methods that a key means; of two that have one name the first."""
     found: dict[str, Shelved] = {}
-    for shelf in shelves:
-        for method in shelf.aliases.get(key, ()):
+    for methods in known:
+        for method in methods.get(key, ()):
             found.setdefault(key_of(method.name), method)
     return list(found.values())
 

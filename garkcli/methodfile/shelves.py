@@ -31,6 +31,7 @@ INDEX = "catalogue/index.json"
 DATA = "catalogue/data"
 """The method files of the package, from its root."""
 _BETWEEN_WORDS = re.compile("[\\s_\u2010-\u2015\u2212-]+")
+_NO_LETTERS = re.compile(r"[\W_]+")
 
 
 def key_of(name: str) -> str:
@@ -41,6 +42,15 @@ def key_of(name: str) -> str:
     """
     text = unicodedata.normalize("NFC", name).casefold()
     return _BETWEEN_WORDS.sub("-", text.strip())
+
+
+def letters_of(name: str) -> str:
+    """The letters and digits of a name, however it is spelt.
+
+    >>> letters_of("ARK4(3)6L[2]SA"), letters_of("ARS-222") == letters_of("ARS(2,2,2)")
+    ('ark436l2sa', True)
+    """
+    return _NO_LETTERS.sub("", unicodedata.normalize("NFC", name).casefold())
 
 
 class Shelved(Frozen):
@@ -90,6 +100,16 @@ class Shelf:
         for methods in self.methods.values():
             for method in methods:
                 for key in dict.fromkeys(map(key_of, self.called(method))):
+                    found.setdefault(key, []).append(method)
+        return found
+
+    @cached_property
+    def spellings(self) -> Found:
+        """By the letters and digits of their names and aliases."""
+        found: dict[str, list[Shelved]] = {}
+        for methods in self.methods.values():
+            for method in methods:
+                for key in dict.fromkeys(map(letters_of, (method.name, *self.called(method)))):
                     found.setdefault(key, []).append(method)
         return found
 

@@ -201,6 +201,19 @@ def test_references_say_where_the_digits_are_from() -> None:
         assert re.search(r"^  coefficients: \S", text, re.MULTILINE), name
 
 
+def test_publications_have_one_doi() -> None:
+    """Most files have the DOI of their publication, without an address, the same in all of them."""
+    known: dict[tuple[str, str], set[str]] = {}
+    for file in FILES.values():
+        book = load(str(file)).bibliography
+        if book:
+            known.setdefault((book.title, book.year), set()).add(book.doi)
+    assert all(len(dois) == 1 for dois in known.values())
+    found = {doi for dois in known.values() for doi in dois if doi}
+    assert len(found) >= 65
+    assert [x for x in found if not re.fullmatch(r"10\.\d{4}/\S+", x)] == []
+
+
 def test_a_method_of_one_colour_fits_a_glance() -> None:
     """At most 12 lines of at most 80 columns each, but for a tree of one word, for such methods of
     the catalogue, of which the first begins with the order; no colour is named.

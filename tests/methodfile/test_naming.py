@@ -60,6 +60,30 @@ def test_capitals_blanks_and_underscores_do_not_count(own: Path) -> None:
         assert load(name).source == "my-best-one"
 
 
+@pytest.mark.parametrize(
+    ("spelling", "name"),
+    [
+        ("ARS(2,2,2)", "ark-ars222"),
+        ("SSPRK(10,4)", "ssp-104"),
+        ("ARK4(3)6L[2]SA", "ark-436"),
+        ("RadauIIA5", "radau-iia-3"),
+        ("Radau IIA-5", "radau-iia-5"),
+    ],
+)
+def test_letters_and_digits_are_enough(spelling: str, name: str) -> None:
+    """Names as papers spell them; a name or an alias that is meant as it stands goes first."""
+    method = look_up(spelling)
+    assert method is not None
+    assert method.name == name
+
+
+def test_letters_and_digits_of_several_methods() -> None:
+    """What may mean a name and an alias of another method is told, and so is nothing at all."""
+    with pytest.raises(MethodFileError, match="means 2 methods: radau-iia-3, radau-iia-5"):
+        look_up("radau_iia5")
+    assert look_up("()") is None
+
+
 def test_what_exists_is_a_file(own: Path) -> None:
     """So is whatever has a separator of paths in it, or ends as such files do."""
     assert own
