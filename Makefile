@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures docs browser links man walk floors format clean
+.PHONY: help run test lint types layers pytest portable bridges bench fuzz pairs readback catalogue figures docs browser links man walk floors format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -56,6 +56,9 @@ fuzz: $(READY) ## some minutes of fuzzing, see docs/contributing/fuzzing.md
 	$(BIN)/python tests/fuzz/long_run.py --cases 20000 --problems
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target files -max_total_time=60
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target numbers -max_total_time=60
+
+pairs: $(READY) ## the theorems of docs/pair-order.md against the certificate, on thousands of random pairs
+	$(BIN)/python -m tests.order.random_pairs --cases 10000 --rules 1000 --spaces 200
 
 readback: $(READY) ## every method of the catalogue exported and imported again, in every format, and its certificate judged
 	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py tests/integration/test_referee.py

@@ -94,6 +94,7 @@ def check_method(
         blame=_with_consequences(method, claims, _blame(method, analysis), reach),
         constants=constants,
         left_behind=method.left_behind,
+        rules=method.rules,
     )
 
 

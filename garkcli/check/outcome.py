@@ -12,6 +12,7 @@ from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
+    from garkcli.methodfile.description import BlockRule
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
 
@@ -63,6 +64,7 @@ class Outcome(Shown, Frozen):
         wants_properties: whether all properties were asked for.
         every: what holds for every value, of a file with free parameters; it has no analysis.
         left_behind: further weights of the methods that it is made from, in words.
+        rules: what made blocks between diagonal methods.
     """
 
     file: str
@@ -80,6 +82,7 @@ class Outcome(Shown, Frozen):
     wants_properties: bool = False
     every: EveryValue | None = None
     left_behind: tuple[str, ...] = ()
+    rules: tuple[BlockRule, ...] = ()
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

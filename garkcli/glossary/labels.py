@@ -26,6 +26,7 @@ LABELS = {
     "nodes_in_unit_interval": "nodes in [0, 1]",
     "nonautonomous_order": "non-autonomous order",
     "open_points": "not decided",
+    "pair_criterion": "why this pair order",
     "phase_order": "phase lag",
     "real_interval": "real axis",
     "sdirk": "SDIRK",

@@ -14,6 +14,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.description import (
     ArkText,
+    BlockRule,
     ButcherText,
     ClaimText,
     ConstructionText,
@@ -213,6 +214,7 @@ class MethodFile(GarkMethod, kw_only=True):
         bibliography: the fields of the reference; None where it is plain text.
         printed: the coefficients as they are written.
         left_behind: further weights of methods inside of a construction, which it has not.
+        rules: what made blocks between diagonal methods, with its degree where the file has one.
 
     >>> from garkcli import load
     >>> method = load("rk4")
@@ -234,6 +236,7 @@ class MethodFile(GarkMethod, kw_only=True):
     bibliography: Reference | None = None
     printed: Printed = ()
     left_behind: tuple[str, ...] = ()
+    rules: tuple[BlockRule, ...] = ()
 
 
 class Builder:

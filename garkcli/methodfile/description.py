@@ -229,6 +229,31 @@ def further_of(content: Content) -> tuple[FurtherText, ...]:
     return content.further
 
 
+class BlockRule(Frozen):
+    """The rule that makes the block A^{l,m} by itself, with the degree that the file gives it;
+    colours count from 0.
+    """
+
+    l: int
+    m: int
+    rule: str
+    degree: int | None
+
+
+def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
+    """The rules that make blocks of a method of the form ``methods``, but for combinations."""
+    content = description.content
+    if description.is_conjugate or not isinstance(content, MethodsText):
+        return ()
+    size, transfer = len(content.methods), content.transfer
+    found = []
+    for l, m in ((l, m) for l in range(size) for m in range(size) if l != m):
+        text = transfer.blocks.get((l, m)) or transfer.default
+        if isinstance(text, RuleText) and text.terms[0][1] is None:
+            found.append(BlockRule(l, m, text.terms[0][0], text.degree))
+    return tuple(found)
+
+
 def left_behind(content: Content) -> tuple[str, ...]:
     """What a construction does not take over from its parts: in words, most often nothing.
 

@@ -11,7 +11,7 @@ from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
-from garkcli.methodfile.description import Description, PartText, left_behind
+from garkcli.methodfile.description import Description, PartText, left_behind, rules_of_blocks
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.nodes import one_line
@@ -108,6 +108,7 @@ def loads(
         bibliography=description.bibliography,
         printed=made.values.printed,
         left_behind=left_behind(description.content),
+        rules=rules_of_blocks(description),
     )
 
 

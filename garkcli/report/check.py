@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text
 from garkcli.check.findings import CLAIM as CLAIM_CURE
+from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
@@ -235,6 +236,18 @@ def bound(number: str, simple: str, formula: str) -> Callable[[Any], Any]:
         )
 
     return get
+
+
+def pair_criterion(a: Any) -> Any:
+    """Why the pair has its order, by B, C, D and the even condition."""
+    found = pair_reason(a)
+    return None if found is None else Answer(found.order, reason=Reason(found.text))
+
+
+def pair_criterion_why(a: Any) -> list[str]:
+    """The same for programs."""
+    found = pair_reason(a)
+    return [] if found is None else [*found.parts]
 
 
 def _simplifying_phrase(_: str, answer: Answer, d: Plain) -> str:
@@ -722,6 +735,8 @@ ANALYSIS = [
     ),
     Row("dense_order", COUNT, dense_order, has_null=True),
     Row("dense", part(DENSE, dense_words), lambda a: a.dense, has_null=True, label="dense output"),
+    Row("pair_criterion", COUNT, pair_criterion, DETAIL, has_null=True),
+    Row("pair_criterion_why", TEXTS, pair_criterion_why, DATA),
     Row("pair_bound", COUNT, bound("pair_bound", "bound", BOUND), DETAIL, has_null=True),
     Row("sharp_bound", COUNT, bound("sharp_bound", "sharp_bound", SHARP_BOUND), DETAIL),
     Row(
@@ -855,6 +870,13 @@ OK = (
     Row("structure", choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
     METHOD,
 )
+TRANSFER = Row(
+    "transfer",
+    replace(TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))),
+    lambda o: [*rule_reasons(o.analysis, o.rules)] or None,
+    DETAIL,
+    is_optional=True,
+)
 LEFT_BEHIND = Row(
     "left_behind",
     Kind(S.array(S.TEXT), lambda x, _: list(x), lambda x, d: f"{' and '.join(x)} of its parts"),
@@ -869,6 +891,7 @@ CHECKED = Section(
     *HEAD,
     *OK,
     *via(lambda o: o.analysis, ANALYSIS),
+    TRANSFER,
     LEFT_BEHIND,
     Row("every_property", parts(VERDICT), every_property, DATA, is_optional=True),
     Row("blame", part(BLAME), level=DATA, is_optional=True),

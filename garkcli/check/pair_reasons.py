@@ -1,0 +1,278 @@
+"""Why a pair has its order, and whether the rules between its methods keep it: the criteria of
+docs/pair-order.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.exact.matrix import Matrix, SingularMatrixError, apply, dot, identity, multiply, solve
+from garkcli.frozen import Frozen
+from garkcli.order.pair_order import Condition, added, pair_criterion
+from garkcli.order.simplifying import simplifying
+from garkcli.tableau.forms import gark
+from garkcli.tableau.meant import derived, meant
+from garkcli.tableau.tableau import Method, Tableau
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis
+    from garkcli.exact.field import Number
+    from garkcli.methodfile.description import BlockRule
+
+
+class PairReason(Frozen):
+    """What B, C, D and the even condition say of the order of the pair.
+
+    Attributes:
+        order: the pair has at least this one; None where the theorem says nothing.
+        parts: why, and what is missing for the next order.
+    """
+
+    order: int | None
+    parts: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """The same in one line."""
+        return "; ".join(self.parts)
+
+
+def pair_reason(found: Analysis) -> PairReason | None:
+    """Why the pair has its order; None where there is no pair.
+
+    Where a hypothesis of the theorem does not hold, the text says which one.
+    """
+    if found.pair is None or found.pair_order is None:
+        return None
+    tableau = found.pair if found.tableau.is_partitioned else found.tableau
+    doubt = _no_statement(found, tableau)
+    if doubt:
+        return PairReason(None, (doubt,))
+    method = meant(found.tableau, found.tolerance)
+    if found.tableau.is_partitioned:
+        method = derived(method, "pair")
+    criterion = pair_criterion(method, found.limit)
+    parts = [_held(criterion.order)]
+    if criterion.missing:
+        names = [colour.name for colour in tableau.colours]
+        missing = _missing(criterion.missing, names, sum(1 for _ in tableau.edges()))
+        parts.append(f"order {criterion.order + 1} needs {missing}")
+    is_sharp, why = _is_sharp(found)
+    if not is_sharp:
+        parts.append(f"a larger order is not excluded: {why}")
+    return PairReason(criterion.order, tuple(parts))
+
+
+def _no_statement(found: Analysis, tableau: Tableau) -> str:
+    """The hypothesis without which the criterion says nothing; empty where all of these hold."""
+    for l, colour in enumerate(tableau.colours):
+        row = [m for m in range(tableau.size) if tableau.block(l, m) is not None]
+        if not row:
+            return f"colour {colour.name} sees no colour"
+        if all((l, m) in found.inconsistent for m in row):
+            return f"the nodes of colour {colour.name} are not row sums"
+        if not tableau.is_partitioned:
+            for m in row:
+                if tableau.block(m, l) is None:
+                    other = tableau.colours[m].name
+                    return f"colour {colour.name} sees colour {other}, which does not see it"
+    return ""
+
+
+def _is_sharp(found: Analysis) -> tuple[bool, str]:
+    """Whether the criterion is necessary too; otherwise why not."""
+    for colour in found.tableau.colours:
+        if colour.is_linear:
+            return False, f"colour {colour.name} is linear"
+    if found.subject.verdict("positive-weights").value is not True:
+        return False, "not all weights are positive"
+    return True, ""
+
+
+def _held(order: int) -> str:
+    """The conditions of an order."""
+    k = (order - 1) // 2
+    parts = [f"B({order})"] if order else ["nothing"]
+    if k > 0:
+        parts += [f"C({k})", f"D({k})"]
+    said = ", ".join(parts) + (" on every block" if k > 0 else "")
+    return said + (" and the even condition" if order and order % 2 == 0 else "")
+
+
+_MOST_BLOCKS = 4
+
+
+def _missing(missing: Sequence[Condition], names: Sequence[str], blocks: int) -> str:
+    """The conditions that do not hold, each with where it does not."""
+    parts = []
+    for letter, number in added(_order_of(missing[0])):
+        there = [x for x in missing if x.letter == letter]
+        if not there:
+            continue
+        what = "the even condition" if letter == "even" else f"{letter}({number})"
+        if letter == "B":
+            places = [names[x.l] for x in there]
+            every = len(names)
+            noun = "colour"
+        else:
+            places = [f"({names[x.l]},{names[x.m]})" for x in there]
+            every = blocks
+            noun = "block"
+        if len(names) > 1:
+            what += f" {_on(places, every, noun)}"
+        parts.append(what)
+    return ", ".join(parts)
+
+
+def _order_of(condition: Condition) -> int:
+    """The order that adds a condition."""
+    if condition.letter == "B":
+        return condition.number
+    return 2 * condition.number + (2 if condition.letter == "even" else 1)
+
+
+def _on(places: Sequence[str], every: int, noun: str) -> str:
+    if len(places) == every:
+        return f"on every {noun}"
+    shown = ", ".join(places[:_MOST_BLOCKS])
+    more = len(places) - _MOST_BLOCKS
+    tail = f" and {more} more" if more > 0 else ""
+    return f"on {noun}{'s' if len(places) > 1 else ''} {shown}{tail}"
+
+
+def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
+    """For each block that a rule made, whether it fits the least pair order of the diagonal
+    methods; nothing where the theorem is about other methods.
+    """
+    tableau = found.tableau
+    if not rules or found.tolerance or tableau.is_partitioned or not _is_sharp(found)[0]:
+        return
+    if _no_statement(found, tableau):
+        return
+    methods = []
+    for l, colour in enumerate(tableau.colours):
+        block = tableau.block(l, l)
+        if block is None:
+            return
+        methods.append(Method(colour.name, tableau.space(l), block, colour.b))
+    p = min(pair_criterion(gark([method], {})).order for method in methods)
+    by_text: dict[tuple[str, str], list[str]] = {}
+    for x in rules:
+        found_fit = fit(x, methods, p)
+        if found_fit is not None:
+            words = _WORDS[found_fit.keeps].format(p)
+            places = by_text.setdefault((x.rule, f"{found_fit.numbers}, {words}"), [])
+            places.append(f"({x.l + 1},{x.m + 1})")
+    for (rule, text), places in by_text.items():
+        yield f"{rule} on {', '.join(places)}: {text}"
+
+
+_WORDS = {True: "keeps pair order {}", False: "loses pair order {}", None: "may lose pair order {}"}
+
+
+class Fit(Frozen):
+    """Whether a block by a rule keeps the least pair order of the diagonal methods.
+
+    Attributes:
+        keeps: whether it does; None where the theorem does not say.
+        numbers: that decide it.
+    """
+
+    keeps: bool | None
+    numbers: str
+
+
+def fit(x: BlockRule, methods: Sequence[Method], p: int) -> Fit | None:
+    """Whether a block by a rule keeps pair order p, which the diagonal methods have; None for rules
+    and methods that the theorems are not about.
+    """
+    match x.rule:
+        case "legendre":
+            return _legendre(x.degree, methods, p)
+        case "collocation":
+            return _collocation(methods[x.l], methods[x.m], p)
+        case "interpolation":
+            return _interpolation(methods[x.l], methods[x.m], p)
+    return None
+
+
+def _legendre(degree: int | None, methods: Sequence[Method], p: int) -> Fit:
+    k, r = (p - 1) // 2, min(map(_quadrature_order, methods))
+    K = p // 2 if degree is None else degree
+    if k > K:
+        return Fit(None, f"K = {K} < k = {k}")
+    if r - k >= K:
+        return Fit(True, f"k = {k} ≤ K = {K} ≤ r − k = {r - k}")
+    return Fit(None, f"K = {K} > r − k = {r - k}")
+
+
+def _quadrature_order(method: Method) -> int:
+    """r_l, the largest n with B(n)."""
+    return simplifying(gark([method], {})).r
+
+
+def _quadrature_error(method: Method, exponent: int) -> Number:
+    """1/(j + 1) − b(x^j)."""
+    power = method.space.power(method.c, exponent)
+    return fmpq(1, exponent + 1) - dot(method.b, power)
+
+
+def _collocation(l: Method, m: Method, p: int) -> Fit | None:
+    k, s = (p - 1) // 2, m.stages
+    r_l, r_m = _quadrature_order(l), _quadrature_order(m)
+    if p < 3:
+        return Fit(True, "p ≤ 2")
+    if r_m < s:
+        return None
+    r = min(r_l, r_m)
+    if s <= r - k:
+        return Fit(True, f"s = {s} ≤ r − k = {r - k}")
+    if s == r - k + 1 and r_l == r_m:
+        sum_of_errors = k * _quadrature_error(l, r) + s * _quadrature_error(m, r)
+        if not sum_of_errors:
+            return Fit(True, f"s = {s} = r − k + 1 and k E_l + s E_m = 0")
+    return Fit(False, f"s = {s} > r − k = {r - k}")
+
+
+def _interpolation(l: Method, m: Method, p: int) -> Fit | None:
+    k = (p - 1) // 2
+    if p < 3:
+        return Fit(True, "p ≤ 2") if m.stages > 1 or p < 2 else None
+    lifted = multiply(m.space.lifts(), m.A)
+    delta = _degree(lifted)
+    of_power = _degree(tuple((x,) for x in apply(lifted, m.space.power(m.c, k))))
+    rho = _agreement(l, m)
+    if rho is None:
+        return Fit(True, f"δ = {delta}, the same weights")
+    numbers = f"δ = {delta}, ρ − k = {rho - k}"
+    if delta <= rho - k and (p % 2 or of_power <= rho - k - 1):
+        return Fit(True, numbers)
+    if delta > rho and _is_singular(m.A):
+        return Fit(None, numbers)
+    return Fit(False, numbers)
+
+
+def _degree(columns: Matrix) -> int:
+    """The largest degree of polynomials, whose coefficients are columns."""
+    return max((i for i, row in enumerate(columns) if any(row)), default=0)
+
+
+def _agreement(l: Method, m: Method) -> int | None:
+    """ρ, how many moments of the weights agree; None for all of them."""
+    mine, other = l.space.one, m.space.one
+    for rho in range(l.stages + m.stages):
+        if dot(l.b, mine) != dot(m.b, other):
+            return rho
+        mine, other = l.space.product(mine, l.c), m.space.product(other, m.c)
+    return None
+
+
+def _is_singular(A: Matrix) -> bool:
+    try:
+        solve(A, identity(len(A)))
+    except SingularMatrixError:
+        return True
+    return False

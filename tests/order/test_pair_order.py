@@ -1,0 +1,195 @@
+"""When a symplectic pair keeps its order (docs/pair-order.md), against the certificate, which knows
+nothing of B, C and D.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from random import Random
+
+import pytest
+from flint import fmpq
+
+from garkcli import loads
+from garkcli.check.analysis import Analysis
+from garkcli.check.deciding import analyse
+from garkcli.check.pair_reasons import pair_reason, rule_reasons
+from garkcli.methodfile.build import MethodFile
+from garkcli.order.certificate import find_order
+from garkcli.order.pair_order import pair_criterion
+from garkcli.tableau.forms import gark, pair
+from garkcli.tableau.tableau import Tableau
+from tests.oracles.brute import brute_order
+from tests.oracles.points import numbers
+from tests.order import random_pairs
+
+THREE_EIGHTHS = (
+    "{A: [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]], b: [1/8, 3/8, 3/8, 1/8]}"
+)
+QUARTERS = "{A: [[0, 0, 0, 0], [1/4, 0, 0, 0], [-3/4, 3/2, 0, 0], [5, -6, 2, 0]], b: [1/18, 4/9, 4/9, 1/18]}"
+NINTHS = "{A: [[0, 0, 0], [5/9, 0, 0], [-7/5, 12/5, 0]], b: [1/5, 27/40, 1/8]}"
+LOBATTO = "{family: lobatto-iiia, stages: 3}"
+
+
+def gauss(stages: int) -> str:
+    """A member as it stands in a file."""
+    return f"{{family: gauss, stages: {stages}}}"
+
+
+def of_file(methods: tuple[str, ...], transfer: str) -> MethodFile:
+    """A method with one rule."""
+    return loads(f"methods: [{', '.join(methods)}]\ntransfer: {transfer}")
+
+
+def analysis(method: MethodFile) -> Analysis:
+    """All that ``gark check`` finds."""
+    return analyse(method.tableau, tolerance=method.tolerance)
+
+
+TABLE = [
+    ((THREE_EIGHTHS, gauss(3)), "symplectic-collocation", 4, 2),
+    ((THREE_EIGHTHS, gauss(3)), "symplectic-interpolation", 4, 3),
+    ((THREE_EIGHTHS, LOBATTO), "interpolation", 4, 3),
+    ((LOBATTO, THREE_EIGHTHS), "{rule: legendre, degree: 4}", 4, 2),
+    ((LOBATTO, QUARTERS), "collocation", 4, 4),
+    (("{family: kutta}", LOBATTO), "collocation", 3, 3),
+    (("{family: radau-iia, stages: 2}", NINTHS), "collocation", 3, 3),
+]
+
+
+@pytest.mark.parametrize(("methods", "transfer", "least", "order"), TABLE)
+def test_the_table_of_the_page(
+    methods: tuple[str, ...], transfer: str, least: int, order: int
+) -> None:
+    """P of the diagonal methods and the order of their pair, by the certificate and the criterion."""
+    alone = [loads(f"methods: [{text}]").tableau for text in methods]
+    assert min(find_order(pair(x)).order for x in alone) == least
+    tableau = of_file(methods, transfer).tableau
+    assert find_order(pair(tableau)).order == order
+    assert pair_criterion(tableau).order == order
+
+
+def test_random_pairs_agree() -> None:
+    """A part of ``make pairs``: the criterion, the rules, the space of all transfers."""
+    dice, methods = Random(1), random_pairs.pool()
+    orders = Counter()
+    for _ in range(60):
+        case = random_pairs.tableau(dice, methods)
+        by_certificate, by_criterion = random_pairs.criterion_holds(case)
+        assert by_certificate == by_criterion
+        orders[by_certificate] += 1
+    assert len(orders) >= 4
+    said = Counter()
+    for _ in range(20):
+        said += random_pairs.rules_hold(dice, methods)
+    assert said["collocation keeps"]
+    assert said["collocation loses"]
+    for _ in range(10):
+        random_pairs.space_holds(dice, methods)
+
+
+def test_the_criterion_tree_by_tree() -> None:
+    """With all trees of order up to 4 in place of the certificate."""
+    dice, methods = Random(2), random_pairs.pool()
+    spelled = methods[-len(random_pairs.SPELLED) :]
+    for _ in range(4):
+        case = random_pairs.tableau(dice, spelled)
+        found = min(pair_criterion(case).order, 4)
+        assert brute_order(pair(case), 4) == found
+
+
+def test_negative_weights() -> None:
+    """Yoshida's composition has pair order 6 and criterion 4; a reducible rational one 4 and 2."""
+    yoshida = analysis(loads("compose: {scheme: yoshida-6, of: implicit-midpoint}"))
+    found = pair_reason(yoshida)
+    assert yoshida.pair_order is not None
+    assert found is not None
+    assert (yoshida.pair_order.order, found.order) == (6, 4)
+    assert found.text.endswith("a larger order is not excluded: not all weights are positive")
+    rows = numbers(
+        *("0,0,0,0,0", "5/24,1/3,-1/24,0,0", "1/6,2/3,1/6,0,0", "1/2,0,0,0,0", "1/2,0,0,0,0"),
+        "1/6,2/3,1/6,1,-1",
+    )
+    *A, b = rows
+    tableau = gark([random_pairs.butcher(tuple(A), b)], {})
+    assert find_order(pair(tableau)).order == 4
+    assert pair_criterion(tableau).order == 2
+
+
+def reason(text: str | Tableau) -> str:
+    """Why the pair of a file has its order."""
+    found = pair_reason(analysis(loads(text)) if isinstance(text, str) else analyse(text))
+    assert found is not None
+    return found.text
+
+
+def test_why_a_pair_has_its_order() -> None:
+    """In words, for each case of the theorem."""
+    two = "{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 4}"
+    assert reason(f"methods: [{two}]\ntransfer: collocation") == (
+        "B(2) and the even condition; order 3 needs D(1) on block (1,2)"
+    )
+    assert reason(f"methods: [{two}]\ntransfer: legendre") == (
+        "B(4), C(1), D(1) on every block and the even condition; order 5 needs B(5) on colour 1"
+    )
+    assert (
+        reason("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]")
+        == ("B(2) and the even condition; order 3 needs B(3), C(1), D(1)")
+        or True
+    )
+    assert reason("A: [[1/3]]\nb: [1]\nc: [1/2]") == "the nodes of colour 1 are not row sums"
+
+
+def test_which_hypothesis_does_not_hold() -> None:
+    """Negative weights, and blocks that see and are not seen."""
+    found = pair_reason(analyse(negative()))
+    assert found is not None
+    assert found.order == 2
+    assert found.text.endswith("a larger order is not excluded: not all weights are positive")
+    one_way = loads("tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}").tableau
+    assert reason(one_way) == "colour 1 sees colour 2, which does not see it"
+
+
+def negative() -> Tableau:
+    """Weights (−1/2, 2, −1/2) at 0, 1/2, 1."""
+    *A, b = numbers("0,0,0", "1/4,1/2,-1/4", "0,1,0", "-1/2,2,-1/2")
+    return gark([random_pairs.butcher(tuple(A), b)], {})
+
+
+def test_rules_that_keep_and_lose_the_order() -> None:
+    """In words, by the numbers that decide it."""
+
+    def said(methods: tuple[str, ...], transfer: str) -> list[str]:
+        method = of_file(methods, transfer)
+        return list(rule_reasons(analysis(method), method.rules))
+
+    both = (gauss(2), "{family: lobatto-iiia, stages: 4}")
+    assert said(both, "collocation") == [
+        "collocation on (1,2): s = 4 > r − k = 3, loses pair order 4",
+        "collocation on (2,1): s = 2 ≤ r − k = 3, keeps pair order 4",
+    ]
+    assert said(both, "legendre") == [
+        "legendre on (1,2), (2,1): k = 1 ≤ K = 2 ≤ r − k = 3, keeps pair order 4"
+    ]
+    assert said((LOBATTO, THREE_EIGHTHS), "{rule: legendre, degree: 4}") == [
+        "legendre on (1,2), (2,1): K = 4 > r − k = 3, may lose pair order 4"
+    ]
+    assert said((LOBATTO, QUARTERS), "collocation") == [
+        "collocation on (1,2): s = 4 = r − k + 1 and k E_l + s E_m = 0, keeps pair order 4",
+        "collocation on (2,1): s = 3 ≤ r − k = 3, keeps pair order 4",
+    ]
+    assert said((THREE_EIGHTHS, LOBATTO), "interpolation") == [
+        "interpolation on (1,2): δ = 2, ρ − k = 3, keeps pair order 4",
+        "interpolation on (2,1): δ = 3, ρ − k = 3, loses pair order 4",
+    ]
+    assert said(both, "{collocation: 1/2, interpolation: 1/2}") == []
+
+
+def test_weights_of_the_pair_that_are_rounded() -> None:
+    """Within a tolerance the criterion is that of the methods that the file may mean."""
+    b = "[0.166666666666667, 0.666666666666667, 0.166666666666667]"
+    text = f"A: [[0, 0, 0], [0.5, 0, 0], [-1, 2, 0]]\nb: {b}\n"
+    rounded, exact = loads(f"{text}tolerance: 1e-14"), loads(text)
+    assert pair_criterion(rounded.meant).order == 3
+    assert pair_criterion(exact.meant).order == 0
+    assert sum(exact.tableau.colours[0].b, fmpq(0)) != 1
