@@ -134,8 +134,7 @@ def inconsistent_blocks(method: AnyTableau | None) -> tuple[tuple[int, int], ...
     """The blocks with A^{l,m} 𝟙 ≠ c^{l}; none of what does not exist."""
     if method is None:
         return ()
-    consistent = consistent_blocks(method)
-    return tuple(edge for edge, holds in consistent.items() if not holds)
+    return tuple(edge for edge, holds in consistent_blocks(method).items() if not holds)
 
 
 def nonautonomous(

@@ -129,8 +129,7 @@ def _new_file(now: File) -> list[Regression]:
     for claim in now["claims"]:
         if not claim["holds"]:
             name, truth = claim["claim"], claim["found"]
-            before = f"new, expected {claim['expected']}"
-            found.append(Regression(file, name, before, truth))
+            found.append(Regression(file, name, f"new, expected {claim['expected']}", truth))
     return found
 
 
@@ -148,11 +147,9 @@ def _changed(now: File, before: File) -> list[Regression]:
         if claim["holds"] or failed_before:
             continue
         earlier = "held" if name in held else "not claimed"
-        truth = f"found {claim['found']}"
-        found.append(Regression(file, name, earlier, truth))
+        found.append(Regression(file, name, earlier, f"found {claim['found']}"))
     for order in ORDERS:
         old, new = before.get(order), now.get(order)
         if type(old) is int and (new is None or new < old):
-            what = order.replace("_", " ")
-            found.append(Regression(file, what, str(old), str(new)))
+            found.append(Regression(file, order.replace("_", " "), str(old), str(new)))
     return found

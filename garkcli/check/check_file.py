@@ -121,8 +121,7 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
 
 def _claimed(method: MethodFile, key: str) -> int:
     """The order that the file claims; 0 where it claims none."""
-    claims = tuple(claim for claim in method.claims if claim.key == key)
-    return highest_order(claims)
+    return highest_order(tuple(claim for claim in method.claims if claim.key == key))
 
 
 def _blame_for(
@@ -136,8 +135,7 @@ def _blame_for(
 
     missed = Missed(found.order + 1, claimed, key, which)
     if not isinstance(found, Order):
-        near = NEAR * found.tolerance
-        missed = replace(missed, tolerance=found.tolerance, near=near)
+        missed = replace(missed, tolerance=found.tolerance, near=NEAR * found.tolerance)
     return blame_of(tableau, missed)
 
 
@@ -172,8 +170,7 @@ def _with_consequences(
             others.add(claim.claim)
     if not others:
         return blame
-    changed = blame.repairs[0].carried_out(method.tableau)
-    analysis = analyse(changed, limit, method.tolerance)
+    analysis = analyse(blame.repairs[0].carried_out(method.tableau), limit, method.tolerance)
     texts = tuple(claim for claim in method.claims if claim.key in others)
     restored = [claim.claim for claim in verify(texts, analysis) if claim.holds]
     return replace(blame, restores=tuple(restored))

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast, Measure
-from garkcli.order.deciding import AnyOrder
-from garkcli.order.simplifying import Simplifying
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
 from garkcli.properties.subject import Subject
 from garkcli.reason import NO_REASON, Reason
-
-if TYPE_CHECKING:
-    from garkcli.order.dense import DenseOrder
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:
@@ -47,51 +42,26 @@ def _why_none(key: str, analysis: Analysis) -> str:
     return "a weight is zero"
 
 
+PLACES = {
+    **{letter: f"simplifying.{letter}" for letter in "BCD"},
+    "embedded-order": "embedded.order",
+    "embedded-nonautonomous-order": "embedded.nonautonomous_order",
+    "dense-order": "dense.order",
+    "dense-continuous": "dense.ends_at_step",
+    "dense-smooth": "dense.is_smooth",
+}
+"""Where an analysis has what a claim is on, if not under its name."""
+
+
 def found_value(key: str, analysis: Analysis) -> object:
     """What is true of an order, a table, or symplecticity; None where it has no meaning."""
-    table: Simplifying = analysis.simplifying
-    limit = analysis.limit
-    if key.startswith(("embedded", "dense")):
-        return _of_further(key, analysis)
-    return {
-        "order": _order(analysis.order),
-        "conjugate-order": _order(analysis.conjugate_order),
-        "pair-order": _order(analysis.pair_order),
-        "bound": capped(analysis.bound, limit),
-        "pair-bound": capped(analysis.pair_bound, limit),
-        "sharp-bound": capped(analysis.sharp_bound, limit),
-        "pair-sharp-bound": capped(analysis.pair_sharp_bound, limit),
-        "B": capped(table.B, limit),
-        "C": capped(table.C, limit),
-        "D": capped(table.D, limit),
-        "symplectic": analysis.symplectic,
-        "nonautonomous-order": _order(analysis.nonautonomous_order),
-    }[key]
-
-
-def _of_further(key: str, analysis: Analysis) -> object:
-    """What is true of embedded weights and of dense output."""
-    embedded, dense = analysis.embedded, analysis.dense
-    if key.startswith("embedded"):
-        if embedded is None:
-            return None
-        if key == "embedded-order":
-            return _order(embedded.order)
-        return _order(embedded.nonautonomous_order)
-    if dense is None:
-        return None
-    return {
-        "dense-order": _order(dense.order),
-        "dense-continuous": dense.ends_at_step,
-        "dense-smooth": dense.is_smooth,
-    }[key]
-
-
-def _order(found: AnyOrder | DenseOrder | None) -> object:
-    """An order at which nothing is known to fail is at least that large, no more."""
-    if found is None:
-        return None
-    return AtLeast(found.order) if found.is_lower_bound else found.order
+    found: Any = analysis
+    for name in PLACES.get(key, key.replace("-", "_")).split("."):
+        found = found and getattr(found, name)
+    if hasattr(found, "is_lower_bound"):
+        # an order at which nothing is known to fail is at least that large, no more
+        return AtLeast(found.order) if found.is_lower_bound else found.order
+    return capped(found, analysis.limit)
 
 
 def verify_property(claim: ClaimText, subject: Subject) -> Claim:
@@ -153,7 +123,7 @@ def capped(value: object, limit: int) -> object:
 
 def claimed_text(value: object) -> str:
     """A value as it is written in YAML."""
-    if isinstance(value, list):
+    if isinstance(value, (list, tuple)):
         inside = ", ".join(claimed_text(x) for x in value)
         return f"[{inside}]"
     if value is None:

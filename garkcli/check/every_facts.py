@@ -314,9 +314,7 @@ def values_text(roots: Sequence[RealRoot], name: str) -> str:
     for root in roots:
         groups.setdefault(str(root.polynomial), []).append(root)
     named = list(groups.values())[:MOST]
-    texts = [_roots_text(same, name) for same in named]
-    shown = " or ".join(texts)
-    return shown + _others(groups)
+    return " or ".join([_roots_text(same, name) for same in named]) + _others(groups)
 
 
 def _roots_text(same: Sequence[RealRoot], name: str) -> str:
@@ -337,9 +335,7 @@ def _others(everything: Sized) -> str:
 
 def zeros_text(polynomials: Sequence[str]) -> str:
     """That polynomials are zero, all of them."""
-    equations = [f"{p} = 0" for p in polynomials[:MOST]]
-    shown = ", ".join(equations)
-    return shown + _others(polynomials)
+    return ", ".join([f"{p} = 0" for p in polynomials[:MOST]]) + _others(polynomials)
 
 
 def any_zero_text(polynomials: Sequence[str]) -> str:

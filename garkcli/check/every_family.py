@@ -95,8 +95,7 @@ def _in_one_of(p: fmpq_mpoly, index: int) -> Polynomial:
     """A polynomial in which one unknown occurs, in that."""
     powers = {}
     for exponents, a in p.to_dict().items():
-        power = int(exponents[index])
-        powers[power] = fmpq(a)
+        powers[int(exponents[index])] = fmpq(a)
     degree = max(powers)
     return Polynomial([powers.get(k, ZERO) for k in range(degree + 1)])
 
@@ -243,8 +242,7 @@ def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
     shift = len(old.names) - len(new.names)
     for rule in old.rules:
         terms = {tuple(map(int, e[shift:])): a for e, a in rule.instead.to_dict().items()}
-        instead = new.context.from_dict(terms)
-        yield Rule(rule.index - shift, rule.degree, instead)
+        yield Rule(rule.index - shift, rule.degree, new.context.from_dict(terms))
 
 
 def solved(
@@ -263,8 +261,7 @@ def solved(
                 code="no-value-left",
             )
         x = ring.context.gen(ring.names.index(name))
-        slope = p.derivative(ring.names.index(name)).leading_coefficient()
-        value = x - p / slope
+        value = x - p / p.derivative(ring.names.index(name)).leading_coefficient()
         fixed[name] = value
         inside = list(ring.context.gens())
         inside[ring.names.index(name)] = value
@@ -315,8 +312,7 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
     for number, radical in enumerate(family.radicals):
         index = family.ring.names.index(radical.name)
         before = {family.ring.names.index(x.name) for x in family.radicals}
-        used = {k for k, e in enumerate(radical.relation.degrees()) if e}
-        if not used <= before:
+        if not {k for k, e in enumerate(radical.relation.degrees()) if e} <= before:
             raise MethodError(
                 f"{radical.text} depends on a free parameter",
                 "give values with --set: gark check, with a parameter for the root in its place",
@@ -356,8 +352,7 @@ def _instead(
 
 def _is_new(before: Sequence[Radical], radical: Radical) -> bool:
     """Whether a root has the degree of its relation over the field of those before it."""
-    roots = [parse(x.text) for x in (*before, radical)]
-    field = Domain(roots).field
+    field = Domain([parse(x.text) for x in (*before, radical)]).field
     due = 1
     for x in (*before, radical):
         due *= _degree(x)
@@ -405,8 +400,7 @@ class EveryFamily(Frozen):
     @cached_property
     def poles(self) -> tuple[fmpq_mpoly, ...]:
         """Polynomials: where one is zero there is no method."""
-        shown = FamilyConditions(self.tableau, self.ring).denominators
-        return (*shown, *self.family.nonzero)
+        return (*FamilyConditions(self.tableau, self.ring).denominators, *self.family.nonzero)
 
     @cached_property
     def in_points(self) -> Tableau | None:
@@ -519,8 +513,7 @@ class EveryFamily(Frozen):
         if not left:
             return None
         values: dict[str, object] = {}
-        roots = self.ring.names[len(names) :]
-        smaller = Parameters([*left, *roots])
+        smaller = Parameters([*left, *self.ring.names[len(names) :]])
         smaller.shown = self.ring.shown
         smaller.rules = tuple(moved_rules(self.ring, smaller))
         for name in smaller.names:
@@ -605,8 +598,7 @@ def every_family(family: Family) -> EveryFamily:
     relations = [*family.relations]
     for name, (least, greatest) in family.ranges.items():
         if least is not None and least == greatest:
-            index = family.ring.names.index(name)
-            relations.append(family.ring.context.gen(index) - least)
+            relations.append(family.ring.context.gen(family.ring.names.index(name)) - least)
     fixed = solved(relations, family.ring, ranged_last(family))
     left = [x for x in family.parameters if x not in fixed]
     if not left:
@@ -626,8 +618,7 @@ def every_family(family: Family) -> EveryFamily:
     ranges = carried(followed, family.ranges, left)
     if any(least is not None and least == most for least, most in ranges.values()):
         # ranges that meet in one number fix a parameter
-        narrowed = {**family.ranges, **ranges}
-        return every_family(replace(family, ranges=narrowed))
+        return every_family(replace(family, ranges={**family.ranges, **ranges}))
     tableau = member(family.tableau, family.ring, values)  # type: ignore[arg-type]
     made = replace(
         family,

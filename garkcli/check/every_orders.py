@@ -118,8 +118,7 @@ def _higher(
                 found = _real(family, whose, ideal)
                 if family.has_one or not found:
                     return Fact(order, tuple(found)), dimension
-            common = family.common_zeros(ideal.polynomials)
-            return Fact(order, zeros=common), dimension
+            return Fact(order, zeros=family.common_zeros(ideal.polynomials)), dimension
     except NotDecided:
         return Fact(order, zeros=family.common_zeros(zeros)), None
 

@@ -83,8 +83,7 @@ def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
         known = _NOTHING
         if key == "stage-order":
             known = simplifying(tableau, limit)
-        subject = Subject(tableau, 1, known, limit)
-        value = subject.verdict(key).value
+        value = Subject(tableau, 1, known, limit).verdict(key).value
         return value if isinstance(value, (bool, int)) else str(value)
 
     return ask
@@ -164,8 +163,7 @@ def _by_signs(family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[
             return False
         return question.at(family.at(exact)) is True
 
-    found = where(holds, critical)
-    return _of_set(family, found, tuple(unknown))
+    return _of_set(family, where(holds, critical), tuple(unknown))
 
 
 def _weights(tableau: Tableau) -> list[object]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from operator import attrgetter
 
 from flint import fmpq_mpoly
 
@@ -24,7 +24,7 @@ from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import OF_ORDERS, AtLeast, highest_order
 from garkcli.methodfile.family import FamilyFile, family_of, loads_family
-from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
+from garkcli.order.simplifying import is_symplectic, simplifying
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.conjugate import symplectic_defects
@@ -44,26 +44,26 @@ class EveryValue(Frozen):
         family: with what the file fixes put in.
         limit: where the searches for orders and for B, C and D stop.
         order: that of the method.
-        conjugate: that of its symplectic conjugate; None where a weight is zero for every value.
-        pair: that of the symplectic pair; None likewise.
+        conjugate_order: that of its symplectic conjugate; None where a weight is zero.
+        pair_order: that of the symplectic pair; None likewise.
         obstacle: why there is no conjugate; empty where there is one.
         simplifying: B, C and D.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
         symplectic: whether it is its own conjugate.
-        embedded: the order with the embedded weights in place of b; None where there are none.
+        embedded_order: the order with the embedded weights in place of b; None for none.
     """
 
     file: FamilyFile
     family: EveryFamily
     limit: int
     order: EveryOrder
-    conjugate: EveryOrder | None
-    pair: EveryOrder | None
+    conjugate_order: EveryOrder | None
+    pair_order: EveryOrder | None
     obstacle: Reason
     simplifying: Fact
     inconsistent: Fact
     symplectic: Fact
-    embedded: EveryOrder | None = None
+    embedded_order: EveryOrder | None = None
     _known: dict[str, Fact] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -88,18 +88,17 @@ class EveryValue(Frozen):
         return self.inconsistent.is_everywhere and not self.inconsistent.value
 
     @cached_property
-    def nonautonomous(self) -> EveryOrder | None:
+    def nonautonomous_order(self) -> EveryOrder | None:
         """The order on problems ẏ = f(t, y); None where that has no meaning."""
         return self._with_time(self.order, self.file.tableau)
 
     @cached_property
-    def embedded_nonautonomous(self) -> EveryOrder | None:
+    def embedded_nonautonomous_order(self) -> EveryOrder | None:
         """The same with the embedded weights in place of b; None where there are none."""
         rows = self.file.further.embedded
-        if rows is None or self.embedded is None:
+        if rows is None or self.embedded_order is None:
             return None
-        tableau = with_weights(self.file.tableau, rows)
-        return self._with_time(self.embedded, tableau)
+        return self._with_time(self.embedded_order, with_weights(self.file.tableau, rows))
 
     def _with_time(self, order: EveryOrder, tableau: Tableau) -> EveryOrder | None:
         timed = with_time(tableau)
@@ -149,20 +148,19 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
         family=family,
         limit=limit,
         order=order,
-        conjugate=conjugate,
-        pair=both,
+        conjugate_order=conjugate,
+        pair_order=both,
         obstacle=obstacle,
         simplifying=find(family, lambda x: simplifying(x, limit)),
         inconsistent=find(family, inconsistent_blocks),
         symplectic=_symplectic(family),
-        embedded=_embedded(file, limit),
+        embedded_order=_embedded(file, limit),
     )
 
 
 def _order_with(file: FamilyFile, tableau: Tableau, limit: int) -> EveryOrder:
     """The order of another tableau in the same parameters."""
-    family = every_family(replace(file, tableau=tableau))
-    return every_order(family, "method", limit)
+    return every_order(every_family(replace(file, tableau=tableau)), "method", limit)
 
 
 def _embedded(file: FamilyFile, limit: int) -> EveryOrder | None:
@@ -173,8 +171,7 @@ def _embedded(file: FamilyFile, limit: int) -> EveryOrder | None:
 
 
 def _again(text: str, source: str, settings: dict[str, str], limit: int) -> EveryValue:
-    file = loads_family(text, source, settings, is_design=False)
-    return every_value(file, limit)
+    return every_value(loads_family(text, source, settings, is_design=False), limit)
 
 
 def _symplectic(family: EveryFamily) -> Fact:
@@ -230,8 +227,7 @@ def check_every(
         reach = max(limit, highest_order(family.claims) + 1)
         found = every_value(family, reach)
     except MethodFileError as error:
-        faults = error.faults
-        return Outcome(file.source, file.source, faults=faults, text=file.text)
+        return Outcome(file.source, file.source, faults=error.faults, text=file.text)
     except GarkError as error:
         return _refused(file, error.message, error.help, error.code)
     if want_constants:
@@ -255,18 +251,6 @@ def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Out
     return Outcome(file.source, file.source, faults=faults, text=file.text)
 
 
-_OF_TABLES: dict[str, Callable[[Simplifying], Any]] = {
-    "B": lambda x: list(x.B),
-    "C": lambda x: [list(row) for row in x.C],
-    "D": lambda x: [list(row) for row in x.D],
-    "bound": lambda x: x.bound,
-    "sharp-bound": lambda x: x.sharp_bound,
-}
-"""Claims on what B, C and D are."""
-GROWING = OF_ORDERS
-"""Claims on how many conditions hold."""
-
-
 def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim, ...]:
     """Hold each claim against what is true for every value."""
     return tuple(_held_against(claim, found) for claim in claims)
@@ -274,44 +258,19 @@ def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim,
 
 def _held_against(claim: ClaimText, found: EveryValue) -> Claim:
     fact = _fact(claim.key, found)
-    name = next(iter(found.parameters), "")
-    text = fact_text(fact, name, claimed_text)
+    text = fact_text(fact, next(iter(found.parameters), ""), claimed_text)
     return claim_of(claim, text, _holds(claim, fact, found.limit))
 
 
 def _fact(key: str, found: EveryValue) -> Fact:
     """What is true of the subject of a claim."""
-    if key in _OF_TABLES:
-        return found.simplifying.of(_OF_TABLES[key])
-    if key.startswith("pair-") and key != "pair-order":
-        part = _OF_TABLES[key.removeprefix("pair-")]
-        return found.pair_simplifying().of(part)
-    if key == "symplectic":
-        return found.symplectic
     if key in KEYS:
         return found.verdict(key)
-    return _of_order(_order(key, found))
-
-
-def _order(key: str, found: EveryValue) -> EveryOrder | None:
-    """The order that a claim is on."""
-    # few files claim those with time, which are found when they are asked for
-    if key == "nonautonomous-order":
-        return found.nonautonomous
-    if key == "embedded-nonautonomous-order":
-        return found.embedded_nonautonomous
-    return {
-        "order": found.order,
-        "conjugate-order": found.conjugate,
-        "pair-order": found.pair,
-        "embedded-order": found.embedded,
-    }[key]
-
-
-def _of_order(order: EveryOrder | None) -> Fact:
-    if order is None:
-        return Fact(None)
-    return order.fact
+    if key in ("B", "C", "D") or key.endswith("bound"):
+        tables = found.pair_simplifying() if key.startswith("pair-") else found.simplifying
+        return tables.of(attrgetter(key.removeprefix("pair-").replace("-", "_")))
+    value: EveryOrder | Fact | None = getattr(found, key.replace("-", "_"))
+    return value.fact if isinstance(value, EveryOrder) else value or Fact(None)
 
 
 def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool:
@@ -319,14 +278,13 @@ def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool:
     wanted = claim.value
     if fact.is_undecided or fact.where is not None or fact.unknown:
         return False
-    others = (*fact.special, *fact.elsewhere)
-    values = [fact.value, *(value for _, value in others)]
+    values = [fact.value, *(value for _, value in ((*fact.special, *fact.elsewhere)))]
     if not all(agrees(wanted, capped(value, limit)) for value in values):
         return False
     if not fact.open and not fact.zeros:
         return True
     # where polynomials are zero more conditions hold, never less
-    return claim.key in GROWING and _is_bound(wanted)
+    return claim.key in OF_ORDERS and _is_bound(wanted)
 
 
 def _is_bound(wanted: object) -> bool:

@@ -87,13 +87,13 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
             return NO_REASON
         has_colours = analysis.tableau.size > 1
         return dense_witness_text(dense.order.witness, has_colours)
-    order, tableau = _order_of(analysis, claim)
+    order, tableau = order_of(analysis, claim)
     if order is None or tableau is None or order.witness is None:
         return NO_REASON
     return witness_text(order.witness, tableau.size > 1)
 
 
-def _order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau | None]:
+def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau | None]:
     """The order that a claim is on, and the tableau that has it."""
     embedded = analysis.embedded
     if embedded is not None and claim == "embedded-order":
@@ -134,8 +134,7 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
     if blame is not None and claim in blame.restores:
         first = repair_text(blame.repairs[0], names)
         return Reason(f"it fails with {blame.of}, and would hold with {{}}", first)
-    orders = {"order", "conjugate-order", "pair-order", "embedded-order"}
-    if claim not in orders:
+    if claim not in {"order", "conjugate-order", "pair-order", "embedded-order"}:
         return NO_REASON
     found = analysis.suggestion
     if found is not None and claim != "embedded-order":

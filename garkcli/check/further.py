@@ -107,16 +107,14 @@ def _embedded(known: _Method, weights: Weights) -> EmbeddedFacts:
         changed = method.with_weights(weights)
     order = order_of(changed, known.limit, known.spans)
     timed_order = nonautonomous(changed, order, known.inconsistent, known.limit)
-    orders = _orders(order, known.order, known.limit)
-    found = estimator(method, weights, orders, known.spans)
+    found = estimator(method, weights, _orders(order, known.order, known.limit), known.spans)
     return EmbeddedFacts(printed(changed), order, timed_order, found)
 
 
 def _orders(one: AnyOrder, other: AnyOrder, limit: int) -> Orders:
     """What two orders tell of the difference of the two rows of weights."""
     smaller = one if one.order < other.order else other
-    differ = one.order != other.order and not smaller.is_lower_bound
-    return Orders(smaller.order, differ, limit)
+    return Orders(smaller.order, one.order != other.order and not smaller.is_lower_bound, limit)
 
 
 def _dense(known: _Method, dense: DenseOutput) -> DenseFacts:

@@ -149,10 +149,8 @@ def _choices() -> Iterator[Sense]:
         sources = {name: x.reference for name, x in schemes.items()}
         yield _listed(f"scheme of {kind}", texts, sources)
     shapes = {name: x.summary for name, x in SHAPES.items()}
-    pages = dict.fromkeys(SHAPES, "docs/design.md")
-    yield _listed("shape of unknown tableaus", shapes, pages)
-    problems = {name: x.summary for name, x in PROBLEMS.items()}
-    yield _listed("problem", problems)
+    yield _listed("shape of unknown tableaus", shapes, dict.fromkeys(SHAPES, "docs/design.md"))
+    yield _listed("problem", {name: x.summary for name, x in PROBLEMS.items()})
 
 
 def _listed(kind: str, texts: Mapping[str, str], sources: Mapping[str, str] | None = None) -> Sense:

@@ -14,7 +14,6 @@ from garkcli.properties.registry import KEYS, find
 
 ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
 """What is always worth claiming."""
-OF_BLOCKS = ("B", "C", "D")
 DIGITS = 12
 """Of numbers without simple radicals; a decimal claims no further ones."""
 
@@ -43,8 +42,7 @@ def usual_keys(analysis: Analysis) -> list[str]:
     for key in KEYS:
         if not find(key).is_cheap:
             continue
-        value = analysis.subject.verdict(key).value
-        if value is True or key == "stage-order":
+        if analysis.subject.verdict(key).value is True or key == "stage-order":
             found.append(key)
     return found
 

@@ -83,8 +83,7 @@ def _at_most(pair_order: AnyOrder, part: AnyOrder, shift: int) -> AnyOrder:
         return pair_order
     if part.witness is None:
         return part
-    witness = replace(part.witness, tree=_shifted(part.witness.tree, shift))
-    return replace(part, witness=witness)
+    return replace(part, witness=replace(part.witness, tree=_shifted(part.witness.tree, shift)))
 
 
 def _no_earlier(found: RoundedOrder, own: RoundedOrder, conjugated: Tableau) -> RoundedOrder:
@@ -108,5 +107,4 @@ def _no_earlier(found: RoundedOrder, own: RoundedOrder, conjugated: Tableau) -> 
 
 
 def _shifted(tree: Tree, shift: int) -> Tree:
-    branches = tuple(_shifted(branch, shift) for branch in tree.branches)
-    return Tree(tree.root + shift, branches)
+    return Tree(tree.root + shift, tuple(_shifted(branch, shift) for branch in tree.branches))

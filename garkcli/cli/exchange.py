@@ -159,8 +159,7 @@ def audit(given: Given, output: Output) -> int:
         message = "; ".join([_no_table(given.paths, len(files)), *list(unlike(files))[:1]])
         raise UsageProblem(message, "docs/import.md says what is read", code="cannot-import")
     output.suit()
-    render = RENDERERS[output.format]
-    output.write(render(found, output.paint, output.verbosity, output.width))
+    output.write(RENDERERS[output.format](found, output.paint, output.verbosity, output.width))
     if any(x.has_errors for x in found) or (given.strict and any(x.looks_like for x in found)):
         return 1
     return 0 if any(x.is_read for x in found) else 2

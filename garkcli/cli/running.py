@@ -392,8 +392,7 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
     proved = is_proved(tableau, run.problem, method.tolerance)
     if not is_measured:
         return Symplecticity(proved)
-    defects = symplecticity_defects(tableau, run.problem, run.step, run.states)
-    return Symplecticity(proved, defects)
+    return Symplecticity(proved, symplecticity_defects(tableau, run.problem, run.step, run.states))
 
 
 def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:

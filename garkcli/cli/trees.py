@@ -114,8 +114,7 @@ def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
 
     if not query.upto:
         return [(query.order, count_by_root(query.colours, query.order))]
-    admissible = Admissible.of(query.colours)
-    return list(enumerate(counts_upto(admissible, query.order), start=1))
+    return list(enumerate(counts_upto(Admissible.of(query.colours), query.order), start=1))
 
 
 def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
@@ -152,8 +151,7 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
     if len(drawn) > MAX_PICTURES:
         message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
         raise UsageProblem(message, "draw one order or one root", code="too-many")
-    labels = [format_tree(tree, has_colours) for tree in drawn]
-    write_whole(path, [draw_svg_sheet(drawn, labels)])
+    write_whole(path, [draw_svg_sheet(drawn, [format_tree(tree, has_colours) for tree in drawn])])
     output.note(f"wrote {path}")
 
 
@@ -193,8 +191,7 @@ def _free_trees(kind: Kind, given: Given, output: Output) -> None:
     else:
         lines = subject.independent
         _refuse_millions(lines, given.yes)
-        classes = counting("trees", subject.classes(), lines)
-        found = report.FreeList(subject, classes, given.members)
+        found = report.FreeList(subject, counting("trees", subject.classes(), lines), given.members)
         output.stream(report.REPORT, found, given.document)
 
 

@@ -25,6 +25,7 @@ LABELS = {
     "inconsistent_blocks": "row sums that differ",
     "nodes_in_unit_interval": "nodes in [0, 1]",
     "nonautonomous_order": "non-autonomous order",
+    "embedded_nonautonomous_order": "embedded non-autonomous order",
     "open_points": "not decided",
     "pair_criterion": "why this pair order",
     "phase_order": "phase lag",

@@ -99,8 +99,7 @@ def ark(at: Reading, node: Node) -> ArkText | None:
         one_each(at, entries["b"], name, row, "entry", "stage", stages, "give a weight a stage")
     if c is not None:
         nodes_fit(at, entries["c"], "c", c, stages)
-    beside = further_of_colours(at, entries, [stages] * colours, is_shared=True)
-    return ArkText(A, b, c, beside)
+    return ArkText(A, b, c, further_of_colours(at, entries, [stages] * colours, is_shared=True))
 
 
 def _matrices(at: Reading, node: Node) -> list[Rows] | None:

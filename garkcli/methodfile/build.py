@@ -165,11 +165,9 @@ class BlockBuilder:
 
     def _of_both(self, rule: str, l: int, m: int) -> Matrix:
         """A block by a rule that makes it together with the opposite one."""
-        orders = [self._order(k) for k in range(len(self.methods))]
-        base = build_on(self.methods, orders, l, m)
+        base = build_on(self.methods, [self._order(k) for k in range(len(self.methods))], l, m)
         other = l if base == m else m
-        made = symplectic_blocks(PAIR_RULES[rule], self.methods, base, other)
-        return made[l, m]
+        return symplectic_blocks(PAIR_RULES[rule], self.methods, base, other)[l, m]
 
     def _combined(self, text: RuleText, l: int, m: int) -> Matrix:
         """A combination of blocks by rules.
@@ -327,8 +325,7 @@ class Builder:
     def _spelled_out(self, text: TableauText) -> Tableau:
         A = [[self._matrix(block) for block in row] for row in text.A]
         b = [self.values.vector(row) for row in text.b]
-        c = [self._vector(row) for row in text.c]
-        return spelled_out(A, b, c, text.linear)
+        return spelled_out(A, b, [self._vector(row) for row in text.c], text.linear)
 
     def _prk(self, text: PrkText, structure: Structure) -> Tableau:
         q, p = self._part(text.q), self._part(text.p)

@@ -215,8 +215,7 @@ def _walk(root: Node) -> None:
         if count > MAX_NODES:
             raise TooLargeError(root, _TOO_MANY, "aliases count each time")
         if depth > MAX_NESTING:
-            cure = "no file needs that; or an anchor contains itself"
-            raise TooLargeError(node, _TOO_DEEP, cure)
+            raise TooLargeError(node, _TOO_DEEP, "no file needs that; or an anchor contains itself")
         if not isinstance(node, ScalarNode):
             is_mapping = isinstance(node, MappingNode)
             children = chain.from_iterable(node.value) if is_mapping else node.value
@@ -254,9 +253,7 @@ def place_of_sign(text: str, sign: object) -> tuple[int, int]:
 
 
 def _line_and_column(text: str, position: int) -> tuple[int, int]:
-    line = text.count("\n", 0, position) + 1
-    line_end = text.rfind("\n", 0, position)
-    return line, position - line_end
+    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
 
 
 MOST_LOOKED_AT = 20_000

@@ -92,8 +92,7 @@ def methods(
     every = [_method(at, item, l) for l, item in enumerate(items, start=1)]
     found = [x for x in every if x is not None]
     if not items and isinstance(node, SequenceNode):
-        cure = "list at least one diagonal method"
-        at.source.fault(node, "methods is empty", cure, code="empty")
+        at.source.fault(node, "methods is empty", "list at least one diagonal method", code="empty")
     if structure != "general" and len(items) != 2:
         message = f"structure: {structure} is for two colours, not {len(items)}"
         at.source.fault(node, message, code="not-together")
@@ -138,8 +137,7 @@ def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
     if found is None:
         return None
     family, entries = found
-    beside = further_of_method(at, entries, family.stages, names_beside(b))
-    return replace(family, further=beside)
+    return replace(family, further=further_of_method(at, entries, family.stages, names_beside(b)))
 
 
 def _written_out(node: ScalarNode) -> str:

@@ -200,8 +200,7 @@ OF_ORDERS = {*(key for key, x in ORDERS.items() if x.kind != "truth"), "stage-or
 
 def highest_order(claims: tuple[ClaimText, ...]) -> int:
     """The largest order that occurs in the claims."""
-    found = [_largest(claim.value) for claim in claims if claim.key in OF_ORDERS]
-    return max(found, default=0)
+    return max([_largest(claim.value) for claim in claims if claim.key in OF_ORDERS], default=0)
 
 
 def _largest(wanted: object) -> int:

@@ -43,8 +43,7 @@ def extent(text: str, first: Node, last: Node) -> Extent:
     without the blanks after them.
     """
     start, end = first.start_mark.index, last.end_mark.index
-    written = text[start:end].rstrip()
-    return start, start + len(written)
+    return start, start + len(text[start:end].rstrip())
 
 
 def is_null(node: Node) -> bool:
@@ -70,8 +69,7 @@ def one_line(text: str) -> str:
     >>> one_line("Gauss 2\n  and \x1b more")
     'Gauss 2 and more'
     """
-    signs = [x if x.isprintable() else " " for x in text]
-    words = "".join(signs).split()
+    words = "".join([x if x.isprintable() else " " for x in text]).split()
     return " ".join(words)
 
 

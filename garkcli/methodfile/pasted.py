@@ -171,8 +171,7 @@ def _line(text: str, sign: str) -> _Line:
         while cells and not cells[-1]:
             cells.pop()
         return _Line(node, tuple(x or "0" for x in cells))
-    stripped = text.strip().removesuffix(";").strip()
-    *before, numbers = _BAR.split(stripped, maxsplit=1)
+    *before, numbers = _BAR.split(text.strip().removesuffix(";").strip(), maxsplit=1)
     row = tuple(filter(None, _BETWEEN.split(numbers.strip(" |"))))
     return _Line(before[0].strip() if before else None, row)
 
@@ -232,5 +231,4 @@ def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> 
                 "a weight a stage, zeros too",
                 code="pasted-tableau",
             )
-    filled = tuple(_filled(row, stages) for row in rows)
-    return Pasted(filled, weights[0], nodes, *weights[1:])
+    return Pasted(tuple(_filled(row, stages) for row in rows), weights[0], nodes, *weights[1:])

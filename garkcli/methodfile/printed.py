@@ -80,8 +80,7 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
     >>> units[values[0]], 0 < units[values[1]] < fmpq(1, 10**22), units[values[2]]
     (0, True, 0)
     """
-    decimals = [pair for pair in printed if not _is_whole(pair[0])]
-    units = printed_units(decimals, MANY_DIGITS)
+    units = printed_units([pair for pair in printed if not _is_whole(pair[0])], MANY_DIGITS)
     for expression, value in printed:
         if _is_whole(expression):
             units.setdefault(value, _approximation(value))
@@ -132,8 +131,7 @@ def _literals(expression: Expression) -> Iterator[Literal]:
 
 def _digits(literal: Literal) -> int:
     """Digits of a printed number, without zeros in front."""
-    mantissa = literal.text.lower().partition("e")[0]
-    return len(mantissa.replace(".", "").lstrip("0"))
+    return len(literal.text.lower().partition("e")[0].replace(".", "").lstrip("0"))
 
 
 def _unit(literal: Literal) -> fmpq:

@@ -168,8 +168,7 @@ class _ProblemReader:
         if form is not None:
             SOLUTION.refuse(source, root, FILE, entries, form)
         start = {key: x for key, x in entries.items() if key != "exact" or form == "rhs"}
-        cure = f"write {variables.example_start()}"
-        replace(START, cure=cure).refuse(source, root, FILE, start)
+        replace(START, cure=f"write {variables.example_start()}").refuse(source, root, FILE, start)
         self._check_stiffness(root, form)
         if form is None:
             return None

@@ -260,5 +260,4 @@ class Reader(Reading):
         """From where to where ``design: …`` stands; None where there is none."""
         if self.design is None or self._root is None:
             return None
-        key = key_of(self._root, self.design)
-        return extent(self.source.text, key, self.design)
+        return extent(self.source.text, key_of(self._root, self.design), self.design)

@@ -40,8 +40,7 @@ def key_of(name: str) -> str:
     >>> key_of("Dormand_Prince 5"), key_of("Runge–Kutta")
     ('dormand-prince-5', 'runge-kutta')
     """
-    text = unicodedata.normalize("NFC", name).casefold()
-    return _BETWEEN_WORDS.sub("-", text.strip())
+    return _BETWEEN_WORDS.sub("-", unicodedata.normalize("NFC", name).casefold().strip())
 
 
 def letters_of(name: str) -> str:
@@ -134,8 +133,7 @@ class OwnFolder(Shelf):
                 continue  # a folder that cannot be read
             parts = os.path.relpath(path, self.label).split(os.sep)
             folder = parts[0] if len(parts) > 1 else ""
-            name = parts[-1].removesuffix(SUFFIX)
-            yield Shelved(name, folder, path, self.label, _text_of(path))
+            yield Shelved(parts[-1].removesuffix(SUFFIX), folder, path, self.label, _text_of(path))
 
 
 def _text_of(path: str) -> Callable[[], str]:
@@ -148,8 +146,7 @@ class Package(Shelf):
     @cached_property
     def entries(self) -> Mapping[str, Mapping[str, Any]]:
         """What the index says of each, by its name."""
-        text = _resource(INDEX).decode("utf-8")
-        return {x["name"]: x for x in json.loads(text)["methods"]}
+        return {x["name"]: x for x in json.loads(_resource(INDEX).decode("utf-8"))["methods"]}
 
     def called(self, method: Shelved) -> Sequence[str]:
         """The aliases of one of its methods; no file is read for it."""
@@ -160,8 +157,7 @@ class Package(Shelf):
         for name, entry in self.entries.items():
             file = entry["file"]
             folder = file.partition("/")[0]
-            text = _text_within(f"{DATA}/{file}", name)
-            yield Shelved(name, folder, file, self.label, text)
+            yield Shelved(name, folder, file, self.label, _text_within(f"{DATA}/{file}", name))
 
 
 def _text_within(file: str, name: str) -> Callable[[], str]:
@@ -221,8 +217,7 @@ def package() -> Package:
 
 def own_folders() -> list[Shelf]:
     """The folders of ``GARK_PATH`` that there are, in its order."""
-    path = os.environ.get(PATH_VARIABLE, "")
-    folders = dict.fromkeys(x for x in path.split(os.pathsep) if x)
+    folders = dict.fromkeys(x for x in os.environ.get(PATH_VARIABLE, "").split(os.pathsep) if x)
     return [OwnFolder(x) for x in folders if os.path.isdir(x)]
 
 

@@ -61,8 +61,7 @@ class SidesMaker:
         invariants = self._invariants()
         all_terms = list(chain(*(term.values() for term in terms)))
         if start is not None:
-            at = {**start, TIME: fmpq(0)}
-            self.reader.check_values([*all_terms, *invariants], at)
+            self.reader.check_values([*all_terms, *invariants], {**start, TIME: fmpq(0)})
         self.reader.check_size(all_terms)
         solution = [] if exact is None else list(exact.values())
         self.reader.check_numbers([*all_terms, *invariants, *solution])
@@ -159,8 +158,7 @@ class SidesMaker:
         found = {}
         for name, term in exact.items():
             where = f"{term.where} at t = 0"
-            at = {TIME: fmpq(0)}
-            value = self.formulas.value(term.expression, term.node, where, at)
+            value = self.formulas.value(term.expression, term.node, where, {TIME: fmpq(0)})
             if value is not None:
                 found[name] = nearby(value)
         return found if len(found) == len(exact) else None
@@ -182,8 +180,7 @@ class SidesMaker:
         """
         from garkcli.problems.mass import enclosed
 
-        solution = problem.exact or ()
-        places = dict(zip(self.y, solution, strict=True))
+        places = dict(zip(self.y, problem.exact or (), strict=True))
         totals = dict(zip(problem.variables, problem.total, strict=True))
         for part in _TRIES:
             time = part * problem.t_end

@@ -178,8 +178,7 @@ class Source:
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
-        fault = Fault(printable(text), printable(cure), line, column, code=code)
-        self._note(fault, cause, is_one)
+        self._note(Fault(printable(text), printable(cure), line, column, code=code), cause, is_one)
 
     def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
         self._found.append(Found(fault, cause, is_one))

@@ -332,8 +332,7 @@ def _blocks(at: Reading, entries: Entries, linear: Node | None) -> TableauText |
     if not b or not all(b) or any(len(row) != len(b) for row in A):
         return None
     colours = _linear(at, linear, len(b))
-    beside = further_of_colours(at, entries, [len(row) for row in b])
-    return TableauText(A, b, c, colours, beside)
+    return TableauText(A, b, c, colours, further_of_colours(at, entries, [len(row) for row in b]))
 
 
 def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
@@ -380,8 +379,7 @@ def _linear(at: Reading, node: Node | None, colours: int) -> tuple[int, ...]:
         colour = at.source.whole(item, "linear", smallest=1)
         if colour is not None and colour > colours:
             there = "there is 1" if colours == 1 else f"there are {colours}"
-            message = f"linear: there is no colour {colour}"
-            at.source.fault(item, message, there, code="wrong-value")
+            at.source.fault(item, f"linear: there is no colour {colour}", there, code="wrong-value")
         elif colour is not None:
             found.append(colour - 1)
     return tuple(found)

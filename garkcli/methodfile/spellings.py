@@ -36,8 +36,7 @@ def opens(node: Node) -> bool:
 def first_list_in_rows(items: Sequence[Node]) -> Node | None:
     """The first entry of a matrix that is a list itself."""
     rows = (row.value for row in items if isinstance(row, SequenceNode))
-    lists = (x for x in chain.from_iterable(rows) if isinstance(x, SequenceNode))
-    return next(lists, None)
+    return next((x for x in chain.from_iterable(rows) if isinstance(x, SequenceNode)), None)
 
 
 _SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")

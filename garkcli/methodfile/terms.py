@@ -101,8 +101,7 @@ class Maker:
             self.source.fault(node, "initial: velocities and momenta", cure, code="given-twice")
         elif len(self.source.faults) == before:
             (motion,) = given or motions[-1:]
-            needed = (*self.q, *motion)
-            self.reader.refuse_missing(node, "initial", needed, entries, _NUMBER)
+            self.reader.refuse_missing(node, "initial", (*self.q, *motion), entries, _NUMBER)
         return values if len(self.source.faults) == before else None
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:

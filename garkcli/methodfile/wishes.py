@@ -70,8 +70,7 @@ def _ranges(at: Any, node: Node, where: str) -> None:
     free = at.numbers.free
     for name, value, place in _unknowns(at, node, where):
         known = free[name]
-        ranges = (*known.ranges, *RANGE.read(at, value, place))
-        free[name] = Free(known.node, ranges, known.where)
+        free[name] = Free(known.node, (*known.ranges, *RANGE.read(at, value, place)), known.where)
 
 
 def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:

@@ -102,13 +102,10 @@ def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
         c = rounded(entries.c[l])
         colours.append(replace(colour, b=b, c=c))
         nodes[colour.space] = c
-    ordered = [nodes[k] for k in range(len(tableau.spaces))]
-    spaces = tuple(map(PointSpace, ordered))
+    spaces = tuple(map(PointSpace, [nodes[k] for k in range(len(tableau.spaces))]))
     blocks: dict[tuple[int, int], Matrix] = {}
     for l, m in tableau.edges():
-        block = entries.A[l][m] or ()
-        place = colours[l].space, m
-        blocks[place] = tuple(map(rounded, block))
+        blocks[(colours[l].space, m)] = tuple(map(rounded, entries.A[l][m] or ()))
     return Tableau(spaces, tuple(colours), blocks)
 
 
@@ -169,8 +166,7 @@ def _ark(tableau: Tableau, text: NumberText) -> list[str]:
     lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
     for m in range(tableau.size):
         lines += [f"    -  # A^{{{m + 1}}}", *_items(tableau.blocks[0, m], 6, text)]
-    weights = (colour.b for colour in tableau.colours)
-    return [*lines, "  b:", *_items(weights, 4, text)]
+    return [*lines, "  b:", *_items((colour.b for colour in tableau.colours), 4, text)]
 
 
 def _items(rows: Iterable[Vector], indent: int, text: NumberText) -> Iterator[str]:

@@ -17,8 +17,7 @@ def cell_text(cell: Cell, digits: int) -> str:
         return to_text(cell)
     if cell.contains(0):
         return "0"
-    decimal = cell.str(digits, radius=False)
-    return without_zeros(decimal)
+    return without_zeros(cell.str(digits, radius=False))
 
 
 def without_zeros(decimal: str) -> str:

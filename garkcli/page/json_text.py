@@ -15,8 +15,7 @@ def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
     >>> to_json({"float": float("inf"), "exact": "10**400"}, indent=None)
     '{"float": null, "exact": "10**400"}'
     """
-    finite = _finite(data)
-    return json.dumps(finite, indent=indent, ensure_ascii=ascii_only, allow_nan=False)
+    return json.dumps(_finite(data), indent=indent, ensure_ascii=ascii_only, allow_nan=False)
 
 
 def _finite(data: Any) -> Any:

@@ -69,10 +69,9 @@ class Record(Generic[Whole]):
     @property
     def schema(self) -> Schema:
         """The JSON Schema (draft-07) of such objects."""
-        required = [field.name for field in self.fields if not field.is_optional]
         schema: Schema = {
             "type": "object",
-            "required": required,
+            "required": [field.name for field in self.fields if not field.is_optional],
             "properties": {field.name: field.schema for field in self.fields},
         }
         if not self.is_open:
@@ -83,8 +82,7 @@ class Record(Generic[Whole]):
         """The schema of these objects with a last field, a list that is written row by row."""
         schema = self.schema
         properties = {**schema["properties"], name: array(row.schema)}
-        required = [*schema["required"], name]
-        return {**schema, "required": required, "properties": properties}
+        return {**schema, "required": [*schema["required"], name], "properties": properties}
 
     def every(self, name: str, parts: Callable[[Owner], Iterable[Whole]]) -> Field[Owner]:
         """A field with a list of these objects, one for each part."""

@@ -54,12 +54,8 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
         column = _colour_column(tableau, entries, shown, m)
         columns.append(column)
     widths = [max(map(len, column)) for column in columns]
-    lines = []
-    for cells in zip(*columns, strict=True):
-        padded = map(str.rjust, cells, widths)
-        lines.append(" | ".join(padded))
-    dashes = ["-" * width for width in widths]
-    rule = "-+-".join(dashes)
+    lines = [" | ".join(map(str.rjust, cells, widths)) for cells in zip(*columns, strict=True)]
+    rule = "-+-".join(["-" * width for width in widths])
     out = [lines[0], rule]
     start = 1
     for l in shown:
@@ -154,8 +150,7 @@ def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
         title = name
         if len(group) < count:
             title += f", {_numbers(group)} of {count}"
-        beside = [row[group.start : group.stop] for row in cells]
-        rows = aligned(beside, _GAP, right=False)
+        rows = aligned([row[group.start : group.stop] for row in cells], _GAP, right=False)
         lines.append(f"{title} =")
         lines += indented(rows, _MARGIN)
         lines.append("")
@@ -193,8 +188,7 @@ def _vector(name: str, texts: Sequence[str], width: int) -> list[str]:
     """Nodes or weights, in as many lines as they need."""
     lines = [f"{name} ="]
     margin = " " * (len(name) + 2)
-    ends = [","] * (len(texts) - 1) + [""]
-    for text, end in zip(texts, ends, strict=True):
+    for text, end in zip(texts, [","] * (len(texts) - 1) + [""], strict=True):
         longer = f"{lines[-1]} {text}{end}"
         if len(longer) <= width:
             lines[-1] = longer

@@ -164,8 +164,7 @@ def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
         for x in found.findings:
             key = fingerprint(f"{file}\0{name}\0{x.code}")
             message = f"{name or 'a table'}: {x.message}"
-            line = found.table.line
-            yield Finding(x.code, file, line, 1, message, x.help, key, x.level)
+            yield Finding(x.code, file, found.table.line, 1, message, x.help, key, x.level)
 
 
 def _told(
@@ -181,8 +180,7 @@ def _told(
 
 def _github(tables: Sequence[Audited], *_: Any) -> str:
     """A workflow command for each finding, and the text for the log."""
-    commands = [annotation(x) for x in _findings(tables)]
-    told = "".join(f"{x}\n" for x in commands)
+    told = "".join(f"{x}\n" for x in [annotation(x) for x in _findings(tables)])
     return told + commands_off(_told(tables, verbosity=-1))
 
 

@@ -91,11 +91,8 @@ def _theta_between(field: NumberField) -> list[str]:
 
 def _between_nodes(modulus: fmpq_poly) -> list[fmpq]:
     """Points to the left of the nodes, between neighbours, and to the right."""
-    polynomial = Polynomial.from_flint(modulus)
-    nodes = [root for root, _ in real_roots(polynomial)]
-    left_ends = [None, *nodes]
-    right_ends = [*nodes, None]
-    gaps = zip(left_ends, right_ends, strict=True)
+    nodes = [root for root, _ in real_roots(Polynomial.from_flint(modulus))]
+    gaps = zip([None, *nodes], [*nodes, None], strict=True)
     return [between(a, b) for a, b in gaps]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text
+from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text, order_of
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.frozen import replace
@@ -160,16 +160,10 @@ def embedded_with_time(a: Any) -> Answer:
 def witnesses(a: Any) -> list[tuple[Any, Any]]:
     """The conditions at which orders end, each once, with the tableau that misses it."""
     found: list[tuple[Any, Any]] = []
-    embedded = a.embedded
-    for one, tableau in (
-        (a.order, a.tableau),
-        (a.conjugate_order, a.conjugate),
-        (a.pair_order, a.pair),
-        (embedded and embedded.order, embedded and embedded.tableau),
-    ):
-        witness = one and one.witness
-        if witness and witness not in [x for x, _ in found]:
-            found.append((witness, tableau))
+    for claim in ("order", "conjugate-order", "pair-order", "embedded-order"):
+        order, tableau = order_of(a, claim)
+        if order and order.witness and order.witness not in [x for x, _ in found]:
+            found.append((order.witness, tableau))
     return found
 
 
@@ -720,13 +714,7 @@ ANALYSIS = [
     of_several("pair_order"),
     Row("nonautonomous_order", ORDER, with_time, has_null=True),
     order("embedded_order", lambda a: a.embedded and a.embedded.order),
-    Row(
-        "embedded_nonautonomous_order",
-        ORDER,
-        embedded_with_time,
-        has_null=True,
-        label="embedded non-autonomous order",
-    ),
+    Row("embedded_nonautonomous_order", ORDER, embedded_with_time, has_null=True),
     Row(
         "error_estimate",
         part(ESTIMATE, estimate_words),

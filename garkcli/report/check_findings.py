@@ -130,15 +130,13 @@ def _add_suite(root: ET.Element, outcome: Outcome) -> None:
 
 def _clean(text: str) -> str:
     """``text`` without characters that XML has no way to write; signs that turn text by name."""
-    writable = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
-    return "\n".join(map(printable, writable.split("\n")))
+    return "\n".join(map(printable, _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text).split("\n")))
 
 
 def sarif(outcomes: Sequence[Outcome]) -> str:
     """One run with a result for each finding."""
     found = [x for outcome in outcomes for x in findings(outcome)]
-    kinds = {key: kind.text for key, kind in KINDS.items()}
-    return log_of(found, kinds)
+    return log_of(found, {key: kind.text for key, kind in KINDS.items()})
 
 
 def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:

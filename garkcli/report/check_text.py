@@ -102,7 +102,6 @@ def faults_lines(outcome: Outcome, paint: Paint) -> Iterator[str]:
         kind = f"{paint('bad', 'error')}[{fault.code}]"
         yield f"{place}: {kind}: {printable(fault.message)}"
         if 0 < fault.line <= len(source):
-            shown = source[fault.line - 1]
-            yield from excerpt(shown, fault.line, fault.column, paint("bad", "^"))
+            yield from excerpt(source[fault.line - 1], fault.line, fault.column, paint("bad", "^"))
         if fault.help:
             yield f"      {paint('note', 'help')}: {printable(fault.help)}"

@@ -104,8 +104,7 @@ def _key(cited: Cited) -> str:
 
 def _key_of_method(name: str) -> str:
     """A method that has no authors, by the name of its file without folders."""
-    file = re.split(r"[\\/]", name)[-1]
-    return ascii_letters(file.partition(".")[0]) or "method"
+    return ascii_letters(re.split(r"[\\/]", name)[-1].partition(".")[0]) or "method"
 
 
 def last_name(name: str) -> str:
@@ -160,8 +159,7 @@ def _entry_type(reference: Reference) -> str:
 
 def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
     """The fields of an entry with their values, those that there are."""
-    kind = _entry_type(reference)
-    home = "school" if kind.endswith("thesis") else "institution"
+    home = "school" if _entry_type(reference).endswith("thesis") else "institution"
     notes = [reference.where, reference.note]
     note = "; ".join(letters(x) for x in notes if x)
     found = {

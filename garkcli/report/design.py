@@ -381,8 +381,7 @@ def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
     """A best method and what is known of it."""
     said = []
     if candidate.proof == "exists":
-        text = f"within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test"
-        said.append(text)
+        said.append(f"within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test")
     if candidate.proof == "numerical":
         said.append("better than what was tried around it")
     if candidate.is_constant:

@@ -174,23 +174,20 @@ def of(name: str) -> Callable[[Any], Fact]:
     return get
 
 
-def obstacle(get: Callable[[Any], Any]) -> Callable[[Any], Answer]:
+def of_several(key: str) -> Row:
     """An order of the conjugate or the pair, or why there is none; a detail of one colour."""
 
-    def answer(e: Any) -> Answer:
-        reason = NO_REASON if get(e) is not None else e.obstacle
-        return Answer(get(e), reason=reason, level=None if e.tableau.size > 1 else DETAIL)
+    def get(e: Any) -> Answer:
+        value = getattr(e, key)
+        reason = NO_REASON if value is not None else e.obstacle
+        return Answer(value, reason=reason, level=None if e.tableau.size > 1 else DETAIL)
 
-    return answer
+    return Row(key, EVERY_ORDER, get, has_null=True)
 
 
-def _with_time(e: Any) -> Any:
+def with_time(key: str) -> Row:
     """The order on problems with time, where the nodes are not the row sums."""
-    return None if e.is_consistent else e.nonautonomous
-
-
-def _embedded_with_time(e: Any) -> Any:
-    return None if e.is_consistent else e.embedded_nonautonomous
+    return Row(key, TOLD_ORDER, lambda e: None if e.is_consistent else getattr(e, key))
 
 
 TOLD_ORDER = replace(EVERY_ORDER, is_data=False)
@@ -199,16 +196,11 @@ FAMILY = [
     Row("unknowns", TEXTS, lambda e: list(e.parameters), DATA),
     Row("colours", TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
     Row("order", EVERY_ORDER, level=HEADLINE),
-    Row("conjugate_order", EVERY_ORDER, obstacle(lambda e: e.conjugate), has_null=True),
-    Row("pair_order", EVERY_ORDER, obstacle(lambda e: e.pair), has_null=True),
-    Row("nonautonomous_order", TOLD_ORDER, _with_time),
-    Row("embedded_order", EVERY_ORDER, lambda e: e.embedded, has_null=True),
-    Row(
-        "embedded_nonautonomous_order",
-        TOLD_ORDER,
-        _embedded_with_time,
-        label="embedded non-autonomous order",
-    ),
+    of_several("conjugate_order"),
+    of_several("pair_order"),
+    with_time("nonautonomous_order"),
+    Row("embedded_order", EVERY_ORDER, has_null=True),
+    with_time("embedded_nonautonomous_order"),
     Row(
         "dense",
         replace(TEXT, is_data=False),

@@ -34,8 +34,7 @@ def method_latex(method: GarkMethod) -> str | None:
     if _is_large(method):
         return None
     entries = method.entries
-    lines = displays(method.tableau, entries, entries.embedded)
-    return "\n".join(lines)
+    return "\n".join(displays(method.tableau, entries, entries.embedded))
 
 
 def method_html(method: GarkMethod) -> str:

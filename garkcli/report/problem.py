@@ -37,9 +37,7 @@ def describe(problem: Stepped) -> str:
 
 def _numbered(energies: Sequence[str]) -> str:
     """The terms of a Hamiltonian by the numbers of their colours."""
-    numbered = enumerate(energies, start=1)
-    terms = [f"H{{{l}}}: {text}" for l, text in numbered]
-    return ", ".join(terms)
+    return ", ".join([f"H{{{l}}}: {text}" for l, text in enumerate(energies, start=1)])
 
 
 def _energy(k: object, v: object) -> str:

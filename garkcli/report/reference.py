@@ -40,8 +40,7 @@ def keys_table(kind: str) -> str:
     rows = []
     for key in keys_of(kind).values():
         example = key.example.replace("|", "\\|")
-        said = _cell(_said(key))
-        rows.append((f"`{key.path}`", said, f"`{example}`"))
+        rows.append((f"`{key.path}`", _cell(_said(key)), f"`{example}`"))
     return _table(("key", "what it is", "example"), rows)
 
 
@@ -57,11 +56,10 @@ def _said(key: Key) -> str:
 
 def findings_table(command: str) -> str:
     """The findings of a command as a table in Markdown."""
-    rows = []
-    for found in findings_of(command).values():
-        text = _cell(found.text)
-        cure = _cell(found.cure)
-        rows.append((f"`{found.code}`", text, cure))
+    rows = [
+        (f"`{found.code}`", _cell(found.text), _cell(found.cure))
+        for found in findings_of(command).values()
+    ]
     return _table(("code", "what it means", "what to do"), rows)
 
 
@@ -74,8 +72,7 @@ def fields_table() -> str:
             reports.setdefault(field, {})[report] = None
     rows = []
     for (name, text), named in sorted(reports.items()):
-        all_reports = ", ".join(named)
-        rows.append((f"`{name}`", all_reports, _cell(text)))
+        rows.append((f"`{name}`", ", ".join(named), _cell(text)))
     return _table(("field", "in the reports", "what it holds"), rows)
 
 

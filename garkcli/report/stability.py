@@ -324,8 +324,7 @@ def phase(o: Any) -> Answer:
     if o.phase.order is None:
         return Answer(None, reason=Reason("none: the frequency is exact"))
     if o.phase.constant is None:
-        reason = Reason("the frequency is wrong for small step sizes")
-        return Answer(o.phase.order, reason=reason)
+        return Answer(o.phase.order, reason=Reason("the frequency is wrong for small step sizes"))
     lag = term("z", o.phase.order + 1)
     return Answer(o.phase.order, reason=Reason("{}", lag(o.phase.constant)))
 
@@ -512,8 +511,7 @@ FACTOR = Section(
 
 
 def _factors_words(found: Any, d: Plain) -> str:
-    texts = (d.polynomial(p, "x") + (f", {k} times" if k > 1 else "") for p, k in found)
-    return "; ".join(texts)
+    return "; ".join(d.polynomial(p, "x") + (f", {k} times" if k > 1 else "") for p, k in found)
 
 
 SPRINGS = Section(

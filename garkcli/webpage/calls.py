@@ -27,5 +27,4 @@ def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool 
     if not methods:
         raise MethodError("a page of no method", "give at least one", code="arrays")
     listed = None if order is None else whole(order, "order", 1)
-    found = [reported(x, listed, has_pictures=pictures) for x in methods]
-    return render(found)
+    return render([reported(x, listed, has_pictures=pictures) for x in methods])

@@ -119,8 +119,7 @@ def comparison_row(method: Reported) -> dict[str, Any]:
             if key in facts and facts[key].value is not None:
                 cells[column] = cell(facts[key], d)
         cells["how"] = how(facts["order"])
-        stages = [str(tableau.space(l).stages) for l in range(tableau.size)]
-        cells["stages"] = ", ".join(stages)
+        cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
     if outcome.analysis is not None:
         cells["symmetric"] = verdict_words(outcome.analysis.subject.verdict("symmetric"))
     mark = "none" if outcome.makes_no_claim else _mark(outcome)

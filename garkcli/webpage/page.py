@@ -62,8 +62,7 @@ def _title(methods: Sequence[Reported]) -> str:
 
 def _method(method: Reported, number: int) -> Content:
     """A method with its sections."""
-    place = f"m{number}"
-    return {"place": place, "heading": heading(method), "sections": list(_sections(method))}
+    return {"place": f"m{number}", "heading": heading(method), "sections": list(_sections(method))}
 
 
 def _sections(method: Reported) -> Iterator[tuple[Section, Content]]:
@@ -107,5 +106,4 @@ def _visible(value: object) -> object:
 
 @cache
 def _static(name: str) -> str:
-    place = files("garkcli.webpage") / "static" / name
-    return place.read_text(encoding="utf-8")
+    return (files("garkcli.webpage") / "static" / name).read_text(encoding="utf-8")

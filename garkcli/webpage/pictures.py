@@ -268,8 +268,7 @@ def _comparison(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
         converge(method, problem)
         for method, problem in zip(small, in_common(name, tableaus, 1), strict=True)
     ]
-    named = [(x.name, result) for x, result in zip(small, results, strict=True)]
-    panel = comparison_panel(named)
+    panel = comparison_panel([(x.name, result) for x, result in zip(small, results, strict=True)])
     if len(panel.legend) < 2:
         raise NotDrawn("")
     return panel, f"Numerical: all on the problem {name}."

@@ -141,9 +141,7 @@ def _of_path(path: str, wishes: _Wishes) -> Reported:
         return _of_family(error, wishes)
     except MethodFileError as error:
         source = error.source
-        faults = error.faults
-        outcome = Outcome(source, source, faults=faults, text=error.text)
-        return Reported(outcome)
+        return Reported(Outcome(source, source, faults=error.faults, text=error.text))
     return _of_file(method, wishes)
 
 

@@ -252,10 +252,10 @@ b: [1 - sqrt(2)*t, sqrt(2)*t]
 """
     every = checked(tmp_path, text).every
     assert every is not None
-    assert every.conjugate is not None
-    assert sorted(every.conjugate.poles) == ["t", "t*sqrt(2) - 1"]
-    assert ("t", None) in every.conjugate.fact.elsewhere
-    for order in (every.order, every.conjugate):
+    assert every.conjugate_order is not None
+    assert sorted(every.conjugate_order.poles) == ["t", "t*sqrt(2) - 1"]
+    assert ("t", None) in every.conjugate_order.fact.elsewhere
+    for order in (every.order, every.conjugate_order):
         assert order.fact.zeros
         assert not any("sqrt(2)^" in p for p in order.fact.zeros)
     assert ordinary(text, {"t": "0"}).conjugate_order is None

@@ -89,13 +89,13 @@ def test_every_value_agrees_with_each(found: tuple[str, EveryValue], value: str)
     ordinary = analyse(method.tableau, LIMIT)
     root = root_of(value)
     assert at(every.order.fact, root) == ordinary.order.order
-    assert every.conjugate is not None
-    assert every.pair is not None
+    assert every.conjugate_order is not None
+    assert every.pair_order is not None
     conjugate, pair = ordinary.conjugate_order, ordinary.pair_order
     expected = None if conjugate is None else conjugate.order
-    assert at(every.conjugate.fact, root) == expected
+    assert at(every.conjugate_order.fact, root) == expected
     expected = None if pair is None else pair.order
-    assert at(every.pair.fact, root) == expected
+    assert at(every.pair_order.fact, root) == expected
     assert at(every.simplifying, root) == ordinary.simplifying
     assert at(every.symplectic, root) == ordinary.symplectic
     for key in (*COMPARING, *STABLE, *SIGNS):

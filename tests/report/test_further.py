@@ -162,13 +162,13 @@ def test_a_family_has_the_embedded_order_of_every_value(tmp_path: Path) -> None:
     outcome = checked(tmp_path, f"{FAMILY}expect: {{embedded-order: '>= 1'}}")
     assert outcome.ok
     assert outcome.every is not None
-    assert outcome.every.embedded is not None
-    assert outcome.every.embedded.order == 1
+    assert outcome.every.embedded_order is not None
+    assert outcome.every.embedded_order.order == 1
     text = render([outcome], Paint())
     assert re.search(r"  embedded order +1[;\n]", text)
     data = json.loads(REPORT.json([outcome]))
     jsonschema.validate(data, REPORT.schema)
-    at = [x for x, _ in outcome.every.embedded.fact.special]
+    at = [x for x, _ in outcome.every.embedded_order.fact.special]
     assert len(at) == 2  # w² = 1/2
     for value, order in (("1/3", 1), ("sqrt(2)/2", 2), ("-sqrt(2)/2", 2)):
         path = str(tmp_path / "method.gark.yaml")

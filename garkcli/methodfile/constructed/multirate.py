@@ -245,8 +245,7 @@ def _polynomials(at: PartReader, found: Found) -> Callable[[TableauOf, Values], 
     for key in ("omega", "gamma"):
         if key in found:
             each = enumerate(zip(found[key], found.nodes[key].value, strict=True), start=1)
-            whole = (_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each)
-            parts.append([*whole])
+            parts.append([_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each])
 
     def coupling(_: TableauOf, values: Values) -> Coupling:
         matrices = tuple(tuple(map(values.matrix, part)) for part in parts)

@@ -135,8 +135,7 @@ class PartReader(Reading):
             cure = "write its coefficients here, with parameters of this file"
             opened.source.fault(None, message, cure, code="free-parameters")
         opened.source.close()
-        description = opened.description
-        part = _part(opened.source, opened.numbers, description, why)
+        part = _part(opened.source, opened.numbers, opened.description, why)
         opened.source.close()
         self.numbers.entries += opened.numbers.entries
         return part

@@ -57,8 +57,7 @@ def _verdict(analysis: Analysis, key: str) -> Content:
     """A property, what is true of it, and why."""
     verdict = analysis.subject.verdict(key)
     why = "" if verdict.value is True else verdict.why
-    text = verdict_words(verdict)
-    return {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
+    return {"key": key, "text": verdict_words(verdict), "why": why, "mark": _mark(verdict)}
 
 
 def _mark(verdict: Verdict) -> str:

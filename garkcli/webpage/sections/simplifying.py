@@ -21,8 +21,7 @@ def _content(method: Reported) -> Content | None:
     names = [colour.name for colour in tableau.colours]
     data = method.data
     bounds = [("bound", found.bound, BOUND, _number(data, "bound"))]
-    sharp = _number(data, "sharp_bound")
-    bounds.append(("sharper bound", found.sharp_bound, SHARP_BOUND, sharp))
+    bounds.append(("sharper bound", found.sharp_bound, SHARP_BOUND, _number(data, "sharp_bound")))
     return {
         "names": names,
         "B": _cells(found.B, limit),

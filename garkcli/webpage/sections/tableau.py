@@ -130,15 +130,14 @@ def _of_family(method: Reported) -> Iterator[Table]:
     assert every is not None
     family = every.family
     made = {"The method": every.tableau}
-    if every.conjugate is not None:
+    if every.conjugate_order is not None:
         made["Its symplectic conjugate"] = conjugate(every.tableau)
-    if every.pair is not None and not every.tableau.is_partitioned:
+    if every.pair_order is not None and not every.tableau.is_partitioned:
         made["Their symplectic pair"] = pair(every.tableau)
     for title, tableau in made.items():
         printed = family.printed(tableau)
         if printed is None:
-            why = "the nodes have no simple radicals beside free parameters"
-            yield Table(title, left_out=why)
+            yield Table(title, left_out="the nodes have no simple radicals beside free parameters")
             continue
         yield _table(title, printed, entries(printed))
 
@@ -218,8 +217,7 @@ def _lines(tableau: Tableau, found: Entries, l: int, colours: Sequence[int]) -> 
 
 
 def _foot(label: Markup, weights: Sequence[Row], found: Entries, colours: Sequence[int]) -> Line:
-    blocks = [Block(m + 1, True, _typeset(weights[m], found)) for m in colours]
-    return Line(label, blocks)
+    return Line(label, [Block(m + 1, True, _typeset(weights[m], found)) for m in colours])
 
 
 def _typeset(row: Row, found: Entries) -> list[Markup]:
