@@ -324,7 +324,7 @@ def _roots_text(same: Sequence[RealRoot], name: str) -> str:
     values = f"{name} = {numbers}"
     if first.exact is not None:
         return values
-    return f"{_polynomial(first, name)} = 0, {values}"
+    return f"{polynomial_text(Polynomial.from_flint(first.polynomial), name)} = 0, {values}"
 
 
 def _others(everything: Sized) -> str:
@@ -364,7 +364,3 @@ def interval_text(interval: Interval, name: str) -> str:
 
 def _number(root: RealRoot) -> str:
     return root_text(root) or f"{root_decimal(root, DIGITS)}…"
-
-
-def _polynomial(root: RealRoot, name: str) -> str:
-    return polynomial_text(Polynomial.from_flint(root.polynomial), name)

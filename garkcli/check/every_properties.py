@@ -67,7 +67,7 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
         if key == "algebraically-stable" and not _is_complete(family.tableau):
             return Fact(None)
         return _by_signs(family, ask, SIGNS[key](family.tableau))
-    return _refuted(family, ask)
+    return by_samples(family, Question(ask))
 
 
 def _is_complete(tableau: Tableau) -> bool:
@@ -87,11 +87,6 @@ def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
         return value if isinstance(value, (bool, int)) else str(value)
 
     return ask
-
-
-def _refuted(family: EveryFamily, ask: Callable[[Tableau], Any]) -> Fact:
-    """Two methods that differ show that no answer is right for every value."""
-    return by_samples(family, Question(ask))
 
 
 def _stable(family: EveryFamily, wanted: Wanted) -> Fact:

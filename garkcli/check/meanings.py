@@ -62,7 +62,7 @@ class Sense(Frozen):
 
 def every_sense() -> Iterator[Sense]:
     """Every kind of word, in the order in which meanings are told."""
-    yield Sense(_plainly(by_word()), _term)
+    yield Sense(_plainly(by_word()), lambda word: term_meaning(by_word()[word]))
     yield Sense(_claims(), claim_meaning)
     for kind in KINDS:
         yield _keys(kind)
@@ -74,10 +74,6 @@ def every_sense() -> Iterator[Sense]:
 
 def _plainly(names: Mapping[str, object]) -> dict[str, tuple[str, ...]]:
     return dict.fromkeys(names, ())
-
-
-def _term(word: str) -> Meaning:
-    return term_meaning(by_word()[word])
 
 
 def term_meaning(term: Term) -> Meaning:

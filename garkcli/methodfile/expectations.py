@@ -128,10 +128,6 @@ def _number(at: Any, node: Node, where: str) -> Wanted:
     return None
 
 
-def _measure(at: Any, node: Node, where: str) -> Wanted:
-    return read_measure(at.source, node, where)
-
-
 def _table(item: Kind) -> Kind:
     """A list, for each colour one thing."""
 
@@ -158,7 +154,7 @@ _ROW = _table(
 )
 _REAL = Kind(
     lambda: {"type": ["number", "string"], "pattern": r"^(>=\s*)?[-+*/^(),.\sA-Za-z0-9_]+$"},
-    _measure,
+    lambda at, node, where: read_measure(at.source, node, where),
 )
 _KINDS = {"truth": FLAG, "count": _COUNT, "number": _REAL, "row": _ROW, "table": _table(_ROW)}
 _EXAMPLES = {

@@ -27,14 +27,9 @@ MOST = 60
 FORM = "write design: {order: 3, stiffly-accurate: true}"
 
 
-def _flag(at: Any, node: Node, where: str) -> bool | None:
-    """True; None also where it says that nothing is wanted."""
-    return FLAG.read(at, node, where) or None
-
-
 _COUNT = count(1, MOST)
 _VALUES = {
-    "flag": (Kind(FLAG.schema, _flag), "true"),
+    "flag": (Kind(FLAG.schema, lambda at, node, where: FLAG.read(at, node, where) or None), "true"),
     "count": (_COUNT, "3"),
     "number": (NUMBER, "0"),
 }

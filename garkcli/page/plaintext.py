@@ -188,7 +188,7 @@ def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
         if mark and mark == raised:
             form = form[1:]
         raised = mark
-        is_spelled = form != sign and _is_greek(sign)
+        is_spelled = form != sign and (_GREEK.match(unicodedata.name(sign, "")) is not None)
         needs_gap = ended or (is_spelled and last.isalpha())
         if needs_gap and form[:1].isalpha():
             form = f" {form}"
@@ -251,10 +251,6 @@ def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
 def _columns(line: str) -> int:
     """How many columns a line takes; its colours take none."""
     return len(_COLOURS.sub("", line))
-
-
-def _is_greek(sign: str) -> bool:
-    return _GREEK.match(unicodedata.name(sign, "")) is not None
 
 
 @lru_cache(4096)

@@ -78,12 +78,6 @@ class Record(Generic[Whole]):
             schema["additionalProperties"] = False
         return schema
 
-    def with_rows(self, name: str, row: Record[Any]) -> Schema:
-        """The schema of these objects with a last field, a list that is written row by row."""
-        schema = self.schema
-        properties = {**schema["properties"], name: array(row.schema)}
-        return {**schema, "required": [*schema["required"], name], "properties": properties}
-
     def every(self, name: str, parts: Callable[[Owner], Iterable[Whole]]) -> Field[Owner]:
         """A field with a list of these objects, one for each part."""
         return Field(name, array(self.schema), lambda owner: [self.data(x) for x in parts(owner)])

@@ -184,13 +184,9 @@ def _github(tables: Sequence[Audited], *_: Any) -> str:
     return told + commands_off(_told(tables, verbosity=-1))
 
 
-def _sarif(tables: Sequence[Audited], *_: Any) -> str:
-    return log_of(list(_findings(tables)), CODES)
-
-
 FORMATS: Mapping[str, Callable[..., str]] = {
     **{format: partial(_told, format=format) for format in TOLD},
     "github": _github,
-    "sarif": _sarif,
+    "sarif": lambda tables, *_: log_of(list(_findings(tables)), CODES),
 }
 """What writes each format, of the tables, with colours, the verbosity and the width for people."""

@@ -455,12 +455,7 @@ OWN_ROWS = {
             DETAIL,
             has_null=True,
         ),
-        Row(
-            "solved_together",
-            Kind(S.array(S.array(STAGES)), words=_systems_words),
-            together,
-            DETAIL,
-        ),
+        Row("solved_together", SYSTEMS, together, DETAIL),
     ),
     "symmetric": (
         truth("symmetric"),

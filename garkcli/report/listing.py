@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.registry import Bridge
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
@@ -113,15 +113,11 @@ TARGET = Section(
 )
 
 
-def _bridges(found: Any) -> list[Bridge]:
-    return [*found.values()]
-
-
 EXPORTS: Report[Mapping[str, Bridge]] = ListReport.only(
     "",
     "list of gark list exports",
     Section(
-        Row("name", table(TARGET, 0), _bridges),
+        Row("name", table(TARGET, 0), lambda found: [*found.values()]),
         title=lambda found, _: counted(len(found), "target"),
     ),
 )

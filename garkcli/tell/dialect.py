@@ -332,10 +332,6 @@ class Plain(Mutable):
         """The answer."""
         return [self.strong(line) for line in folded(self.spelt(text), self.width, "  ")]
 
-    def subtitle(self, text: str) -> list[str]:
-        """What the answer is about, below it."""
-        return folded(self.spelt(f"  {text}"), self.width, "    ")
-
     def title(self, text: str, depth: int) -> list[str]:
         """Above a part."""
         return [f"{'  ' * depth}{self.strong(self.spelt(text))}"]

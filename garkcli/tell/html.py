@@ -61,9 +61,6 @@ class Html(Plain):
     def headline(self, text: str) -> list[str]:
         return [f"<p>{self.strong(text)}</p>"]
 
-    def subtitle(self, text: str) -> list[str]:
-        return [f"<p>{text}</p>"]
-
     def title(self, text: str, depth: int) -> list[str]:
         return [f"<h{min(depth + 2, 6)}>{text}</h{min(depth + 2, 6)}>"]
 

@@ -132,9 +132,6 @@ class Latex(Plain):
     def headline(self, text: str) -> list[str]:
         return [f"% {text}" if self.is_inserted else rf"\subsection*{{{text}}}"]
 
-    def subtitle(self, text: str) -> list[str]:
-        return self.sentence(text)
-
     def title(self, text: str, depth: int) -> list[str]:
         return [rf"\paragraph{{{text}}}"]
 

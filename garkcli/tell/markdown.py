@@ -40,9 +40,6 @@ class Markdown(Plain):
     def headline(self, text: str) -> list[str]:
         return [self.strong(text), ""]
 
-    def subtitle(self, text: str) -> list[str]:
-        return [text, ""]
-
     def title(self, text: str, depth: int) -> list[str]:
         return [f"{'#' * (depth + 2)} {text}", ""]
 

@@ -44,7 +44,7 @@ def heading(method: Reported) -> Heading:
     return Heading(
         outcome.name,
         outcome.file,
-        _about(outcome),
+        words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
         _verdict(outcome),
         _mark(outcome),
         method.description,
@@ -53,11 +53,6 @@ def heading(method: Reported) -> Heading:
 
 def _mark(outcome: Outcome) -> str:
     return MARKS[outcome.exit_code]
-
-
-def _about(outcome: Outcome) -> str:
-    """What is judged, and in which arithmetic."""
-    return words(METHOD.fact(outcome), Plain()) if outcome.is_read else ""
 
 
 def _verdict(outcome: Outcome) -> str:
