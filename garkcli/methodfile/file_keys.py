@@ -16,30 +16,11 @@ from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.diagonal import FAMILY
 from garkcli.methodfile.expectations import EXPECT
-from garkcli.methodfile.grammar import (
-    FLAG,
-    TEXT,
-    VERSION,
-    Beside,
-    Key,
-    Kind,
-    Rule,
-    Schema,
-    Together,
-    Values,
-    Ways,
-    count,
-    defined,
-    homes,
-    later,
-    mapping,
-    word,
-)
-from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.parameters import DEFINITIONS, NUMBER, PARAMETERS
 from garkcli.methodfile.source import Home
@@ -71,156 +52,158 @@ def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
     return None
 
 
-def _methods() -> Schema:
-    method = defined("method").schema()
+def _methods() -> g.Schema:
+    method = g.defined("method").schema()
     return {"anyOf": [rows_of(method), method]}
 
 
-def _inside_methods() -> Iterable[Key]:
+def _inside_methods() -> Iterable[g.Key]:
     return {key.name: key for key in (*BUTCHER.inside(), *FAMILY.inside())}.values()
 
 
 KEYS = {
     key.name: key
     for key in (
-        Key("gark: 1", VERSION, "The version of the format that a method file is written in.", 1),
-        Key(
+        g.Key(
+            "gark: 1", g.VERSION, "The version of the format that a method file is written in.", 1
+        ),
+        g.Key(
             "name: Heun's method",
-            TEXT,
+            g.TEXT,
             "What people call the method. Without it reports call it by its file.",
             also=("title",),
         ),
-        Key(
+        g.Key(
             "aliases: [DOPRI5, RK45]",
             ALIASES,
             "What else the method is called: a list of texts, or one; without a / in them.",
         ),
-        Key(
+        g.Key(
             "description: for separable Hamiltonians",
-            TEXT,
+            g.TEXT,
             "What the method is for, or where it is from, in words.",
         ),
-        Key(
+        g.Key(
             "reference: {authors: M. Kutta, title: Beitrag zur Integration, year: 1901}",
             REFERENCE,
             "Where the method was published: a text, or the fields of a publication.",
             page=f"{_PAGE}reference-where-it-was-published",
         ),
-        Key(
+        g.Key(
             "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]",
-            Kind(_methods, inside=_inside_methods),
+            g.Kind(_methods, inside=_inside_methods),
             "The diagonal methods of the paper's construction, one a colour: families with their "
             "stages, or Butcher tableaus. One method on its own needs no list.",
             page=_PAPER,
             also=("method",),
         ),
         *TABLEAU_KEYS,
-        Key(
+        g.Key(
             "transfer: collocation",
-            later("transfers", "TRANSFER"),
+            g.later("transfers", "TRANSFER"),
             "How the off-diagonal blocks between the methods are made: one rule for all of them, "
             "weights of several rules with the sum 1, or a default with exceptions.",
             page=_PAPER,
         ),
-        Key(
+        g.Key(
             "tableau: {A: [[0, 0], [1/2, 0]], b: [0, 1]}",
             TABLEAU,
             "One Butcher tableau, or every block A^{l,m} of several colours spelled out.",
             page=f"{_PAGE}tableau-every-block-spelled-out",
             also=("butcher",),
         ),
-        Key(
+        g.Key(
             "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}",
-            later("ark_prk", "ARK"),
+            g.later("ark_prk", "ARK"),
             "An additive method: colours that share their stage values, such as an IMEX pair.",
             page=f"{_PAGE}ark-additive-rungekutta-shared-stages",
         ),
-        Key(
+        g.Key(
             "prk: {q: {A: [[0], [1]], b: [1]}, p: {A: [[1/2, 0]], b: [1/2, 1/2]}}",
-            later("ark_prk", "PRK"),
+            g.later("ark_prk", "PRK"),
             "A partitioned method: one tableau for the positions q, one for the momenta p.",
             page=f"{_PAGE}prk-partitioned-rungekutta-written-as-the-paper-prints-the-rectangular-"
             "method",
         ),
-        Key(
+        g.Key(
             "compose: {of: rk4, steps: [1/2, 1/2]}",
-            later("constructed.compose", "KIND"),
+            g.later("constructed.compose", "KIND"),
             "Substeps of methods, one after the other, the first one first.",
             page=_MADE,
         ),
-        Key(
+        g.Key(
             "adjoint: explicit-euler",
-            later("constructed.compose", "ADJOINT"),
+            g.later("constructed.compose", "ADJOINT"),
             "The adjoint of a method: the inverse of its step with −h.",
             page=_MADE,
         ),
-        Key(
+        g.Key(
             "extrapolate: {of: {family: gauss, stages: 1}, order: 6}",
-            later("constructed.extrapolate", "KIND"),
+            g.later("constructed.extrapolate", "KIND"),
             "Several numbers of equal substeps of a method, combined so that powers of h cancel.",
             page=_MADE,
         ),
-        Key(
+        g.Key(
             "splitting: {a: [1/2, 1/2], b: [1]}",
-            later("constructed.splitting", "KIND"),
+            g.later("constructed.splitting", "KIND"),
             "The parts of a problem flow in turn, each by its exact flow or by a method.",
             page=_MADE,
         ),
-        Key(
+        g.Key(
             "multirate: {slow: kutta, fast: kutta, steps: 4}",
-            later("constructed.multirate", "KIND"),
+            g.later("constructed.multirate", "KIND"),
             "Small steps of a fast method within one step of a slow one; colour 1 is the fast "
             "part.",
             page=f"{_PAGE}multirate-small-steps-of-one-method-within-one-of-another",
         ),
-        Key(
+        g.Key(
             "structure: separable",
-            word(lambda: STRUCTURES),
+            g.word(lambda: STRUCTURES),
             "Which vector fields the problem has: general ones, or Hamiltonians whose terms have "
             "velocities or forces alone, so that fewer trees have conditions. It stands beside "
             "methods, prk or splitting.",
             "general",
             page=f"{_PAGE}structure",
         ),
-        Key(
+        g.Key(
             "conjugate: true",
-            FLAG,
+            g.FLAG,
             "Whether the method is the symplectic conjugate of what the rest of the file says.",
             False,
             page=f"{_PAGE}conjugate",
         ),
-        Key(
+        g.Key(
             "linear: [1]",
-            Kind(lambda: {"type": "array", "items": count(1).schema()}),
+            g.Kind(lambda: {"type": "array", "items": g.count(1).schema()}),
             "Colours whose vector field is linear: their vertices have one branch at most.",
         ),
-        Key(
+        g.Key(
             "unknown: {stages: 3, shape: sdirk}",
-            later("shapes", "UNKNOWN"),
+            g.later("shapes", "UNKNOWN"),
             "A tableau of unknowns, by its stages and its shape, for gark design.",
             page="docs/design.md",
         ),
-        Key(
+        g.Key(
             "design: {order: 3, l-stable: true}",
-            later("wishes", "DESIGN"),
+            g.later("wishes", "DESIGN"),
             "What gark design looks for, for all colours or for those that are named.",
             page="docs/design.md",
         ),
-        Key(
+        g.Key(
             "parameters: {tau: 1/2, gamma: free}",
             PARAMETERS,
             "Names that coefficients are written with, each with a value, which may use the names "
             "before it; or free, for gark design, gark sweep and --set.",
             also=("params",),
         ),
-        Key(
+        g.Key(
             "tolerance: 1e-13",
-            Kind(NUMBER.schema, _tolerance),
+            g.Kind(NUMBER.schema, _tolerance),
             "How far each coefficient may be off; zeros are exact. A condition is met when its "
             "residual is no larger than rounding every coefficient by this can make it.",
             page=f"{_PAGE}rounded-coefficients",
         ),
-        Key(
+        g.Key(
             'expect: {order: 4, pair-order: ">= 2"}',
             EXPECT,
             "Claims that gark check confirms; gark claims FILE --write puts the true ones there.",
@@ -232,17 +215,17 @@ KEYS = {
 """The keys of a method file by name, in the order of the documentation."""
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
 """The keys of a method, wherever it stands."""
-_TWO_COLOURS = Values(
+_TWO_COLOURS = g.Values(
     {"type": "array", "minItems": 2},
     lambda node: isinstance(node, SequenceNode) and len(node.value) > 1,
 )
-_NOT_GENERAL = Values({"not": {"const": "general"}}, lambda node: bool(node.value != "general"))
-_SEMI_SEPARABLE = Values(
+_NOT_GENERAL = g.Values({"not": {"const": "general"}}, lambda node: bool(node.value != "general"))
+_SEMI_SEPARABLE = g.Values(
     {"const": "semi-separable"}, lambda node: bool(node.value == "semi-separable")
 )
-FORM = Ways(
+FORM = g.Ways(
     "the coefficients are",
-    (*FORMS, "unknown", Together(("A", "b"), ("c",))),
+    (*FORMS, "unknown", g.Together(("A", "b"), ("c",))),
     "no coefficients",
     "give A and b, or one of the keys methods, tableau, ark, prk",
 )
@@ -253,8 +236,8 @@ _INSIDE: dict[str, str] = dict.fromkeys(
 _SPELL_OUT: dict[str, str] = dict.fromkeys(
     CONSTRUCTIONS, "gark tableau --format yaml spells the method out, for them"
 )
-BESIDE_FORM: tuple[Beside, ...] = (
-    Beside(
+BESIDE_FORM: tuple[g.Beside, ...] = (
+    g.Beside(
         "methods",
         "two colours or more need a transfer rule",
         "write transfer: collocation (or interpolation)",
@@ -262,16 +245,16 @@ BESIDE_FORM: tuple[Beside, ...] = (
         code="missing-key",
         values=_TWO_COLOURS,
     ),
-    Beside("transfer", "transfer goes with methods, not with {way}", needs=("methods",)),
-    Beside("linear", "linear goes with tableau, not with {way}", needs=("tableau", "A")),
-    Beside(
+    g.Beside("transfer", "transfer goes with methods, not with {way}", needs=("methods",)),
+    g.Beside("linear", "linear goes with tableau, not with {way}", needs=("tableau", "A")),
+    g.Beside(
         "parameters",
         "parameters do not go with unknown: its unknowns have their names",
         "leave them out, or spell the tableau out with them",
         bars=("unknown",),
     ),
     *(
-        Beside(
+        g.Beside(
             key,
             f"{key} stands beside b, and here is none",
             {
@@ -285,14 +268,14 @@ BESIDE_FORM: tuple[Beside, ...] = (
         )
         for key in BESIDE
     ),
-    Beside(
+    g.Beside(
         "structure",
         "structure does not go with {way}",
         {**_INSIDE, "ark": "use methods, tableau or prk", "": "write absent blocks as null"},
         needs=("methods", "prk", "unknown", "splitting"),
         values=_NOT_GENERAL,
     ),
-    Beside(
+    g.Beside(
         "structure",
         "a prk cannot be semi-separable: that takes two Hamiltonians",
         "use methods",
@@ -309,42 +292,42 @@ def elsewhere() -> Mapping[str, Home]:
     claim most often is one.
     """
     every = (x for x in KEYS.values() if x.name != "parameters")  # has keys below other names
-    return homes([KEYS["expect"], *every])
+    return g.homes([KEYS["expect"], *every])
 
 
-def method_file_schema() -> Schema:
+def method_file_schema() -> g.Schema:
     """The JSON Schema of method files, as plain data, with what each key means.
 
     >>> method_file_schema()["title"]
     'gark method file'
     """
-    name: Schema = {
+    name: g.Schema = {
         "type": "string",
         "description": "A single method of a family, or a name of the catalogue.",
     }
-    rules: tuple[Rule, ...] = (FORM, *BESIDE_FORM)
+    rules: tuple[g.Rule, ...] = (FORM, *BESIDE_FORM)
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark method file",
         "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
-        **mapping(*KEYS.values(), rules=rules).schema(),
+        **g.mapping(*KEYS.values(), rules=rules).schema(),
         "definitions": {
             **DEFINITIONS,
             "dense": DENSE.schema(),
             "butcher": BUTCHER.schema(),
-            "method": {"oneOf": [FAMILY.schema(), defined("butcher").schema()]},
+            "method": {"oneOf": [FAMILY.schema(), g.defined("butcher").schema()]},
             "part": {
                 "anyOf": [
                     name,
                     FAMILY.schema(),
-                    mapping(*(KEYS[key] for key in KEYS_OF_METHOD), rules=rules).schema(),
+                    g.mapping(*(KEYS[key] for key in KEYS_OF_METHOD), rules=rules).schema(),
                 ]
             },
-            "rule": later("transfers", "RULE").schema(),
+            "rule": g.later("transfers", "RULE").schema(),
         },
     }
 
 
 def told(files: Files) -> Iterable[Entry]:
     """What is told of the keys."""
-    return entries_of(KEYS.values(), files.page)
+    return g.told(KEYS.values(), files.page)

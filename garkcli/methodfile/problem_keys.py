@@ -14,22 +14,7 @@ from yaml.nodes import Node
 
 from garkcli.exact.formula import RESERVED
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.grammar import (
-    TEXT,
-    VERSION,
-    Beside,
-    Key,
-    Kind,
-    OfSchema,
-    Schema,
-    Ways,
-    by_name,
-    defined,
-    mapping,
-    one_or_more,
-    required,
-)
-from garkcli.methodfile.grammar import told as entries_of
+from garkcli.methodfile import grammar as g
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
@@ -92,35 +77,39 @@ def _name_but(names: Iterable[str]) -> str:
     return f"^(?!({'|'.join(sorted(names))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
 
 
-def _names(pattern: str) -> Kind:
+def _names(pattern: str) -> g.Kind:
     """One name, or a list of different ones."""
-    name = Kind(lambda: {"type": "string", "pattern": pattern})
-    return one_or_more(name, "variables", MAX_VARIABLES, True, {"uniqueItems": True})
+    name = g.Kind(lambda: {"type": "string", "pattern": pattern})
+    return g.one_or_more(name, "variables", MAX_VARIABLES, True, {"uniqueItems": True})
 
 
 _NAME = _name_but(RESERVED)
 _SIGNS = r"^[-+*/^().,\sA-Za-z0-9_]+$"
-_FORMULA = defined("formula")
-_CONSTANT = defined("constant")
-_BY_NAME = by_name(_FORMULA)
-_TERMS = one_or_more(_FORMULA, "terms", MAX_TERMS, True)
-_SIDE = Kind(lambda: {"anyOf": [_FORMULA.schema(), _BY_NAME.schema()]})
+_FORMULA = g.defined("formula")
+_CONSTANT = g.defined("constant")
+_BY_NAME = g.by_name(_FORMULA)
+_TERMS = g.one_or_more(_FORMULA, "terms", MAX_TERMS, True)
+_SIDE = g.Kind(lambda: {"anyOf": [_FORMULA.schema(), _BY_NAME.schema()]})
 KEYS = {
     key.name: key
     for key in (
-        Key("gark: 1", VERSION, "The version of the format that a problem file is written in.", 1),
-        Key(
+        g.Key(
+            "gark: 1", g.VERSION, "The version of the format that a problem file is written in.", 1
+        ),
+        g.Key(
             "name: Kepler",
-            TEXT,
+            g.TEXT,
             "What people call the problem. Without it the problem is called like its file.",
         ),
-        Key("description: an orbit of eccentricity 3/5", TEXT, "What the problem is, in words."),
-        Key(
+        g.Key(
+            "description: an orbit of eccentricity 3/5", g.TEXT, "What the problem is, in words."
+        ),
+        g.Key(
             "reference: E. Hairer, S. Nørsett, G. Wanner, section II.10",
-            TEXT,
+            g.TEXT,
             "Where the problem is from, in words.",
         ),
-        Key(
+        g.Key(
             "variables: [x, y]",
             _names(_NAME),
             "The names of the positions, or of the unknowns of rhs. The momentum of x is called "
@@ -128,82 +117,82 @@ KEYS = {
             "at most 64.",
             is_needed=True,
         ),
-        Key(
+        g.Key(
             "hamiltonian: px**2/2 - cos(x)",
             _TERMS,
             "H in positions and momenta: a formula, or a list with one for each term, which are "
             "the colours of the method. A file has one of hamiltonian, lagrangian and rhs.",
             page="docs/problem-file.md#hamiltonian",
         ),
-        Key(
+        g.Key(
             "lagrangian: vx**2/2 + cos(x)",
             _TERMS,
             "L in positions and velocities: a formula, or a list with one for each term.",
             page="docs/problem-file.md#lagrangian",
         ),
-        Key(
+        g.Key(
             "rhs: {x: y, y: -x}",
-            one_or_more(_SIDE, "terms", MAX_TERMS),
+            g.one_or_more(_SIDE, "terms", MAX_TERMS),
             "The derivative of each variable by its name, a formula in variables and t; or a list "
             "with such a mapping for each term.",
             page="docs/problem-file.md#rhs",
         ),
-        Key(
+        g.Key(
             "initial: {x: 1, px: 0}",
-            by_name(_CONSTANT),
+            g.by_name(_CONSTANT),
             "The value of every variable at the start; of a Hamiltonian also of the momenta, of a "
             "Lagrangian of velocities or momenta. It may be left out beside exact.",
         ),
-        Key(
+        g.Key(
             "exact: {x: cos(t), y: -sin(t)}",
             _BY_NAME,
             "The solution of rhs where it is known: a formula in t for each variable.",
         ),
-        Key(
+        g.Key(
             "parameters: {e: 3/5}",
-            by_name(_CONSTANT, propertyNames={"pattern": _NAME}),
+            g.by_name(_CONSTANT, propertyNames={"pattern": _NAME}),
             "Names that formulas are written with, each with a value, which may use the names "
             "before it.",
         ),
-        Key(
+        g.Key(
             "t_end: 5/2",
             _CONSTANT,
             "The final time of a convergence test: a positive rational number.",
             2,
         ),
-        Key(
+        g.Key(
             "invariants: {angular momentum: x*py - y*px}",
-            by_name(_FORMULA, maxProperties=MAX_INVARIANTS),
+            g.by_name(_FORMULA, maxProperties=MAX_INVARIANTS),
             "First integrals besides H, each a name and a formula: in positions and momenta, or "
             "in the variables of rhs.",
         ),
     )
 }
 """The keys of a problem file by name, in the order of the documentation."""
-FORM = Ways(
+FORM = g.Ways(
     "the problem is",
     FORMS,
     "no hamiltonian, no lagrangian and no rhs",
     "write one of them, a formula or a list with one for each colour",
 )
-SOLUTION = Beside("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
-START = Ways("", ("initial", "exact"), "initial missing", is_one=False)
+SOLUTION = g.Beside("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
+START = g.Ways("", ("initial", "exact"), "initial missing", is_one=False)
 """What a problem begins with: its initial values, or those of its solution."""
 
 
-def problem_file_schema() -> Schema:
+def problem_file_schema() -> g.Schema:
     """The JSON Schema of problem files, as plain data, with what each key means.
 
     >>> problem_file_schema()["title"]
     'gark problem file'
     """
-    of_names = [OfSchema({"if": required("rhs"), "then": _of_rhs(), "else": _of_momenta()})]
-    number: Schema = {"type": ["number", "string"], "pattern": _SIGNS}
+    of_names = [g.OfSchema({"if": g.required("rhs"), "then": _of_rhs(), "else": _of_momenta()})]
+    number: g.Schema = {"type": ["number", "string"], "pattern": _SIGNS}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark problem file",
         "description": "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
-        **mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, *of_names]).schema(),
+        **g.mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, *of_names]).schema(),
         "definitions": {
             "formula": {"description": "A formula such as px**2/2 - cos(x).", **number},
             "constant": {
@@ -214,15 +203,15 @@ def problem_file_schema() -> Schema:
     }
 
 
-def _of_momenta() -> Schema:
+def _of_momenta() -> g.Schema:
     """What names the variables of a Hamiltonian or a Lagrangian may have."""
     variables = _told_anew("variables", _names(_name_but({*RESERVED, *_CLASHING})))
     return {"properties": {"variables": variables}}
 
 
-def _of_rhs() -> Schema:
+def _of_rhs() -> g.Schema:
     """The same of right-hand sides, with parameters."""
-    without_time = Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
+    without_time = g.Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
     return {
         "properties": {
             "variables": _told_anew("variables", _names(_name_but({*RESERVED, TIME}))),
@@ -231,11 +220,11 @@ def _of_rhs() -> Schema:
     }
 
 
-def _told_anew(key: str, kind: Kind) -> Schema:
+def _told_anew(key: str, kind: g.Kind) -> g.Schema:
     """A key with what it may have in some files."""
     return replace(KEYS[key], kind=kind).schema()
 
 
 def told(files: Files) -> Iterable[Entry]:
     """What is told of the keys."""
-    return entries_of(KEYS.values(), files.page)
+    return g.told(KEYS.values(), files.page)

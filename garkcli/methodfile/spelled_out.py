@@ -11,6 +11,7 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.frozen import replace
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.description import (
     BESIDE,
     MAX_COLOURS,
@@ -20,17 +21,6 @@ from garkcli.methodfile.description import (
     TableauText,
     block_name,
     of_colour,
-)
-from garkcli.methodfile.grammar import (
-    TEXT,
-    Found,
-    Key,
-    Kind,
-    Schema,
-    count,
-    declared,
-    defined,
-    mapping,
 )
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Reading, Row, Rows
@@ -47,11 +37,13 @@ FORM_OF_DENSE = (
     "write dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}, "
     "a row a stage: the coefficients of θ, θ², …"
 )
-DENSE = mapping(
-    Key("degree: 2", count(1, MAX_DEGREE), "The degree of the polynomials in θ.", is_needed=True),
-    Key(
+DENSE = g.mapping(
+    g.Key(
+        "degree: 2", g.count(1, MAX_DEGREE), "The degree of the polynomials in θ.", is_needed=True
+    ),
+    g.Key(
         "weights: [[1, -1/2], [0, 1/2]]",
-        Kind(lambda: {"type": "array", "minItems": 1}),
+        g.Kind(lambda: {"type": "array", "minItems": 1}),
         "A row a stage with the coefficients of θ, θ², …; of several colours a block for each.",
         is_needed=True,
     ),
@@ -68,21 +60,21 @@ _LEVELS = (
 _PAGE = "docs/method-file.md#embedded-and-dense-further-weights"
 
 
-def _all_of(*kinds: Schema) -> Kind:
+def _all_of(*kinds: g.Schema) -> g.Kind:
     """One of several schemas; what stands there is read where the number of colours is known."""
-    return Kind(lambda: {"anyOf": list(kinds)})
+    return g.Kind(lambda: {"anyOf": list(kinds)})
 
 
-def rows_of(item: Schema) -> Schema:
+def rows_of(item: g.Schema) -> g.Schema:
     """A list that is not empty."""
     return {"type": "array", "minItems": 1, "items": item}
 
 
 _MATRIX, _ROW = MATRIX.schema(), ROW.schema()
 _BLOCKS = rows_of({"anyOf": [_MATRIX, {"type": "null"}]})
-_DENSE = defined("dense")
+_DENSE = g.defined("dense")
 TABLEAU_KEYS = (
-    Key(
+    g.Key(
         "A: [[0, 0], [1/2, 0]]",
         _all_of(_MATRIX, rows_of(_BLOCKS)),
         "The matrix of a Butcher tableau, row by row; rows may end at the diagonal or before it. "
@@ -90,13 +82,13 @@ TABLEAU_KEYS = (
         page="docs/method-file.md#a-b-c-a-butcher-tableau",
         also=("matrix", "coefficients"),
     ),
-    Key(
+    g.Key(
         "b: [0, 1]",
         _all_of(_ROW, rows_of(_ROW)),
         "The weights, one a stage; of several colours a row each.",
         also=("weights", "weight"),
     ),
-    Key(
+    g.Key(
         "c: [0, 1/2]",
         _all_of(_ROW, rows_of({"anyOf": [_ROW, {"type": "null"}]})),
         "The nodes, one a stage; of several colours a row each. Where they are left out they are "
@@ -104,7 +96,7 @@ TABLEAU_KEYS = (
         "non-autonomous order do.",
         also=("nodes", "abscissae", "abscissas"),
     ),
-    Key(
+    g.Key(
         "embedded: [1, 0]",
         _all_of(_ROW, rows_of(_ROW)),
         "Embedded weights, one a stage; of several colours a row each. They stand beside b.",
@@ -114,9 +106,9 @@ TABLEAU_KEYS = (
             *("b_embedded", "bembed", "embedding"),
         ),
     ),
-    Key(
+    g.Key(
         "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}",
-        Kind(_DENSE.schema, inside=DENSE.inside),
+        g.Kind(_DENSE.schema, inside=DENSE.inside),
         "Dense output: weights that are polynomials in θ without constant terms. It stands beside "
         "b.",
         page=_PAGE,
@@ -126,19 +118,19 @@ TABLEAU_KEYS = (
 """What a Butcher tableau has, wherever it stands."""
 
 
-def with_coefficients(*keys: Key, form: str) -> Kind:
+def with_coefficients(*keys: g.Key, form: str) -> g.Kind:
     """A mapping with these keys, of which it needs A and b; called as at the top of a file."""
     also = {key.name: key.also for key in TABLEAU_KEYS}
     needed = [
         replace(key, is_needed=key.name in {"A", "b"}, also=also.get(key.name, ())) for key in keys
     ]
-    return mapping(*needed, form=form, cures=_elsewhere)
+    return g.mapping(*needed, form=form, cures=_elsewhere)
 
 
 def _elsewhere() -> Mapping[str, str | Home]:
     """What to do about keys that stand in a Butcher tableau and belong elsewhere."""
     # declared where this tableau is a part of files
-    return {**declared("file_keys", "elsewhere")(), **_SAID_BY_B}
+    return {**g.declared("file_keys", "elsewhere")(), **_SAID_BY_B}
 
 
 TABLEAU = with_coefficients(
@@ -148,22 +140,24 @@ TABLEAU = with_coefficients(
 )
 """The form ``tableau``."""
 BUTCHER_KEYS = (
-    Key("name: my method", TEXT, "What people call this diagonal method."),
-    Key(
+    g.Key("name: my method", g.TEXT, "What people call this diagonal method."),
+    g.Key(
         "A: [[0, 0], [1/2, 1/2]]",
-        defined("matrix"),
+        g.defined("matrix"),
         "The matrix of this diagonal method, row by row.",
     ),
-    Key("b: [1/2, 1/2]", defined("row"), "The weights of this diagonal method, one a stage."),
-    Key(
+    g.Key("b: [1/2, 1/2]", g.defined("row"), "The weights of this diagonal method, one a stage."),
+    g.Key(
         "c: [0, 1]",
-        defined("row"),
+        g.defined("row"),
         "The nodes of this diagonal method; the row sums of A where they are left out.",
     ),
-    Key(
-        "embedded: [1, 0]", defined("row"), "Embedded weights of this diagonal method, one a stage."
+    g.Key(
+        "embedded: [1, 0]",
+        g.defined("row"),
+        "Embedded weights of this diagonal method, one a stage.",
     ),
-    Key(
+    g.Key(
         "dense: {degree: 1, weights: [[1/2], [1/2]]}",
         _DENSE,
         "Dense output of this diagonal method.",
@@ -174,9 +168,9 @@ BUTCHER = with_coefficients(*BUTCHER_KEYS, form=EXAMPLE)
 """One diagonal method, or a part of a pair."""
 
 
-def entries_of(count: int) -> str:
+def entries_of(number: int) -> str:
     """``1 entry``, ``2 entries``."""
-    return counted(count, "entry", "entries")
+    return counted(number, "entry", "entries")
 
 
 def one_each(
@@ -235,7 +229,7 @@ def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
 
 def butcher(at: Reading, node: Node, where: str, names: Names) -> ButcherText | None:
     """A method spelled out; ``names`` are what its A, b and c are called in messages."""
-    entries: Found | None = _METHOD.read(at, node, where)
+    entries: g.Found | None = _METHOD.read(at, node, where)
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     found = _method(at, entries, names)
@@ -275,7 +269,7 @@ def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
 
 def tableau(at: Reading, node: Node, linear: Node | None) -> TableauText | None:
     """The form ``tableau``; ``linear`` lists its linear colours."""
-    entries: Found | None = TABLEAU.read(at, node, "tableau")
+    entries: g.Found | None = TABLEAU.read(at, node, "tableau")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     return tableau_of(at, entries, linear)
@@ -484,7 +478,7 @@ def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
 
 def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]:
     """The degree and the weights of dense output; None where there are none."""
-    found: Found | None = DENSE.read(at, entries["dense"], where) if "dense" in entries else None
+    found: g.Found | None = DENSE.read(at, entries["dense"], where) if "dense" in entries else None
     if found is None or not {"degree", "weights"} <= found.keys():
         return 0, None
     return found["degree"], found["weights"]

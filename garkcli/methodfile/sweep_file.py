@@ -20,22 +20,8 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.expectations import claims
-from garkcli.methodfile.grammar import (
-    FILE,
-    FLAG,
-    TEXT,
-    Beside,
-    Found,
-    Key,
-    Kind,
-    Schema,
-    Ways,
-    count,
-    mapping,
-    one_or_more,
-    word,
-)
 from garkcli.methodfile.nodes import one_line, shortened, unquoted
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.source import FileKind, Source
@@ -89,25 +75,25 @@ def _number(at: Any, node: Node, where: str) -> fmpq | None:
 
 
 _RATIONAL = rational(_number)
-_STEPS = mapping(
-    Key("from: 0", _RATIONAL, "The first of equidistant values.", is_needed=True),
-    Key("to: 1", _RATIONAL, "The last of equidistant values.", is_needed=True),
-    Key(
+_STEPS = g.mapping(
+    g.Key("from: 0", _RATIONAL, "The first of equidistant values.", is_needed=True),
+    g.Key("to: 1", _RATIONAL, "The last of equidistant values.", is_needed=True),
+    g.Key(
         "steps: 4",
-        count(1, MOST_VALUES),
+        g.count(1, MOST_VALUES),
         "How many steps lead from the first of equidistant values to the last.",
         is_needed=True,
     ),
     form="write {from: 0, to: 1, steps: 10}",
 )
-_VALUES = one_or_more(_RATIONAL)
+_VALUES = g.one_or_more(_RATIONAL)
 
 
 def _grid(at: Any, node: Node, where: str) -> list[fmpq]:
     """The values of a parameter; equidistant ones have both ends."""
     if not isinstance(node, MappingNode):
         return _VALUES.read(at, node, where) or []
-    found: Found = _STEPS.read(at, node, where)
+    found: g.Found = _STEPS.read(at, node, where)
     if len(found) < 3:
         return []
     first, last, steps = (found[key] for key in ("from", "to", "steps"))
@@ -130,20 +116,20 @@ def _parameters(at: Any, node: Node, where: str) -> dict[str, tuple[str, ...] | 
     return grids
 
 
-_GRID = Kind(
+_GRID = g.Kind(
     lambda: {"anyOf": [{"const": FREE}, _STEPS.schema(), *_VALUES.schema()["anyOf"]]}, _grid
 )
-_SEARCH = mapping(
-    Key(
+_SEARCH = g.mapping(
+    g.Key(
         "seeds: 1..100",
         span(0, 9, "write 1..100"),
         "The seeds of the searches: one number, or a range, each a method of its own.",
         is_needed=True,
     ),
-    Key("starts: 20", count(1), "How many starts the search of each seed has.", STARTS),
-    Key(
+    g.Key("starts: 20", g.count(1), "How many starts the search of each seed has.", STARTS),
+    g.Key(
         "order: 4",
-        count(1),
+        g.count(1),
         "The order that is searched for; by default that of the file's design.",
     ),
     form="write {seeds: 1..100, starts: 20}",
@@ -151,11 +137,11 @@ _SEARCH = mapping(
 
 
 def _search(at: Any, node: Node, where: str) -> SearchText | None:
-    found: Found | None = _SEARCH.read(at, node, where)
+    found: g.Found | None = _SEARCH.read(at, node, where)
     return SearchText(**found) if found is not None and "seeds" in found else None
 
 
-_BOUND: Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$"}
+_BOUND: g.Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$"}
 
 
 def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
@@ -181,7 +167,7 @@ def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
 
 
 def _truth(at: Any, node: Node, where: str) -> tuple[str, bool] | None:
-    found = FLAG.read(at, node, where)
+    found = g.FLAG.read(at, node, where)
     return None if found is None else ("=", found)
 
 
@@ -198,58 +184,58 @@ _OWN = {
 _EXAMPLES = {"stages": '"<= 6"', "colours": "2", "phase-order": '">= 4"'}
 
 
-def _conditions(kinds: Mapping[str, str]) -> Iterator[Key]:
+def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
     """The keys of ``where``: for each column what it is compared with."""
     claimed = {key.name: key.text.partition(" It is claimed as ")[0] for key in claims()}
     by_kind = {
-        "truth": (Kind(FLAG.schema, _truth), "true"),
-        "count": (Kind(lambda: _BOUND, _bound), '">= 1"'),
-        "number": (Kind(lambda: _BOUND, _bound), '"< 0.01"'),
+        "truth": (g.Kind(g.FLAG.schema, _truth), "true"),
+        "count": (g.Kind(lambda: _BOUND, _bound), '">= 1"'),
+        "number": (g.Kind(lambda: _BOUND, _bound), '"< 0.01"'),
     }
     for name in (*(x for x in kinds if x not in _OWN), *_OWN):
         kind, example = by_kind[kinds[name]]
         if name in _OWN:
-            yield Key(f"{name}: {_EXAMPLES.get(name, example)}", kind, _OWN[name])
+            yield g.Key(f"{name}: {_EXAMPLES.get(name, example)}", kind, _OWN[name])
         else:
             shown = "true" if kinds[name] == "truth" else '">= 1"'
-            yield Key(f"{name}: {shown}", kind, claimed[name], is_listed=False)
+            yield g.Key(f"{name}: {shown}", kind, claimed[name], is_listed=False)
 
 
-def file_of(kinds: Mapping[str, str]) -> Kind:
+def file_of(kinds: Mapping[str, str]) -> g.Kind:
     """What a spec file has.
 
     Args:
         kinds: the columns there are, and whether each is a ``truth``, ``count`` or ``number``.
     """
-    columns = one_or_more(word(lambda: kinds.keys()))
-    where = mapping(more=lambda: _conditions(kinds))
-    return mapping(
-        Key(
+    columns = g.one_or_more(g.word(lambda: kinds.keys()))
+    where = g.mapping(more=lambda: _conditions(kinds))
+    return g.mapping(
+        g.Key(
             "name: Gauss and Lobatto",
-            Kind(lambda: {"type": "string"}, TEXT.read),
+            g.Kind(lambda: {"type": "string"}, g.TEXT.read),
             "What people call the sweep.",
         ),
-        Key(
+        g.Key(
             "methods: [{family: [gauss, radau-iia], stages: 1..3}]",
             METHODS,
             "The diagonal methods, one entry a colour: every family with every number of stages. "
             "Members that do not exist are left out.",
         ),
-        Key(
+        g.Key(
             "transfer: [collocation, {interpolation: tau, collocation: 1 - tau}]",
-            Kind(lambda: TRANSFER.schema()),
+            g.Kind(lambda: TRANSFER.schema()),
             "Rules for the blocks between the methods, one or a list, each tried. Weights of a "
             "combination may use the parameters.",
         ),
-        Key(
+        g.Key(
             "files: [sdirk.gark.yaml]",
-            Kind(one_or_more(Kind(lambda: {"type": "string"})).schema),
+            g.Kind(g.one_or_more(g.Kind(lambda: {"type": "string"})).schema),
             "Method files, looked for beside the spec file, or names of the catalogue. Their "
             "parameters and unknowns take the values of parameters.",
         ),
-        Key(
+        g.Key(
             "parameters: {tau: {from: 0, to: 1, steps: 4}}",
-            Kind(
+            g.Kind(
                 lambda: {"type": "object", "additionalProperties": _GRID.schema()},
                 _parameters,
                 _STEPS.inside,
@@ -257,49 +243,49 @@ def file_of(kinds: Mapping[str, str]) -> Kind:
             "For each name a list of rational numbers, equidistant ones by from, to and steps "
             "with both ends, or free: looked for by search.",
         ),
-        Key(
+        g.Key(
             "search: {seeds: 1..100}",
-            Kind(_SEARCH.schema, _search, _SEARCH.inside),
+            g.Kind(_SEARCH.schema, _search, _SEARCH.inside),
             "How parameters and unknowns without values are searched for.",
         ),
-        Key(
+        g.Key(
             "columns: [order, p-stable]",
             columns,
             "What is told of each method: one criterion or a list.",
             is_needed=True,
         ),
-        Key(
+        g.Key(
             'where: {order: ">= 3"}',
             where,
             "What a method has to have to be kept: for columns true, false, a number, or a "
             "comparison. Conditions are decided in their order, and a method that fails one is "
             "looked at no further.",
         ),
-        Key(
+        g.Key(
             "best: [order, error]",
             columns,
             "Columns to sort by, the first counting most; each column knows what is better.",
         ),
-        Key(
+        g.Key(
             "pareto: [order, implicit-stages]",
             columns,
             "Columns of the Pareto front: the methods that none surpasses in all of them.",
         ),
         form="write columns: [order, error]",
         rules=[
-            Ways(
+            g.Ways(
                 "",
                 ("methods", "files"),
                 "no methods and no files",
                 "write methods: [{family: gauss, stages: 1..4}], or files",
                 is_one=False,
             ),
-            Beside("transfer", "transfer without methods", "add methods", needs=("methods",)),
+            g.Beside("transfer", "transfer without methods", "add methods", needs=("methods",)),
         ],
     )
 
 
-def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
+def sweep_file_schema(kinds: Mapping[str, str]) -> g.Schema:
     """The JSON Schema (draft-07) of spec files as plain data; see ``file_of``."""
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -329,7 +315,7 @@ def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) 
     root = reading.compose()
     if root is None:
         raise reading.error()
-    said: Found = file_of(kinds).read(SimpleNamespace(source=reading), root, FILE)
+    said: g.Found = file_of(kinds).read(SimpleNamespace(source=reading), root, g.FILE)
     grids = said.get("parameters", {})
     found = SweepText(
         one_line(said.get("name", "")) or Path(source).stem,
@@ -367,7 +353,7 @@ def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) 
     return found
 
 
-def _refuse_unused(source: Source, said: Found, found: SweepText) -> None:
+def _refuse_unused(source: Source, said: g.Found, found: SweepText) -> None:
     """Note parameters that no method has, and a search with nothing to look for."""
     used = {name for x in found.templates for name in x.parameters}
     for name in found.grids.keys() - used:

@@ -20,19 +20,8 @@ from garkcli.exact.rewriting import substitute
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, recipe_of
 from garkcli.frozen import Frozen, Mutable, field
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.family import loads_family
-from garkcli.methodfile.grammar import (
-    Found,
-    Key,
-    Kind,
-    Read,
-    by_name,
-    either,
-    list_of,
-    mapping,
-    one_or_more,
-    word,
-)
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
 from garkcli.methodfile.nodes import keys_of, shortened
@@ -105,7 +94,7 @@ _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 
 
-def span(least: int, digits: int, cure: str, most: int | None = None) -> Kind:
+def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Kind:
     """A number, or a range of numbers such as 1..4, none of them above ``most``."""
 
     def read(at: Any, node: Node, where: str) -> range | None:
@@ -122,27 +111,31 @@ def span(least: int, digits: int, cure: str, most: int | None = None) -> Kind:
 
     some = rf"[0-9]{{1,{digits}}}"
     text = {"type": "string", "pattern": rf"^{some}\.\.{some}$"}
-    return Kind(lambda: {"anyOf": [{"type": "integer", "minimum": least}, text]}, read)
+    return g.Kind(lambda: {"anyOf": [{"type": "integer", "minimum": least}, text]}, read)
 
 
-def rational(read: Read) -> Kind:
+def rational(read: g.Read) -> g.Kind:
     """A rational number, as it is read."""
     text = "A rational number: 2, 0.1, 1/3."
-    return Kind(lambda: {"description": text, "type": ["number", "string"], "pattern": SIGNS}, read)
+    return g.Kind(
+        lambda: {"description": text, "type": ["number", "string"], "pattern": SIGNS}, read
+    )
 
 
 _STAGES = span(1, 3, f"write 2, [1, 3] or 1..4, up to {MAX_STAGES}", MAX_STAGES)
-_METHOD = mapping(
-    Key(
+_METHOD = g.mapping(
+    g.Key(
         "family: [gauss, radau-iia]",
-        one_or_more(word(BY_STAGES.keys)),
+        g.one_or_more(g.word(BY_STAGES.keys)),
         "A family of methods, or a list of families, each tried.",
         is_needed=True,
     ),
-    Key("stages: 1..4", one_or_more(_STAGES), "A number of stages, a range, or a list of these."),
+    g.Key(
+        "stages: 1..4", g.one_or_more(_STAGES), "A number of stages, a range, or a list of these."
+    ),
     form="write {family: gauss, stages: 1..4}",
 )
-METHODS = list_of(_METHOD, "methods", each="methods", form="name at least one family")
+METHODS = g.list_of(_METHOD, "methods", each="methods", form="name at least one family")
 """Families × stages, an entry a colour."""
 
 
@@ -160,19 +153,19 @@ def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
     return text
 
 
-def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | Found | None:
+def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Found | None:
     """Rules with their weights, or a rule with its degree."""
     if keys_of(node) & {"rule", "degree"}:
-        found_degree: Found | None = OF_DEGREE.read(at, node, where)
+        found_degree: g.Found | None = OF_DEGREE.read(at, node, where)
         return found_degree
     entries = at.source.mapping(node, where, RULES)
     found = {rule: _weight(at, x, f"{where}, weight of {rule}") for rule, x in entries.items()}
     return {rule: text for rule, text in found.items() if text is not None}
 
 
-_RULES = by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
-_SCHEMAS = Kind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
-TRANSFER = one_or_more(either(word(lambda: ALL_RULES), at_mapping=_SCHEMAS))
+_RULES = g.by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
+_SCHEMAS = g.Kind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
+TRANSFER = g.one_or_more(g.either(g.word(lambda: ALL_RULES), at_mapping=_SCHEMAS))
 """Rules between methods, each tried."""
 
 
@@ -190,7 +183,7 @@ class MethodsReader:
         self.names = {*found.grids, *found.free}
         """Parameters that weights may use."""
 
-    def read(self, node: Node, entries: Sequence[Found], transfer: Node | None) -> None:
+    def read(self, node: Node, entries: Sequence[g.Found], transfer: Node | None) -> None:
         """The entries of ``methods`` with each rule of ``transfer``."""
         self._at = node
         choices = [self._choices(entry) for entry in entries]
@@ -211,11 +204,11 @@ class MethodsReader:
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
 
-    def _rule(self, given: str | dict[str, str] | Found) -> tuple[str, str, set[str]]:
+    def _rule(self, given: str | dict[str, str] | g.Found) -> tuple[str, str, set[str]]:
         """A rule as method files have it, as people read it, and the parameters in it."""
         if isinstance(given, str):
             return given, given, set()
-        if isinstance(given, Found):
+        if isinstance(given, g.Found):
             degree = given.get("degree")
             if degree is None:
                 return "legendre", "legendre", set()
@@ -242,7 +235,7 @@ class MethodsReader:
         if template not in self.found.templates:
             self.found.templates.append(template)
 
-    def _choices(self, entry: Found) -> list[tuple[str, int]]:
+    def _choices(self, entry: g.Found) -> list[tuple[str, int]]:
         """The members of one entry of ``methods``: those there are of families × stages."""
         families: list[str] = entry.get("family", [])
         found: dict[tuple[str, int], None] = {}

@@ -6,6 +6,7 @@ import re
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.description import (
     BlockText,
     BlockTexts,
@@ -14,43 +15,32 @@ from garkcli.methodfile.description import (
     TransferText,
     block_name,
 )
-from garkcli.methodfile.grammar import (
-    Found,
-    Key,
-    Kind,
-    OfSchema,
-    by_name,
-    count,
-    defined,
-    mapping,
-    word,
-)
 from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
 from garkcli.methodfile.numbers import Reading
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.transfer import MAX_DEGREE, PAIR_RULES, RULES, SUMMARIES
 
 
-def _weight(rule: str) -> Key:
+def _weight(rule: str) -> g.Key:
     text = f"The weight of the rule {rule} in a combination of rules."
-    return Key(f"{rule}: 1/2", NUMBER, text, is_word=False)
+    return g.Key(f"{rule}: 1/2", NUMBER, text, is_word=False)
 
 
 ALL_RULES = (*RULES, *PAIR_RULES)
 """The words for rules."""
-_WORDS = word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
-_WEIGHTS = mapping(*map(_weight, RULES), rules=[OfSchema({"minProperties": 1})])
-OF_DEGREE = mapping(
-    Key(
+_WORDS = g.word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
+_WEIGHTS = g.mapping(*map(_weight, RULES), rules=[g.OfSchema({"minProperties": 1})])
+OF_DEGREE = g.mapping(
+    g.Key(
         "rule: legendre",
-        word(lambda: ("legendre",)),
+        g.word(lambda: ("legendre",)),
         "The rule that has a degree.",
         is_needed=True,
         is_word=False,
     ),
-    Key(
+    g.Key(
         "degree: 2",
-        count(0, MAX_DEGREE),
+        g.count(0, MAX_DEGREE),
         "K, the largest degree of the Legendre polynomials; by default ⌊p/2⌋, where p is the least "
         "order of the symplectic pairs of the diagonal methods.",
         page="docs/pair-order.md",
@@ -58,27 +48,27 @@ OF_DEGREE = mapping(
     form="write {rule: legendre, degree: 2}",
 )
 """The rule legendre with its degree."""
-RULE = Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]})
+RULE = g.Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]})
 """How a block is made: one of the rules, or several with weights."""
-_OF_RULE = defined("rule").schema()
-_PARTS = mapping(
-    Key(
+_OF_RULE = g.defined("rule").schema()
+_PARTS = g.mapping(
+    g.Key(
         "default: collocation",
-        defined("rule"),
+        g.defined("rule"),
         "The rule for the blocks that blocks does not name.",
     ),
-    Key(
+    g.Key(
         'blocks: {"1,2": interpolation}',
-        by_name(
-            Kind(lambda: {"anyOf": [_OF_RULE, defined("matrix").schema()]}),
+        g.by_name(
+            g.Kind(lambda: {"anyOf": [_OF_RULE, g.defined("matrix").schema()]}),
             propertyNames={"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
         ),
         "Blocks that differ from the default, by the numbers of their colours: a rule, weights of "
         "rules, or the matrix itself.",
     ),
-    rules=[OfSchema({"minProperties": 1})],
+    rules=[g.OfSchema({"minProperties": 1})],
 )
-TRANSFER = Kind(
+TRANSFER = g.Kind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema()]},
     inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
@@ -150,7 +140,7 @@ def _rule(at: Reading, node: Node, where: str) -> RuleText | None:
         rule = at.source.choice(node, where, ALL_RULES)
         return RuleText(node, ((rule, None),)) if rule else None
     if keys_of(node) & {"rule", "degree"}:
-        found: Found | None = OF_DEGREE.read(at, node, where)
+        found: g.Found | None = OF_DEGREE.read(at, node, where)
         if found is None or not found.is_right:
             return None
         return RuleText(node, (("legendre", None),), found.get("degree"))

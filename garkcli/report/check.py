@@ -15,6 +15,7 @@ from garkcli.page.paint import counted, folded
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.failure import FAULT
+from garkcli.tell import kinds
 from garkcli.tell.facts import (
     Answer,
     Kind,
@@ -28,30 +29,6 @@ from garkcli.tell.facts import (
     rows_of,
     told,
     via,
-)
-from garkcli.tell.kinds import (
-    BLOCK,
-    BLOCKS,
-    COUNT,
-    EXACT,
-    EXACTS,
-    FLOAT,
-    ORDER,
-    POSITION,
-    ROW_OF_COUNTS,
-    TABLE,
-    TEXT,
-    TEXTS,
-    TOLERANCE,
-    TREE,
-    TRUE,
-    TRUTH,
-    UPPER,
-    Table,
-    choice,
-    order_answer,
-    order_cell,
-    record,
 )
 from garkcli.trees.drawing import draw_text, text_width
 from garkcli.trees.notation import format_tree
@@ -123,38 +100,42 @@ def named(x: Any) -> Answer:
 
 def order(key: str, of: Callable[[Any], Any], level: Any = USUAL) -> Row:
     """An order of a method."""
-    return Row(key, ORDER, lambda a: order_answer(of(a)), level, has_null=key != "order")
+    return Row(
+        key, kinds.ORDER, lambda a: kinds.order_answer(of(a)), level, has_null=key != "order"
+    )
 
 
 def of_several(key: str) -> Row:
     """The order of the conjugate or the pair: usual where a method has several colours."""
 
     def get(a: Any) -> Answer:
-        answer = order_answer(getattr(a, key))
+        answer = kinds.order_answer(getattr(a, key))
         is_told = a.tableau.size > 1 and (answer.value or key == "conjugate_order")
         level = USUAL if is_told else DETAIL  # there is no pair where there is no conjugate
         return replace(
             answer, reason=a.obstacle if answer.value is None else NO_REASON, level=level
         )
 
-    return Row(key, ORDER, get, has_null=True)
+    return Row(key, kinds.ORDER, get, has_null=True)
 
 
 def _pair_in_brief(a: Any) -> Answer:
     """For one colour that is not symplectic, in a part of a sentence."""
     is_told = a.tableau.size == 1 and a.pair_order is not None and not a.symplectic
-    return replace(order_answer(a.pair_order), level=USUAL if is_told else DATA)
+    return replace(kinds.order_answer(a.pair_order), level=USUAL if is_told else DATA)
 
 
 def with_time(a: Any) -> Answer:
     """The order on problems with time, told where the nodes are not the row sums."""
-    return replace(order_answer(a.nonautonomous_order), level=USUAL if a.inconsistent else DETAIL)
+    return replace(
+        kinds.order_answer(a.nonautonomous_order), level=USUAL if a.inconsistent else DETAIL
+    )
 
 
 def embedded_with_time(a: Any) -> Answer:
     """The same of the embedded weights."""
     found = a.embedded and a.embedded.nonautonomous_order
-    return replace(order_answer(found), level=USUAL if a.inconsistent else DETAIL)
+    return replace(kinds.order_answer(found), level=USUAL if a.inconsistent else DETAIL)
 
 
 def witnesses(a: Any) -> list[tuple[Any, Any]]:
@@ -207,9 +188,12 @@ def drawn(found: Any, d: Plain) -> list[str]:
 
 def tables(letter: str) -> Row:
     """B, C or D of all blocks."""
-    kind = ROW_OF_COUNTS if letter == "B" else TABLE
+    kind = kinds.ROW_OF_COUNTS if letter == "B" else kinds.TABLE
     return Row(
-        letter, kind, lambda a: Table(getattr(a.simplifying, letter), a.simplifying.limit), DETAIL
+        letter,
+        kind,
+        lambda a: kinds.Table(getattr(a.simplifying, letter), a.simplifying.limit),
+        DETAIL,
     )
 
 
@@ -255,13 +239,13 @@ def _simplifying_phrase(_: str, answer: Answer, d: Plain) -> str:
 SIMPLIFYING = Section(
     *map(tables, "BCD"),
     *(
-        Row(x, COUNT, lambda a, x=x: getattr(a.simplifying, x), DATA)  # type: ignore[misc]
+        Row(x, kinds.COUNT, lambda a, x=x: getattr(a.simplifying, x), DATA)  # type: ignore[misc]
         for x in ("r", "eta", "zeta", "xi", "chi")
     ),
-    Row("bound", COUNT, bound("bound", "bound", BOUND), DETAIL),
+    Row("bound", kinds.COUNT, bound("bound", "bound", BOUND), DETAIL),
     Row(
         "limit",
-        COUNT,
+        kinds.COUNT,
         lambda a: a.simplifying.limit if a.simplifying.is_open(a.simplifying.limit) else None,
         DATA,
         is_optional=True,
@@ -338,7 +322,7 @@ def truth(key: str) -> Row:
             )
         return replace(answer, level=USUAL if is_told else DETAIL)
 
-    return Row(find(key).field, replace(TRUTH, phrase=phrase), get, has_null=True)
+    return Row(find(key).field, replace(kinds.TRUTH, phrase=phrase), get, has_null=True)
 
 
 def _names(tableau: Any, space: int) -> list[str]:
@@ -388,8 +372,8 @@ def _renumbering_words(found: Any, d: Plain) -> str:
     return "; ".join(map(one, found))
 
 
-STAGES = record(colours=S.array(S.TEXT), stages=S.array(S.POSITION))
-RENUMBERED = record(
+STAGES = kinds.record(colours=S.array(S.TEXT), stages=S.array(S.POSITION))
+RENUMBERED = kinds.record(
     colours=S.array(S.TEXT), stages=S.one_of(S.array(S.POSITION), {"const": "1 - x"})
 )
 
@@ -399,19 +383,25 @@ def _is_open(subject: Any, l: int) -> bool:
 
 
 COLOUR = Section(
-    Row("name", TEXT, lambda x: x[0].tableau.colours[x[1]].name, DATA),
+    Row("name", kinds.TEXT, lambda x: x[0].tableau.colours[x[1]].name, DATA),
     Row(
         "kind",
-        choice("explicit", "diagonally implicit", "fully implicit", None),
+        kinds.choice("explicit", "diagonally implicit", "fully implicit", None),
         lambda x: getattr(x[0].shapes[x[1]], "kind", None),
     ),
-    Row("gamma", EXACT, lambda x: getattr(x[0].shapes[x[1]], "gamma", None), has_null=True),
+    Row("gamma", kinds.EXACT, lambda x: getattr(x[0].shapes[x[1]], "gamma", None), has_null=True),
     Row(
         "stage_order",
-        COUNT,
+        kinds.COUNT,
         lambda x: Answer(x[0].stage_orders[x[1]], Status(at_least=_is_open(*x))),
     ),
-    Row("stage_order_is_lower_bound", TRUE, lambda x: _is_open(*x) or None, DATA, is_optional=True),
+    Row(
+        "stage_order_is_lower_bound",
+        kinds.TRUE,
+        lambda x: _is_open(*x) or None,
+        DATA,
+        is_optional=True,
+    ),
     title=lambda x, d: f"colour {d.prose(x[0].tableau.colours[x[1]].name)}",
 )
 
@@ -424,8 +414,8 @@ def stage_order(a: Any) -> Answer:
 
 def colours_apart(a: Any) -> list[Any] | None:
     """The colours, where they are not alike."""
-    kinds = {getattr(shape, "kind", None) for shape in a.subject.shapes}
-    if len(kinds) == 1 and len({*a.subject.stage_orders}) == 1:
+    shapes = {getattr(shape, "kind", None) for shape in a.subject.shapes}
+    if len(shapes) == 1 and len({*a.subject.stage_orders}) == 1:
         return None
     return [(a.subject, l) for l in range(a.tableau.size)]
 
@@ -445,12 +435,14 @@ def _colours_words(found: Any, d: Plain) -> str:
 SYSTEMS = Kind(S.array(S.array(STAGES)), words=_systems_words)
 OWN_ROWS = {
     "gamma": (
-        Row("gamma", EXACT, lambda a: a.subject.shape and a.subject.shape.gamma, has_null=True),
+        Row(
+            "gamma", kinds.EXACT, lambda a: a.subject.shape and a.subject.shape.gamma, has_null=True
+        ),
     ),
     "implicit-stages": (
         Row(
             "implicit_stages",
-            COUNT,
+            kinds.COUNT,
             lambda a: a.subject.shape.implicit_stages,
             DETAIL,
             has_null=True,
@@ -466,13 +458,13 @@ OWN_ROWS = {
             DETAIL,
             has_null=True,
         ),
-        Row("symplectic", TRUTH, lambda a: a.symplectic, DATA),
+        Row("symplectic", kinds.TRUTH, lambda a: a.symplectic, DATA),
     ),
     "stage-order": (
-        Row("stage_order", COUNT, stage_order, DETAIL),
+        Row("stage_order", kinds.COUNT, stage_order, DETAIL),
         Row(
             "stage_order_is_lower_bound",
-            TRUE,
+            kinds.TRUE,
             lambda a: stage_order(a).status.at_least or None,
             DATA,
             is_optional=True,
@@ -499,7 +491,7 @@ PROPERTIES = Section(
     ),
     Row(
         "undecided",
-        TEXTS,
+        kinds.TEXTS,
         lambda a: [k for k in KEYS if find(k).is_cheap and a.subject.verdict(k).is_undecided],
         DATA,
     ),
@@ -517,7 +509,7 @@ def _of_matrix(r: Any) -> bool:
     return r.m is not None and r.i is not None
 
 
-PLACED = Kind(BLOCK)
+PLACED = Kind(kinds.BLOCK)
 REPAIR = Section(
     Row(
         "b",
@@ -528,35 +520,38 @@ REPAIR = Section(
     Row("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None, is_optional=True),
     Row("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None, is_optional=True),
     Row("row", Kind(S.INTEGER), lambda r: None if r.i is None else r.i + 1, has_null=True),
-    Row("entry", POSITION, lambda r: r.j + 1),
-    Row("old", EXACT),
-    Row("new", EXACT),
+    Row("entry", kinds.POSITION, lambda r: r.j + 1),
+    Row("old", kinds.EXACT),
+    Row("new", kinds.EXACT),
 )
 BLAME = Section(
-    Row("of", choice("order", "conjugate-order", "pair-order", "embedded-order")),
-    Row("order", POSITION),
-    Row("failing", COUNT),
-    Row("conditions", COUNT, lambda b: b.total),
-    Row("only_coupling", TRUTH),
+    Row("of", kinds.choice("order", "conjugate-order", "pair-order", "embedded-order")),
+    Row("order", kinds.POSITION),
+    Row("failing", kinds.COUNT),
+    Row("conditions", kinds.COUNT, lambda b: b.total),
+    Row("only_coupling", kinds.TRUTH),
     Row(
         "culprit",
         PLACED,
         lambda b: None if b.culprit is None else _block(*b.culprit),
         has_null=True,
     ),
-    Row("in_every", BLOCKS),
-    Row("in_none", BLOCKS),
+    Row("in_every", kinds.BLOCKS),
+    Row("in_none", kinds.BLOCKS),
     Row("repairs", parts(REPAIR)),
-    Row("restores", TEXTS),
+    Row("restores", kinds.TEXTS),
 )
 MISPRINT = Section(
-    Row("order", COUNT),
-    Row("residual", UPPER),
-    Row("explained", UPPER),
+    Row("order", kinds.COUNT),
+    Row("residual", kinds.UPPER),
+    Row("explained", kinds.UPPER),
     Row("repairs", parts(REPAIR)),
 )
 SUGGESTION = Section(
-    Row("line", TEXT), Row("order", COUNT), Row("rounding", UPPER), Row("genuine", UPPER)
+    Row("line", kinds.TEXT),
+    Row("order", kinds.COUNT),
+    Row("rounding", kinds.UPPER),
+    Row("genuine", kinds.UPPER),
 )
 
 
@@ -588,13 +583,13 @@ def _norms_words(n: Any, d: Plain) -> str:
     )
 
 
-VALUE_TEXT = Kind(S.TEXT, EXACT.data, EXACT.words)
+VALUE_TEXT = Kind(S.TEXT, kinds.EXACT.data, kinds.EXACT.words)
 NORMS = Section(
-    Row("trees", COUNT),
+    Row("trees", kinds.COUNT),
     Row("two_norm_squared", VALUE_TEXT, lambda n: n.two_squared, has_null=True),
-    Row("two_norm", FLOAT, lambda n: n.two),
-    Row("inf_norm", FLOAT, lambda n: n.largest),
-    Row("worst", TREE, has_null=True),
+    Row("two_norm", kinds.FLOAT, lambda n: n.two),
+    Row("inf_norm", kinds.FLOAT, lambda n: n.largest),
+    Row("worst", kinds.TREE, has_null=True),
     Row("worst_value", VALUE_TEXT, has_null=True),
     title=lambda n, d: f"norms over {counted(n.trees, 'tree')}",
 )
@@ -609,8 +604,8 @@ def _constants_words(c: Any, d: Plain) -> str:
 
 
 CONSTANTS = Section(
-    Row("order", POSITION),
-    Row("exact", TRUTH, lambda c: c.is_exact, DATA),
+    Row("order", kinds.POSITION),
+    Row("exact", kinds.TRUTH, lambda c: c.is_exact, DATA),
     Row("all", part(NORMS)),
     Row("coupling", part(NORMS)),
 )
@@ -620,22 +615,22 @@ def estimate_words(e: Any, d: Plain) -> str:
     if e.is_zero:
         return "zero: the embedded weights are b"
     order_text = "leading term not found" if e.order is None else f"of order {e.order}"
-    return f"{order_text}, sum of b − embedded {EXACTS.words(e.sums, d)}"  # type: ignore[misc]
+    return f"{order_text}, sum of b − embedded {kinds.EXACTS.words(e.sums, d)}"  # type: ignore[misc]
 
 
 ESTIMATE = Section(
-    Row("order", POSITION, has_null=True),
-    Row("zero", TRUTH, lambda e: e.is_zero),
-    Row("sums", EXACTS),
+    Row("order", kinds.POSITION, has_null=True),
+    Row("zero", kinds.TRUTH, lambda e: e.is_zero),
+    Row("sums", kinds.EXACTS),
     Row("leading_term", part(CONSTANTS, _constants_words), lambda e: e.constants, has_null=True),
 )
 DENSE_WITNESS = Section(
-    Row("order", POSITION, lambda x: x.witness.tree.order),
-    Row("tree", TREE, lambda x: x.witness.tree),
-    Row("power", POSITION),
-    Row("value", EXACT, lambda x: x.witness.value),
-    Row("required", EXACT, lambda x: x.witness.required),
-    Row("residual", EXACT, lambda x: x.witness.residual),
+    Row("order", kinds.POSITION, lambda x: x.witness.tree.order),
+    Row("tree", kinds.TREE, lambda x: x.witness.tree),
+    Row("power", kinds.POSITION),
+    Row("value", kinds.EXACT, lambda x: x.witness.value),
+    Row("required", kinds.EXACT, lambda x: x.witness.required),
+    Row("residual", kinds.EXACT, lambda x: x.witness.residual),
 )
 
 
@@ -665,24 +660,24 @@ def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
 
 
 DENSE = Section(
-    Row("degree", POSITION),
+    Row("degree", kinds.POSITION),
     Row("witness", part(DENSE_WITNESS), lambda x: x.order.witness, has_null=True),
-    Row("continuous", TRUTH, lambda x: x.ends_at_step),
-    Row("smooth", TRUTH, lambda x: x.is_smooth, has_null=True),
-    Row("slope_at_start", TRUTH, lambda x: x.slopes.at_start, has_null=True),
-    Row("slope_at_end", TRUTH, lambda x: x.slopes.at_end, has_null=True),
+    Row("continuous", kinds.TRUTH, lambda x: x.ends_at_step),
+    Row("smooth", kinds.TRUTH, lambda x: x.is_smooth, has_null=True),
+    Row("slope_at_start", kinds.TRUTH, lambda x: x.slopes.at_start, has_null=True),
+    Row("slope_at_end", kinds.TRUTH, lambda x: x.slopes.at_end, has_null=True),
     Row(
         "order_is_lower_bound",
-        TRUE,
+        kinds.TRUE,
         lambda x: x.order.is_lower_bound or None,
         DATA,
         is_optional=True,
     ),
-    Row("order_undecided", TRUE, lambda x: x.order.undecided or None, DATA, is_optional=True),
+    Row("order_undecided", kinds.TRUE, lambda x: x.order.undecided or None, DATA, is_optional=True),
 )
 COLOURS = Section(
-    Row("name", TEXT, lambda x: x[1].name),
-    Row("stages", POSITION, lambda x: x[0].spaces[x[1].space].stages),
+    Row("name", kinds.TEXT, lambda x: x[1].name),
+    Row("stages", kinds.POSITION, lambda x: x[0].spaces[x[1].space].stages),
 )
 
 
@@ -694,8 +689,8 @@ def colours_of(tableau: Any) -> list[Any]:
 # what is found of a method
 
 ANALYSIS = [
-    Row("exact", TRUTH, lambda a: a.tolerance is None, DATA),
-    Row("tolerance", TOLERANCE, lambda a: a.tolerance, DATA, has_null=True),
+    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
+    Row("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA, has_null=True),
     Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
     order("order", lambda a: a.order, HEADLINE),
     Row("stage_order", told(lambda x, d: str(x)), stage_order, line="method", is_short=True),
@@ -707,35 +702,35 @@ ANALYSIS = [
     ),
     of_several("conjugate_order"),
     of_several("pair_order"),
-    Row("nonautonomous_order", ORDER, with_time, has_null=True),
+    Row("nonautonomous_order", kinds.ORDER, with_time, has_null=True),
     order("embedded_order", lambda a: a.embedded and a.embedded.order),
-    Row("embedded_nonautonomous_order", ORDER, embedded_with_time, has_null=True),
+    Row("embedded_nonautonomous_order", kinds.ORDER, embedded_with_time, has_null=True),
     Row(
         "error_estimate",
         part(ESTIMATE, estimate_words),
         lambda a: a.embedded and a.embedded.estimator,
         has_null=True,
     ),
-    Row("dense_order", COUNT, dense_order, has_null=True),
+    Row("dense_order", kinds.COUNT, dense_order, has_null=True),
     Row("dense", part(DENSE, dense_words), lambda a: a.dense, has_null=True, label="dense output"),
-    Row("pair_criterion", COUNT, pair_criterion, DETAIL, has_null=True),
-    Row("pair_criterion_why", TEXTS, pair_criterion_why, DATA),
-    Row("pair_bound", COUNT, bound("pair_bound", "bound", BOUND), DETAIL, has_null=True),
-    Row("sharp_bound", COUNT, bound("sharp_bound", "sharp_bound", SHARP_BOUND), DETAIL),
+    Row("pair_criterion", kinds.COUNT, pair_criterion, DETAIL, has_null=True),
+    Row("pair_criterion_why", kinds.TEXTS, pair_criterion_why, DATA),
+    Row("pair_bound", kinds.COUNT, bound("pair_bound", "bound", BOUND), DETAIL, has_null=True),
+    Row("sharp_bound", kinds.COUNT, bound("sharp_bound", "sharp_bound", SHARP_BOUND), DETAIL),
     Row(
         "pair_sharp_bound",
-        COUNT,
+        kinds.COUNT,
         bound("pair_sharp_bound", "sharp_bound", SHARP_BOUND),
         DETAIL,
         has_null=True,
     ),
-    Row("consistent", TRUTH, consistent),
-    Row("inconsistent_blocks", BLOCKS, lambda a: a.inconsistent, DATA),
+    Row("consistent", kinds.TRUTH, consistent),
+    Row("inconsistent_blocks", kinds.BLOCKS, lambda a: a.inconsistent, DATA),
     Row("bound_in_brief", told(lambda x, d: str(x)), lambda a: a.bound, DATA, label="bound"),
-    Row("conjugate_consistent", TRUTH, conjugate_consistent, has_null=True),
+    Row("conjugate_consistent", kinds.TRUTH, conjugate_consistent, has_null=True),
     Row(
         "symplectic",
-        TRUTH,
+        kinds.TRUTH,
         lambda a: Answer(a.symplectic, Status(a.tolerance) if a.symplectic else Status()),
         line="symplectic",
     ),
@@ -743,7 +738,7 @@ ANALYSIS = [
         "pair",
         told(
             lambda x, d: str(x.order),
-            lambda _, a, d: f"the symplectic pair has order {order_cell(a.value, d)}",
+            lambda _, a, d: f"the symplectic pair has order {kinds.order_cell(a.value, d)}",
         ),
         _pair_in_brief,
         line="symplectic",
@@ -760,12 +755,12 @@ ANALYSIS = [
 MOST_CLAIMS = 6
 """More that hold are counted."""
 CLAIM = Section(
-    Row("claim", TEXT),
-    Row("expected", TEXT),
-    Row("found", TEXT),
-    Row("holds", TRUTH),
-    Row("line", POSITION),
-    Row("why", TEXT, lambda c: c.why or None, is_optional=True),
+    Row("claim", kinds.TEXT),
+    Row("expected", kinds.TEXT),
+    Row("found", kinds.TEXT),
+    Row("holds", kinds.TRUTH),
+    Row("line", kinds.POSITION),
+    Row("why", kinds.TEXT, lambda c: c.why or None, is_optional=True),
 )
 
 
@@ -827,8 +822,8 @@ def verdict_words(v: Any) -> str:
 VERDICT = Section(
     Row("property", Kind({"enum": list(KEYS)}), lambda x: x[0]),
     Row("value", Kind(VALUE, verdict_data), lambda x: x[1]),
-    Row("undecided", TRUTH, lambda x: x[1].is_undecided),
-    Row("why", TEXT, lambda x: x[1].why),
+    Row("undecided", kinds.TRUTH, lambda x: x[1].is_undecided),
+    Row("why", kinds.TEXT, lambda x: x[1].why),
 )
 
 
@@ -847,15 +842,15 @@ def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-HEAD = (Row("file", TEXT, level=DATA), Row("name", TEXT, named, DETAIL))
+HEAD = (Row("file", kinds.TEXT, level=DATA), Row("name", kinds.TEXT, named, DETAIL))
 OK = (
-    Row("ok", TRUTH, level=DATA),
-    Row("structure", choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
+    Row("ok", kinds.TRUTH, level=DATA),
+    Row("structure", kinds.choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
     METHOD,
 )
 TRANSFER = Row(
     "transfer",
-    replace(TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))),
+    replace(kinds.TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))),
     lambda o: [*rule_reasons(o.analysis, o.rules)] or None,
     DETAIL,
     is_optional=True,
@@ -904,7 +899,7 @@ UNREADABLE = Section(
     columns=COLUMNS,
 )
 SUMMARY = Section(
-    Row("files", COUNT, len),
-    Row("failed", COUNT, lambda xs: sum(not x.ok for x in xs)),
-    Row("without_claims", COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
+    Row("files", kinds.COUNT, len),
+    Row("failed", kinds.COUNT, lambda xs: sum(not x.ok for x in xs)),
+    Row("without_claims", kinds.COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
 )

@@ -18,19 +18,9 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason
 from garkcli.report.check import verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tell import kinds
 from garkcli.tell.facts import SAID, Answer, Kind, Level, Row, Section, Status, part, parts, table
 from garkcli.tell.facts import told as told_kind
-from garkcli.tell.kinds import (
-    COUNT,
-    EXACT,
-    POSITION,
-    TEXT,
-    TOLERANCE,
-    TREE,
-    TRUTH,
-    choice,
-    order_cell,
-)
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -107,8 +97,8 @@ def _verdict_cell(verdict: Any, d: Plain) -> str:
 
 RELATION = Kind({"enum": [*RELATIONS]}, phrase=_relation_phrase)
 ENTRY = Kind(S.NUMERAL, _entry_data, _entry_words)
-VALUE = Kind(S.EXACT, EXACT.data, _entry_words)
-ORDER_ALONE = Kind(S.COUNT, lambda x, _: x.order, order_cell)
+VALUE = Kind(S.EXACT, kinds.EXACT.data, _entry_words)
+ORDER_ALONE = Kind(S.COUNT, lambda x, _: x.order, kinds.order_cell)
 VERDICT = Kind(S.TEXT, lambda x, _: verdict_words(x), _verdict_cell)
 IMAGES = Kind(S.array(S.array(S.POSITION)), lambda x, _: [[i + 1 for i in row] for row in x])
 COLOURS = Kind(S.array(S.POSITION), lambda x, _: [l + 1 for l in x])
@@ -171,7 +161,7 @@ def _orders_words(x: Compared, d: Plain) -> str:
     for pair in x.found.orders:
         if not pair.exists or (pair.name == WITH_TIME and not pair.is_different):
             continue
-        ends = ["none" if y is None else order_cell(y, d) for y in (pair.one, pair.other)]
+        ends = ["none" if y is None else kinds.order_cell(y, d) for y in (pair.one, pair.other)]
         name = pair.name.removeprefix("order").strip()
         text = ends[0] if ends[0] == ends[1] else d.bad(" against ".join(ends))
         texts.append(f"{d.prose(name)} {text}".strip())
@@ -246,56 +236,58 @@ COUNTED = Row(
     label="entries",
 )
 ENTRIES = Section(
-    Row("row", POSITION, lambda x: None if x.row is None else x.row + 1, has_null=True),
-    Row("entry", POSITION, lambda x: x.entry + 1),
+    Row("row", kinds.POSITION, lambda x: None if x.row is None else x.row + 1, has_null=True),
+    Row("entry", kinds.POSITION, lambda x: x.entry + 1),
     Row("first", ENTRY, lambda x: x.one),
     Row("second", ENTRY, lambda x: x.other),
     Row("difference", ENTRY, lambda x: x.gap),
-    Row("undecided", TRUTH, lambda x: x.is_open),
+    Row("undecided", kinds.TRUTH, lambda x: x.is_open),
 )
 BLOCK = Section(
-    Row("kind", choice("A", "b", "c", "embedded", "dense")),
-    Row("colour", POSITION, lambda x: x.colour + 1),
-    Row("seen", POSITION, lambda x: None if x.seen is None else x.seen + 1, has_null=True),
-    Row("power", POSITION, lambda x: x.power or None, has_null=True),
+    Row("kind", kinds.choice("A", "b", "c", "embedded", "dense")),
+    Row("colour", kinds.POSITION, lambda x: x.colour + 1),
+    Row("seen", kinds.POSITION, lambda x: None if x.seen is None else x.seen + 1, has_null=True),
+    Row("power", kinds.POSITION, lambda x: x.power or None, has_null=True),
     Row("shapes", SHAPES, has_null=True),
-    Row("of_entries", COUNT, lambda x: x.entries),
+    Row("of_entries", kinds.COUNT, lambda x: x.entries),
     Row("largest", part(ENTRIES), has_null=True),
     Row("entries", parts(ENTRIES), lambda x: x.gaps),
 )
 SAME = Section(
     Row("colours", COLOURS),
     Row("stages", IMAGES),
-    Row("reduced", TRUTH, lambda x: x.is_reduced),
-    Row("step_only", TRUTH),
-    Row("within", TOLERANCE, lambda x: x.allowed or None, has_null=True),
+    Row("reduced", kinds.TRUTH, lambda x: x.is_reduced),
+    Row("step_only", kinds.TRUTH),
+    Row("within", kinds.TOLERANCE, lambda x: x.allowed or None, has_null=True),
 )
 ORDERS = Section(
-    Row("of", TEXT, lambda x: x.name),
+    Row("of", kinds.TEXT, lambda x: x.name),
     Row("first", ORDER_ALONE, lambda x: x.one, has_null=True),
     Row("second", ORDER_ALONE, lambda x: x.other, has_null=True),
 )
 CONDITION = Section(
-    Row("tree", TREE, lambda x: x[0].tree, label=""),
-    Row("order", POSITION, lambda x: x[0].tree.order),
+    Row("tree", kinds.TREE, lambda x: x[0].tree, label=""),
+    Row("order", kinds.POSITION, lambda x: x[0].tree.order),
     Row("required", VALUE, lambda x: x[0].required),
     Row("first", VALUE, lambda x: x[0].value),
     Row("second", VALUE, lambda x: x[1].value),
 )
 MET = Section(
-    Row("order", COUNT), Row("first_only", parts(CONDITION)), Row("second_only", parts(CONDITION))
+    Row("order", kinds.COUNT),
+    Row("first_only", parts(CONDITION)),
+    Row("second_only", parts(CONDITION)),
 )
 PROPERTY = Section(
-    Row("property", choice(*KEYS, "symplectic"), lambda x: x.key, label=""),
+    Row("property", kinds.choice(*KEYS, "symplectic"), lambda x: x.key, label=""),
     Row("first", VERDICT, lambda x: x.one),
     Row("second", VERDICT, lambda x: x.other),
 )
 METHOD = Section(
-    Row("file", TEXT),
-    Row("name", TEXT, lambda x: x.method.name),
+    Row("file", kinds.TEXT),
+    Row("name", kinds.TEXT, lambda x: x.method.name),
     Row("form", Kind({"enum": [*FORMS]}, words=lambda x, d: d.prose(FORMS[x]))),
     Row("stages", STAGES, lambda x: x.method.stages),
-    Row("tolerance", TOLERANCE, lambda x: x.method.tolerance, has_null=True),
+    Row("tolerance", kinds.TOLERANCE, lambda x: x.method.tolerance, has_null=True),
 )
 
 
@@ -317,8 +309,8 @@ REPORT: Report[Compared] = Report.only(
         Row("first", part(METHOD, _method_words), lambda x: x.method(0)),
         Row("second", part(METHOD, _method_words), lambda x: x.method(1)),
         Row("relation", RELATION, relation, HEADLINE),
-        Row("obstacle", TEXT, lambda x: x.found.obstacle or None, DATA, has_null=True),
-        Row("remark", TEXT, lambda x: x.found.remark or None, DATA, has_null=True),
+        Row("obstacle", kinds.TEXT, lambda x: x.found.obstacle or None, DATA, has_null=True),
+        Row("remark", kinds.TEXT, lambda x: x.found.remark or None, DATA, has_null=True),
         Row("same", SAID, told),
         Row("same", part(SAME), lambda x: x.found.sameness, DATA, has_null=True),
         Row("tolerance", SAID, tolerances),

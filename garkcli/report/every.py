@@ -20,24 +20,8 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON
 from garkcli.report import check as c
+from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, rows_of
-from garkcli.tell.kinds import (
-    BLOCKS,
-    COUNT,
-    EXACT,
-    INTERVAL,
-    ROW_OF_COUNTS,
-    TABLE,
-    TEXT,
-    TEXTS,
-    TRUE,
-    TRUTH,
-    Table,
-    interval_data,
-    numbers_from_one,
-    record,
-    witness_data,
-)
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -51,16 +35,16 @@ VALUE: S.Schema = {
     "type": ["boolean", "integer", "string", "array", "null"],
     "description": "The answer; null where there is none.",
 }
-FACT: S.Schema = record(
+FACT: S.Schema = kinds.record(
     decided=S.FLAG,
     every_value=S.FLAG,
     value=VALUE,
-    special=S.array(record(at=ALGEBRAIC, value=VALUE)),
-    elsewhere=S.array(record(zero=S.TEXT, value=VALUE)),
+    special=S.array(kinds.record(at=ALGEBRAIC, value=VALUE)),
+    elsewhere=S.array(kinds.record(zero=S.TEXT, value=VALUE)),
     zeros=S.array(S.TEXT),
     open=S.array(S.TEXT),
     unknown=S.array(ALGEBRAIC),
-    where=S.array(INTERVAL),
+    where=S.array(kinds.INTERVAL),
     why=S.TEXT,
 )
 FACT["required"] = FACT["required"][:-2]
@@ -83,7 +67,7 @@ def fact_data(f: Fact, inner: Kind, d: Plain) -> dict[str, Any]:
         "unknown": [root_data(x) for x in f.unknown],
     }
     if f.where is not None:
-        found["where"] = [interval_data(x, d) for x in f.where]
+        found["where"] = [kinds.interval_data(x, d) for x in f.where]
     return {**found, "why": f.why} if f.why else found
 
 
@@ -101,22 +85,22 @@ def lifted(inner: Kind) -> Kind:
 
 
 ANY = Kind(VALUE, words=lambda x, _: told_value(x))
-WITNESS = record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
+WITNESS = kinds.record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
 
 
 def _witness(o: EveryOrder, _: Any = None) -> dict[str, Any] | None:
     if o.witness is None:
         return None
-    data = witness_data(o.witness)
+    data = kinds.witness_data(o.witness)
     return {key: data[key] for key in WITNESS["properties"]}
 
 
 ORDER_PARTS = Section(
-    Row("order", COUNT),
+    Row("order", kinds.COUNT),
     Row("witness", Kind(WITNESS), _witness, has_null=True),
-    Row("fact", lifted(COUNT)),
+    Row("fact", lifted(kinds.COUNT)),
     Row("dimension", Kind(S.INTEGER), has_null=True),
-    Row("weights", TEXTS, lambda o: list(o.poles)),
+    Row("weights", kinds.TEXTS, lambda o: list(o.poles)),
 )
 
 
@@ -155,8 +139,8 @@ EVERY_ORDER = Kind(
     cell=lambda o, _: f"{o.order} for every value",
 )
 BLOCK_LISTS = Kind(
-    BLOCKS.schema,
-    lambda x, _: numbers_from_one(x),
+    kinds.BLOCKS.schema,
+    lambda x, _: kinds.numbers_from_one(x),
     lambda x, d: f"no: {d.few([d.block('A', edge) for edge in x])}" if x else "yes",
 )
 
@@ -167,7 +151,7 @@ def of(name: str) -> Callable[[Any], Fact]:
     def get(e: Any) -> Fact:
         def pick(s: Any) -> Any:
             value = getattr(s, name)
-            return Table(value, s.limit) if name in "BCD" else value
+            return kinds.Table(value, s.limit) if name in "BCD" else value
 
         return e.simplifying.of(pick)  # type: ignore[no-any-return]
 
@@ -192,9 +176,9 @@ def with_time(key: str) -> Row:
 
 TOLD_ORDER = replace(EVERY_ORDER, is_data=False)
 FAMILY = [
-    Row("every_value", TRUE, lambda _: True, DATA),
-    Row("unknowns", TEXTS, lambda e: list(e.parameters), DATA),
-    Row("colours", TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
+    Row("every_value", kinds.TRUE, lambda _: True, DATA),
+    Row("unknowns", kinds.TEXTS, lambda e: list(e.parameters), DATA),
+    Row("colours", kinds.TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
     Row("order", EVERY_ORDER, level=HEADLINE),
     of_several("conjugate_order"),
     of_several("pair_order"),
@@ -203,18 +187,18 @@ FAMILY = [
     with_time("embedded_nonautonomous_order"),
     Row(
         "dense",
-        replace(TEXT, is_data=False),
+        replace(kinds.TEXT, is_data=False),
         lambda e: e.file.further.dense and "judged for values of the parameters: --set NAME=1/2",
         label="dense output",
     ),
-    Row("B", lifted(ROW_OF_COUNTS), of("B")),
-    Row("C", lifted(TABLE), of("C")),
-    Row("D", lifted(TABLE), of("D")),
-    Row("bound", lifted(COUNT), of("bound"), DETAIL),
-    Row("sharp_bound", lifted(COUNT), of("sharp_bound"), DETAIL),
+    Row("B", lifted(kinds.ROW_OF_COUNTS), of("B")),
+    Row("C", lifted(kinds.TABLE), of("C")),
+    Row("D", lifted(kinds.TABLE), of("D")),
+    Row("bound", lifted(kinds.COUNT), of("bound"), DETAIL),
+    Row("sharp_bound", lifted(kinds.COUNT), of("sharp_bound"), DETAIL),
     Row("inconsistent_blocks", lifted(BLOCK_LISTS), lambda e: e.inconsistent, label="consistent"),
-    Row("symplectic", lifted(TRUTH)),
-    Row("holding", replace(TEXTS, is_data=False), label="properties"),
+    Row("symplectic", lifted(kinds.TRUTH)),
+    Row("holding", replace(kinds.TEXTS, is_data=False), label="properties"),
 ]
 
 
@@ -326,10 +310,10 @@ def _sum(variable: str) -> Kind:
 
 
 FUNCTION = Section(
-    Row("name", TEXT, level=DATA),
+    Row("name", kinds.TEXT, level=DATA),
     Row("numerator", _sum("z")),
     Row("denominator", _sum("z")),
-    Row("R_infinity", EXACT, lambda f: f.at_infinity, has_null=True),
+    Row("R_infinity", kinds.EXACT, lambda f: f.at_infinity, has_null=True),
     Row("e_polynomial", _sum("x"), level=DETAIL),
 )
 
@@ -371,9 +355,9 @@ STABLE = Section(
     )
 )
 EVERY_STABILITY = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, c.named, DETAIL),
-    Row("unknowns", TEXTS, lambda x: list(x.family.family.parameters), DATA),
+    Row("file", kinds.TEXT, level=DATA),
+    Row("name", kinds.TEXT, c.named, DETAIL),
+    Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
     Row("functions", parts(FUNCTION), level=DATA),
     Row("stability", part(STABLE), lambda x: x, DATA),
     Row("functions_in_words", rows_of(_function_rows), lambda x: x.functions),

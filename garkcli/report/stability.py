@@ -30,26 +30,8 @@ from garkcli.stability.linear import poles_are_right
 from garkcli.stability.summary import Stability
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
+from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, picture, via
-from garkcli.tell.kinds import (
-    BOUNDS,
-    EXACT,
-    EXACTS,
-    POSITION,
-    RADIUS,
-    ROOTS,
-    TEXT,
-    TOLERANCE,
-    TRUTH,
-    bounds_data,
-    constant,
-    intervals,
-    polynomial,
-    ratio,
-    record,
-    term,
-    truth,
-)
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -137,18 +119,18 @@ def _height_words(found: Any, d: Plain) -> str:
 def _end_data(found: Any, d: Plain) -> dict[str, Any]:
     """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
     if isinstance(found, Bounds):
-        return bounds_data(found)
+        return kinds.bounds_data(found)
     if not found:
         return {"to": "0"}
     return {"to": None if found[0].end is None else root_data(found[0].end, d.digits)}
 
 
-_END = record(to=S.nullable(ALGEBRAIC))
-REAL = Kind(S.one_of(_END, BOUNDS), _end_data, _reach_words)
-IMAGINARY = Kind(S.one_of(_END, BOUNDS), _end_data, _height_words)
+_END = kinds.record(to=S.nullable(ALGEBRAIC))
+REAL = Kind(S.one_of(_END, kinds.BOUNDS), _end_data, _reach_words)
+IMAGINARY = Kind(S.one_of(_END, kinds.BOUNDS), _end_data, _height_words)
 SSP = Kind(
-    S.one_of(S.TEXT, ROOT_OF, BOUNDS),
-    lambda x, d: bounds_data(x) if isinstance(x, Bounds) else RADIUS.data(x, d),
+    S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS),
+    lambda x, d: kinds.bounds_data(x) if isinstance(x, Bounds) else kinds.RADIUS.data(x, d),
     lambda x, d: d.bounds(x) if isinstance(x, Bounds) else _radius_words(x, d),
 )
 
@@ -158,7 +140,7 @@ def _radius_words(x: Any, d: Plain) -> str:
 
 
 SECTOR = Kind(
-    record(degrees=S.TEXT, cosine=ALGEBRAIC),
+    kinds.record(degrees=S.TEXT, cosine=ALGEBRAIC),
     lambda x, d: {"degrees": _degrees(x.cosine, d.digits), "cosine": root_data(x.cosine, d.digits)},
     lambda x, d: d.prose(f"α = {_degrees(x.cosine, d.digits)}°, cos α = ") + d.root(x.cosine),
 )
@@ -180,7 +162,7 @@ def _fraction_data(R: Fraction, _: Plain) -> dict[str, Any]:
 
 
 FRACTION = Kind(
-    record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG),
+    kinds.record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG),
     _fraction_data,
     lambda R, d: (
         d.fraction(*integral_parts(R)) + ("" if R.is_reduced else "; perhaps not in lowest terms")
@@ -200,14 +182,14 @@ def _conserved_words(form: Any, d: Plain) -> str:
 
 
 CONSERVED = Kind(
-    record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
+    kinds.record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
     lambda form, _: dict(
         zip(("qq", "qp", "pp"), (polynomial_text(p, "z") for p in integral(form)), strict=True)
     ),
     _conserved_words,
 )
 FROM_TO = Kind(
-    record(**{"from": S.EXACT, "to": S.EXACT}),
+    kinds.record(**{"from": S.EXACT, "to": S.EXACT}),
     lambda x, _: {"from": str(x.low), "to": str(x.high)},
     lambda x, _: f"every a = (hω_slow)² from {x.low} to {x.high}",
 )
@@ -222,13 +204,13 @@ ROUNDED = "coefficients are rounded"
 def a_stable(x: Any) -> Answer:
     """Whether |R| ≤ 1 in the left half plane, and why not."""
     if x.a_stable is not False or x.real is None:
-        return truth(x.a_stable, open_because=ROUNDED)
+        return kinds.truth(x.a_stable, open_because=ROUNDED)
     if x.R.at_infinity() is None:
-        return truth(False, "R is unbounded")
+        return kinds.truth(False, "R is unbounded")
     if not poles_are_right(x.R.denominator):
-        return truth(False, "a pole is not in the right half plane")
-    E = polynomial("x")(x.e_polynomial)
-    return truth(False, Reason("|R(iy)| > 1 where E(y²) < 0, E = {}", E))
+        return kinds.truth(False, "a pole is not in the right half plane")
+    E = kinds.polynomial("x")(x.e_polynomial)
+    return kinds.truth(False, Reason("|R(iy)| > 1 where E(y²) < 0, E = {}", E))
 
 
 def sector(x: Any) -> Any:
@@ -272,17 +254,17 @@ def ssp(x: Any) -> Any:
 LINEAR = [
     Row(
         "R",
-        ratio("z"),
+        kinds.ratio("z"),
         lambda x: Answer(
             x.R, reason=PRINTED if x.within else NO_REASON, level=DETAIL if x.within else USUAL
         ),
     ),
-    Row("R_infinity", EXACT, limit, has_null=True),
-    Row("a_stable", TRUTH, a_stable, HEADLINE, has_null=True),
+    Row("R_infinity", kinds.EXACT, limit, has_null=True),
+    Row("a_stable", kinds.TRUTH, a_stable, HEADLINE, has_null=True),
     Row(
         "l_stable",
-        TRUTH,
-        lambda x: truth(x.l_stable, open_because=ROUNDED),
+        kinds.TRUTH,
+        lambda x: kinds.truth(x.l_stable, open_because=ROUNDED),
         lambda a: HEADLINE if a.value else DETAIL,
         has_null=True,
     ),
@@ -292,7 +274,9 @@ LINEAR = [
     Row("ssp", SSP, ssp, has_null=True),
 ]
 OF_COLOUR = Section(
-    Row("name", TEXT, level=DATA), *LINEAR, title=lambda x, d: f"colour {d.prose(x.name)} alone"
+    Row("name", kinds.TEXT, level=DATA),
+    *LINEAR,
+    title=lambda x, d: f"colour {d.prose(x.name)} alone",
 )
 
 
@@ -308,12 +292,12 @@ def conserved(o: Any) -> Answer:
 def p_stable(o: Any) -> Answer:
     """Stability for every step size on the oscillator, and where it ends."""
     if o.is_p_stable:
-        return truth(True)
+        return kinds.truth(True)
     first = o.stable[0] if o.stable else None
     if first is None or not first.has_start or first.is_point:
-        return truth(False, "unstable for small step sizes")
+        return kinds.truth(False, "unstable for small step sizes")
     where = "beyond" if first.has_end else "at"
-    return truth(False, Reason(f"not stable {where} x = {{}}", ROOT_ALONE(first.end)))
+    return kinds.truth(False, Reason(f"not stable {where} x = {{}}", ROOT_ALONE(first.end)))
 
 
 ROOT_ALONE = Kind(ALGEBRAIC, words=lambda x, d: d.root(x))
@@ -325,12 +309,12 @@ def phase(o: Any) -> Answer:
         return Answer(None, reason=Reason("none: the frequency is exact"))
     if o.phase.constant is None:
         return Answer(o.phase.order, reason=Reason("the frequency is wrong for small step sizes"))
-    lag = term("z", o.phase.order + 1)
+    lag = kinds.term("z", o.phase.order + 1)
     return Answer(o.phase.order, reason=Reason("{}", lag(o.phase.constant)))
 
 
 PHASE = Kind(S.COUNT, words=lambda n, _: f"of order {n}")
-_X = intervals("x")
+_X = kinds.intervals("x")
 STABLE = Kind(
     _X.schema, _X.data, lambda xs, d: " or ".join(_zone(x, d) for x in xs) if xs else "for no x"
 )
@@ -343,13 +327,13 @@ def _zone(x: Any, d: Plain) -> str:
 
 
 OSCILLATOR = [
-    Row("trace", ratio("x"), level=DETAIL),
-    Row("determinant", ratio("x"), level=DETAIL),
-    Row("discriminant", polynomial("x"), level=DETAIL),
+    Row("trace", kinds.ratio("x"), level=DETAIL),
+    Row("determinant", kinds.ratio("x"), level=DETAIL),
+    Row("discriminant", kinds.polynomial("x"), level=DETAIL),
     Row("stable", STABLE, label="oscillator stable, x = (hω)²"),
-    Row("p_stable", TRUTH, p_stable, has_null=True),
+    Row("p_stable", kinds.TRUTH, p_stable, has_null=True),
     Row("phase_order", PHASE, phase, has_null=True),
-    Row("phase_constant", EXACT, lambda o: o.phase.constant, DATA, has_null=True),
+    Row("phase_constant", kinds.EXACT, lambda o: o.phase.constant, DATA, has_null=True),
     Row("conserved", CONSERVED, conserved, DETAIL, has_null=True),
 ]
 
@@ -360,11 +344,11 @@ def algebraic(x: Any) -> Answer:
     if found.algebraic is None:
         if found.tolerance is None:
             return Answer(None, reason=Reason("has no meaning: colours do not see one another"))
-        return truth(found.algebraic_within, open_because=ROUNDED)
+        return kinds.truth(found.algebraic_within, open_because=ROUNDED)
     why = [] if found.algebraic.weights_are_positive else ["a weight is negative"]
     if not found.algebraic.form_is_positive:
         why.append("B A + Aᵀ B − b bᵀ is not positive semidefinite")
-    return truth(found.algebraic.holds, ", ".join(why))
+    return kinds.truth(found.algebraic.holds, ", ".join(why))
 
 
 def title(x: Any, d: Plain) -> str:
@@ -383,15 +367,17 @@ def named(x: Any) -> Answer:
 def head(kind: str) -> list[Row]:
     """The first fields of every report."""
     return [
-        Row("file", TEXT, level=DATA),
-        Row("name", TEXT, named, DETAIL),
+        Row("file", kinds.TEXT, level=DATA),
+        Row("name", kinds.TEXT, named, DETAIL),
         Row("derivation", Kind(S.DERIVATION), level=DATA),
-        Row("kind", constant(kind), lambda _: kind, DATA),
-        Row("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),
+        Row("kind", kinds.constant(kind), lambda _: kind, DATA),
+        Row("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),
     ]
 
 
-RADII = Section(Row("direction", EXACTS, lambda r: r.ratios), Row("radius", RADIUS, has_null=True))
+RADII = Section(
+    Row("direction", kinds.EXACTS, lambda r: r.ratios), Row("radius", kinds.RADIUS, has_null=True)
+)
 
 
 def _radii_words(found: Any, d: Plain) -> str:
@@ -423,8 +409,8 @@ def _ray(sign: str) -> Kind:
 
 
 IMEX = Section(
-    Row("explicit", TEXT, lambda c: c.names[c.pair.explicit], DATA),
-    Row("implicit", TEXT, lambda c: c.names[c.pair.implicit], DATA),
+    Row("explicit", kinds.TEXT, lambda c: c.names[c.pair.explicit], DATA),
+    Row("implicit", kinds.TEXT, lambda c: c.names[c.pair.implicit], DATA),
     Row("real_interval", _ray("−z"), lambda c: c.real, has_null=True),
     Row("imaginary_interval", _ray("|z|"), lambda c: c.imaginary, has_null=True),
     Row(
@@ -461,7 +447,7 @@ SEVERAL = [
     Row("R", FRACTION, fraction, has_null=True, label="R(z1, z2, …)"),
     *ALIKE[1:],
     ALONE,
-    Row("R_alike", ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
+    Row("R_alike", kinds.ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
     REGION,
     Row("ssp_radii", parts(RADII, _radii_words), lambda x: x.found.colours.radii),
     Row(
@@ -483,7 +469,7 @@ def _waves(linear: str, has_waves: bool) -> list[Row]:
 
 
 WAVES = via(lambda x: x.found.oscillator, OSCILLATOR)
-TAIL = Row("algebraically_stable", TRUTH, algebraic, has_null=True)
+TAIL = Row("algebraically_stable", kinds.TRUTH, algebraic, has_null=True)
 LINEARS = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, REGION, ALONE],
@@ -506,7 +492,8 @@ def factors(p: Polynomial) -> list[tuple[Polynomial, int]]:
 
 
 FACTOR = Section(
-    Row("factor", polynomial("x"), lambda f: f[0]), Row("multiplicity", POSITION, lambda f: f[1])
+    Row("factor", kinds.polynomial("x"), lambda f: f[0]),
+    Row("multiplicity", kinds.POSITION, lambda f: f[1]),
 )
 
 
@@ -520,8 +507,8 @@ SPRINGS = Section(
         lambda x: x.springs,
         [
             Row("slow", SQUARE, label="two springs, x = (hω_fast)²"),
-            Row("trace", ratio("x"), level=DETAIL),
-            Row("determinant", ratio("x"), level=DETAIL),
+            Row("trace", kinds.ratio("x"), level=DETAIL),
+            Row("determinant", kinds.ratio("x"), level=DETAIL),
             Row("factors", parts(FACTOR, _factors_words), lambda s: factors(s.discriminant)),
             Row("stable", STABLE),
         ],
@@ -537,11 +524,11 @@ SLOW = Section(
             Row("stable", STABLE),
             Row(
                 "stable_for_every_fast",
-                TRUTH,
-                lambda s: truth(s.is_stable_for_all, open_because="at the x below"),
+                kinds.TRUTH,
+                lambda s: kinds.truth(s.is_stable_for_all, open_because="at the x below"),
                 has_null=True,
             ),
-            Row("open_points", ROOTS),
+            Row("open_points", kinds.ROOTS),
         ],
     ),
     title=title,

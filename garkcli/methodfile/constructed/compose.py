@@ -12,22 +12,9 @@ from garkcli.constructions.composition import Substep, adjoint, composed
 from garkcli.constructions.schemes import MAX_ORDER, OTHER_NAMES, SCHEMES, Scheme
 from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
-from garkcli.methodfile.grammar import (
-    FLAG,
-    Beside,
-    Found,
-    Key,
-    Kind,
-    Ways,
-    count,
-    defined,
-    either,
-    list_of,
-    mapping,
-    word,
-)
 from garkcli.methodfile.numbers import Entry
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.values import Values
@@ -42,7 +29,7 @@ def _adjoint(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     return at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
 
 
-ADJOINT = Kind(defined("part").schema, _adjoint)
+ADJOINT = g.Kind(g.defined("part").schema, _adjoint)
 
 
 _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
@@ -72,68 +59,70 @@ def _order(at: PartReader, node: Node, where: str) -> int | None:
     return order
 
 
-_ORDER = Kind(count(2, MAX_ORDER).schema, _order)
-_STEP = mapping(
-    Key("step: 1/2", NUMBER, "The fraction of the step that this substep takes.", is_needed=True),
-    Key("of: explicit-euler", METHOD, "The method of this substep."),
-    Key("adjoint: true", FLAG, "Whether this substep is with the adjoint of the method.", False),
+_ORDER = g.Kind(g.count(2, MAX_ORDER).schema, _order)
+_STEP = g.mapping(
+    g.Key("step: 1/2", NUMBER, "The fraction of the step that this substep takes.", is_needed=True),
+    g.Key("of: explicit-euler", METHOD, "The method of this substep."),
+    g.Key(
+        "adjoint: true", g.FLAG, "Whether this substep is with the adjoint of the method.", False
+    ),
     form="write 1/2, or {step: 1/2, adjoint: true}",
 )
-_KEYS = mapping(
-    Key(
+_KEYS = g.mapping(
+    g.Key(
         "of: {family: gauss, stages: 1}",
         METHOD,
         "The method of all substeps that name none of their own.",
     ),
-    Key(
+    g.Key(
         "steps: [1/2, 1/2]",
-        list_of(
-            either(NUMBER, at_mapping=_STEP), "substeps", MAX_SUBSTEPS, "compose, step {}", _FORM
+        g.list_of(
+            g.either(NUMBER, at_mapping=_STEP), "substeps", MAX_SUBSTEPS, "compose, step {}", _FORM
         ),
         "The fractions of the step, or mappings with step, of and adjoint. They may be negative, "
         "names of parameters, and free.",
     ),
-    Key(
+    g.Key(
         "scheme: kahan-li-8",
-        Kind(word(lambda: SCHEMES.keys()).schema, _scheme),
+        g.Kind(g.word(lambda: SCHEMES.keys()).schema, _scheme),
         "The substeps by the name of a published scheme, as gark list shows them.",
     ),
-    Key(
+    g.Key(
         "order: 6",
         _ORDER,
         "With triple-jump and suzuki: the order of the result, two more with each round.",
     ),
-    Key(
+    g.Key(
         "from: 4",
         _ORDER,
         "With triple-jump and suzuki: the order of the method that is composed.",
         2,
     ),
-    Key(
+    g.Key(
         "processor: {family: gauss, stages: 1}",
         METHOD,
         "A method π: the step is π, then the substeps, then the inverse of π.",
     ),
     form=_FORM,
     rules=[
-        Ways("the substeps are", ("scheme", "steps")),
-        Ways(
+        g.Ways("the substeps are", ("scheme", "steps")),
+        g.Ways(
             "",
             ("steps", "scheme", "processor"),
             "no substeps",
             "give steps: [1/2, 1/2] or scheme: triple-jump",
             is_one=False,
         ),
-        Beside("scheme", "of missing beside scheme", _FORM, needs=("of",), code="missing-key"),
+        g.Beside("scheme", "of missing beside scheme", _FORM, needs=("of",), code="missing-key"),
         *(
-            Beside(key, f"{key} goes with scheme", needs=("scheme",), code="option-alone")
+            g.Beside(key, f"{key} goes with scheme", needs=("scheme",), code="option-alone")
             for key in ("order", "from")
         ),
     ],
 )
 
 
-def _read(at: PartReader, found: Found, where: str) -> ConstructionText | None:
+def _read(at: PartReader, found: g.Found, where: str) -> ConstructionText | None:
     """The methods and their substeps."""
     before, node = len(at.source.faults), found.node
     steps = [*_steps(at, found, where)]
@@ -148,7 +137,7 @@ def _read(at: PartReader, found: Found, where: str) -> ConstructionText | None:
     return at.made(node, _maker(steps), rounding or None)
 
 
-def _steps(at: PartReader, found: Found, where: str) -> Iterator[_Step]:
+def _steps(at: PartReader, found: g.Found, where: str) -> Iterator[_Step]:
     """The substeps between those of the processor."""
     whole: Any = found.get("of")
     if "scheme" in found:
@@ -175,7 +164,7 @@ def _steps(at: PartReader, found: Found, where: str) -> Iterator[_Step]:
             yield part, step["step"], step.get("adjoint", False)
 
 
-def _orders(at: PartReader, found: Found, scheme: Scheme) -> tuple[int, int]:
+def _orders(at: PartReader, found: g.Found, scheme: Scheme) -> tuple[int, int]:
     """From which order to which a scheme that is repeated goes.
 
     The substeps that take a symmetric method of order p further have a root of degree p + 1.

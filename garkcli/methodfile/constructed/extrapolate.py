@@ -12,21 +12,9 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
 from garkcli.families.extrapolated import SEQUENCES, sequence
 from garkcli.frozen import Frozen
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
-from garkcli.methodfile.grammar import (
-    FLAG,
-    Beside,
-    Found,
-    Key,
-    Kind,
-    Values,
-    Ways,
-    count,
-    either,
-    mapping,
-    word,
-)
 from garkcli.methodfile.values import Values as Numbers
 from garkcli.order.deciding import order_of
 from garkcli.properties.symmetry import symmetry
@@ -63,58 +51,58 @@ def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
     return tuple(numbers)
 
 
-_NUMBERS = Kind(
+_NUMBERS = g.Kind(
     lambda: {
         "type": "array",
-        "items": count(1, MAX_PARTS).schema(),
+        "items": g.count(1, MAX_PARTS).schema(),
         "minItems": 2,
         "maxItems": _MOST_ROWS,
         "uniqueItems": True,
     },
     _numbers,
 )
-_KEYS = mapping(
-    Key("of: explicit-euler", METHOD, "The method that is extrapolated.", is_needed=True),
-    Key(
+_KEYS = g.mapping(
+    g.Key("of: explicit-euler", METHOD, "The method that is extrapolated.", is_needed=True),
+    g.Key(
         "order: 6",
-        count(1, MAX_ORDER),
+        g.count(1, MAX_ORDER),
         "The order of the result; not beside a sequence of numbers, which says it already.",
     ),
-    Key(
+    g.Key(
         "sequence: [1, 2, 4]",
-        either(word(lambda: SEQUENCES), at_list=_NUMBERS),
+        g.either(g.word(lambda: SEQUENCES), at_list=_NUMBERS),
         "The numbers of substeps: a sequence by its name, or the numbers themselves.",
         "harmonic",
     ),
-    Key(
+    g.Key(
         "from: 4",
-        count(1, MAX_ORDER),
+        g.count(1, MAX_ORDER),
         "The order of the method; it is found where it is left out and no parameter is free.",
     ),
-    Key(
+    g.Key(
         "symmetric: true",
-        FLAG,
+        g.FLAG,
         "Whether the method is its own adjoint, so that only even powers of h have to cancel; it "
         "is found where it is left out and no parameter is free.",
     ),
     form=_FORM,
     rules=[
-        Ways("", ("order", "sequence"), _HOW_FAR, _GIVE_ORDER, is_one=False),
-        Beside(
+        g.Ways("", ("order", "sequence"), _HOW_FAR, _GIVE_ORDER, is_one=False),
+        g.Beside(
             "sequence",
             "the numbers of sequence say the order",
             "keep one of them",
             bars=("order",),
             code="given-twice",
-            values=Values({"type": "array"}, lambda node: isinstance(node, SequenceNode)),
+            values=g.Values({"type": "array"}, lambda node: isinstance(node, SequenceNode)),
         ),
-        Beside(
+        g.Beside(
             "sequence",
             _HOW_FAR,
             _GIVE_ORDER,
             needs=("order",),
             code="missing-key",
-            values=Values(
+            values=g.Values(
                 {"not": {"type": "array"}}, lambda node: not isinstance(node, SequenceNode)
             ),
         ),
@@ -122,7 +110,7 @@ _KEYS = mapping(
 )
 
 
-def _read(at: PartReader, found: Found, _: str) -> ConstructionText:
+def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText:
     """The method and the numbers of its substeps."""
     plan = _Plan(
         found.get("sequence", "harmonic"),

@@ -22,21 +22,9 @@ from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
 from garkcli.frozen import Frozen
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, Make, PartText
-from garkcli.methodfile.grammar import (
-    Beside,
-    Found,
-    Key,
-    Kind,
-    Ways,
-    as_it_is,
-    count,
-    either,
-    list_of,
-    mapping,
-    word,
-)
 from garkcli.methodfile.load import NO_SETTINGS, built, described
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
@@ -62,16 +50,16 @@ _NAMES = ("lambda", "M")
 """Which small step it is, from 1, and how many there are, in coupling matrices."""
 TableauOf: TypeAlias = Callable[[PartText], Tableau]
 
-_SMALL_STEPS = Kind(MATRIX.schema, as_it_is)
-_COUPLING = mapping(
-    Key(
+_SMALL_STEPS = g.Kind(MATRIX.schema, g.as_it_is)
+_COUPLING = g.mapping(
+    g.Key(
         "fast-slow: [[(lambda - 1)/M]]",
         _SMALL_STEPS,
         "How the fast stages of small step lambda see the slow slopes; entries may use lambda "
         "and M.",
         is_needed=True,
     ),
-    Key(
+    g.Key(
         "slow-fast: [[0]]",
         _SMALL_STEPS,
         "How the slow stages see the fast slopes of small step lambda; entries may use lambda "
@@ -82,58 +70,61 @@ _COUPLING = mapping(
 )
 
 
-def _powers(key: str) -> Kind:
+def _powers(key: str) -> g.Kind:
     """A matrix for each power of τ."""
-    return list_of(MATRIX, "matrices", MAX_POWERS, f"{key}, matrix {{}}", _FORM_OF_MRI)
+    return g.list_of(MATRIX, "matrices", MAX_POWERS, f"{key}, matrix {{}}", _FORM_OF_MRI)
 
 
-_MRI = mapping(
-    Key(
+_MRI = g.mapping(
+    g.Key(
         "c: [0, 1/3, 2/3, 1]",
         ROW,
         "The nodes that the slow stages go through, from 0 to 1.",
         is_needed=True,
     ),
-    Key(
+    g.Key(
         "gamma: [[[1/3], [-1/3, 2/3], [0, -2/3, 1]]]",
         _powers("gamma"),
         "The coefficients of the implicit slow part, or of the only one: a matrix for each power.",
     ),
-    Key(
+    g.Key(
         "omega: [[[1/3], [-1/3, 2/3], [0, -2/3, 1]]]",
         _powers("omega"),
         "The coefficients of the explicit slow part beside an implicit one.",
     ),
     form=_FORM_OF_MRI,
-    rules=[Ways("", ("gamma", "omega"), "gamma missing", _FORM_OF_MRI, is_one=False)],
+    rules=[g.Ways("", ("gamma", "omega"), "gamma missing", _FORM_OF_MRI, is_one=False)],
 )
-_SLOW = Ways("the slow part is", ("slow", "mis", "mri"), "the slow method is missing", _FORM)
-_KEYS = mapping(
-    Key("fast: rk4", METHOD, "The method of the fast part, of one colour.", is_needed=True),
-    Key(
-        "steps: 4", count(1, MAX_STEPS), "How many small steps the fast part takes.", is_needed=True
+_SLOW = g.Ways("the slow part is", ("slow", "mis", "mri"), "the slow method is missing", _FORM)
+_KEYS = g.mapping(
+    g.Key("fast: rk4", METHOD, "The method of the fast part, of one colour.", is_needed=True),
+    g.Key(
+        "steps: 4",
+        g.count(1, MAX_STEPS),
+        "How many small steps the fast part takes.",
+        is_needed=True,
     ),
-    Key("slow: kutta", METHOD, "The method of the slow part, of one colour."),
-    Key(
+    g.Key("slow: kutta", METHOD, "The method of the slow part, of one colour."),
+    g.Key(
         "coupling: slowest-first",
-        either(word(lambda: (SLOWEST_FIRST, *RULES)), at_mapping=_COUPLING),
+        g.either(g.word(lambda: (SLOWEST_FIRST, *RULES)), at_mapping=_COUPLING),
         "How the slow and the fast part see each other: slowest-first, a transfer rule for all "
         "small steps as one method, or the matrices of each small step.",
         SLOWEST_FIRST,
     ),
-    Key(
+    g.Key(
         "mis: {A: [[], [1/3], [-3/16, 15/16]], b: [1/6, 3/10, 8/15]}",
         METHOD,
         "The slow method of multirate infinitesimal steps with a constant forcing: between two "
         "stages the fast problem is solved by small steps.",
     ),
-    Key(
+    g.Key(
         "mri: {c: [0, 1], gamma: [[[1]]]}",
         _MRI,
         "Multirate infinitesimal steps whose forcing has polynomials in time.",
     ),
     form=_FORM,
-    rules=[_SLOW, Beside("coupling", "coupling does not go with {way}", needs=("slow",))],
+    rules=[_SLOW, g.Beside("coupling", "coupling does not go with {way}", needs=("slow",))],
 )
 
 
@@ -162,12 +153,12 @@ def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
     return one_field(tableau, message + "where one of one vector field is expected")
 
 
-def _mis(found: Found) -> Callable[[TableauOf, Values], Coupling]:
+def _mis(found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
     """The coupling by a constant forcing."""
     return lambda tableau_of, _: mis_coupling(_method(tableau_of, found["mis"], "mis"))
 
 
-def _read(at: PartReader, found: Found, _: str) -> ConstructionText | None:
+def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
     """The methods, and how they are coupled."""
     before = len(at.source.faults)
     if "slow" in found:
@@ -178,11 +169,11 @@ def _read(at: PartReader, found: Found, _: str) -> ConstructionText | None:
     return None if len(at.source.faults) > before else at.made(found.node, make)
 
 
-def _coupled(at: PartReader, found: Found) -> Make:
+def _coupled(at: PartReader, found: g.Found) -> Make:
     """Two methods with a coupling by name, or by matrices."""
     coupling = found.get("coupling", SLOWEST_FIRST)
     steps: int = found["steps"]
-    keys = _BLOCKS if isinstance(coupling, Found) else ()
+    keys = _BLOCKS if isinstance(coupling, g.Found) else ()
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
@@ -238,7 +229,7 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
             numbers.define(name, value)
 
 
-def _polynomials(at: PartReader, found: Found) -> Callable[[TableauOf, Values], Coupling]:
+def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
     """Polynomial couplings between nodes, of the explicit part before the implicit one."""
     c: Row = found["c"]
     parts = []
@@ -254,19 +245,19 @@ def _polynomials(at: PartReader, found: Found) -> Callable[[TableauOf, Values], 
     return coupling
 
 
-def _whole(at: PartReader, rows: Rows, node: Node, name: str, count: int) -> Rows:
+def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
     """The matrix with a row less than nodes and a column a node; what is left out at the right is
     zero, and a first row of zeros, that of the beginning, may stand before the others.
     """
-    if len(rows) == count and not any(map(_is_nonzero, rows[0])):
+    if len(rows) == nodes and not any(map(_is_nonzero, rows[0])):
         rows = rows[1:]
     width = max(map(len, rows), default=0)
-    if len(rows) != count - 1 or width > count:
-        message = f"{name} is {len(rows)} by {width} for {counted(count, 'node')}"
+    if len(rows) != nodes - 1 or width > nodes:
+        message = f"{name} is {len(rows)} by {width} for {counted(nodes, 'node')}"
         cure = "give a row from each node to the next, a column a node"
         at.source.fault(node, message, cure, code="wrong-value")
     zero = at.numbers.written("0", node, name)
-    return tuple(row + (zero,) * (count - len(row)) for row in rows)
+    return tuple(row + (zero,) * (nodes - len(row)) for row in rows)
 
 
 def _is_nonzero(entry: Entry) -> bool:

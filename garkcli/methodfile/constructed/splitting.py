@@ -10,21 +10,9 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 from garkcli.constructions.composition import drift_and_kick, split
 from garkcli.constructions.schemes import SPLITTINGS
 from garkcli.exact.expression import read_decimal
+from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
 from garkcli.methodfile.description import ConstructionText, PartText
-from garkcli.methodfile.grammar import (
-    Found,
-    Key,
-    Kind,
-    Together,
-    Ways,
-    by_name,
-    count,
-    list_of,
-    mapping,
-    one_or_more,
-    word,
-)
 from garkcli.methodfile.numbers import Entry
 from garkcli.methodfile.parameters import NUMBER, ROW
 from garkcli.methodfile.values import Values
@@ -39,32 +27,35 @@ MAX_FLOWS = 400
 _Flow: TypeAlias = tuple[int, Entry]
 """A part of the problem, counted from 0, and for which fraction of the step it flows."""
 
-_WAYS = Ways("the flows are", (Together(("a", "b")), "flows", "scheme"), "no flows", _FORM)
-_FLOW = by_name(NUMBER, propertyNames={"pattern": "^[1-9][0-9]?$"}, minProperties=1)
-_KEYS = mapping(
-    Key(
+_WAYS = g.Ways("the flows are", (g.Together(("a", "b")), "flows", "scheme"), "no flows", _FORM)
+_FLOW = g.by_name(NUMBER, propertyNames={"pattern": "^[1-9][0-9]?$"}, minProperties=1)
+_KEYS = g.mapping(
+    g.Key(
         "of: {family: gauss, stages: 1}",
-        one_or_more(METHOD, "methods", rules={"minItems": 2}),
+        g.one_or_more(METHOD, "methods", rules={"minItems": 2}),
         "The method that each part flows by, or one for each part; without it flows are exact.",
     ),
-    Key(
+    g.Key(
         "a: [1/2, 1/2]",
         ROW,
         "The fractions of the step of the first part, before each of the second and at the end.",
     ),
-    Key("b: [1]", ROW, "The fractions of the step of the second part."),
-    Key(
+    g.Key("b: [1]", ROW, "The fractions of the step of the second part."),
+    g.Key(
         "flows: [{1: 1/2}, {2: 1}, {1: 1/2}]",
-        list_of(_FLOW, "flows", MAX_FLOWS, "splitting, flow {}", _FORM_OF_FLOWS),
+        g.list_of(_FLOW, "flows", MAX_FLOWS, "splitting, flow {}", _FORM_OF_FLOWS),
         "The flows in turn: each the number of a part with its fraction of the step.",
     ),
-    Key(
+    g.Key(
         "scheme: strang",
-        word(lambda: SPLITTINGS.keys()),
+        g.word(lambda: SPLITTINGS.keys()),
         "The flows by the name of a published scheme, as gark list shows them.",
     ),
-    Key(
-        "terms: 3", count(2, MAX_TERMS), "How many parts there are, where nothing else says it.", 2
+    g.Key(
+        "terms: 3",
+        g.count(2, MAX_TERMS),
+        "How many parts there are, where nothing else says it.",
+        2,
     ),
     form=_FORM,
     rules=[_WAYS],
@@ -75,7 +66,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     """The parts and their flows."""
     source = at.source
     before = len(source.faults)
-    found: Found | None = _KEYS.read(at, node, where)
+    found: g.Found | None = _KEYS.read(at, node, where)
     if found is None:
         return None
     terms = _terms(at, found, where)
@@ -109,15 +100,15 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     return at.made(node, made, rounding)
 
 
-def _terms(at: PartReader, found: Found, where: str) -> int:
+def _terms(at: PartReader, found: g.Found, where: str) -> int:
     """How many parts there are; noted where there is no method for each of them."""
     of = found.nodes.get("of")
     terms: int | None = found.get("terms")
     if isinstance(of, SequenceNode):
-        count = len(of.value)
-        terms = terms or count
-        if count < 2 or count != terms:
-            message = f"{where}, of: {count} methods for {terms} parts"
+        given = len(of.value)
+        terms = terms or given
+        if given < 2 or given != terms:
+            message = f"{where}, of: {given} methods for {terms} parts"
             at.source.fault(of, message, "give one for each part", code="wrong-size")
         return terms
     terms = terms or _largest(found.nodes.get("flows"))
@@ -139,7 +130,7 @@ def _largest(flows: Node | None) -> int:
     return min(max(numbers), MAX_TERMS)
 
 
-def _alternating(at: PartReader, found: Found, where: str) -> Iterator[_Flow]:
+def _alternating(at: PartReader, found: g.Found, where: str) -> Iterator[_Flow]:
     """Part 1 for a_1, part 2 for b_1, and so on."""
     a, b = found["a"], found["b"]
     if len(a) - len(b) not in {0, 1}:
@@ -161,7 +152,7 @@ def _one_by_one(at: PartReader, items: list[Node], terms: int) -> Iterator[_Flow
             yield int(name) - 1, at.numbers.entry(value, where)
 
 
-def _by_scheme(at: PartReader, found: Found, terms: int, where: str) -> Iterator[_Flow]:
+def _by_scheme(at: PartReader, found: g.Found, terms: int, where: str) -> Iterator[_Flow]:
     """The flows of a splitting by name."""
     scheme, node = SPLITTINGS[found["scheme"]], found.nodes["scheme"]
     if scheme.terms and scheme.terms != terms:
@@ -172,4 +163,4 @@ def _by_scheme(at: PartReader, found: Found, terms: int, where: str) -> Iterator
         yield l, at.numbers.written(text, node, scheme.name)
 
 
-KIND = Kind(_KEYS.schema, _read, _KEYS.inside)
+KIND = g.Kind(_KEYS.schema, _read, _KEYS.inside)
