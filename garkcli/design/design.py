@@ -15,6 +15,7 @@ from garkcli.design.conditions import Condition, FamilyConditions
 from garkcli.design.ideal import Ideal, without_multiples
 from garkcli.design.member import is_admissible, is_stable, member, method_at
 from garkcli.design.msolve import find_msolve
+from garkcli.design.pairs import PairConditions, pair_conditions
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided, ZeroWeight
@@ -70,6 +71,8 @@ class Step(Frozen):
         found: the solutions, where there are finitely many; of a family the real ones.
         is_real: of a family and of every value, whether a real value is a method of the file; None
             where that is not decided.
+        criterion: where the real values are those of a criterion for real ones; of complex values
+            with the order there may be more. None elsewhere.
     """
 
     order: int
@@ -82,6 +85,7 @@ class Step(Frozen):
     polynomials_of_real: tuple[fmpq_mpoly | fmpz_mpoly, ...] = ()
     found: tuple[Found, ...] = ()
     is_real: bool | None = None
+    criterion: PairConditions | None = None
 
     @property
     def has_methods(self) -> bool | None:
@@ -102,7 +106,9 @@ class Step(Frozen):
 
     @property
     def is_all(self) -> bool:
-        """Whether there are no other values, not even complex ones: that is proved."""
+        """Whether there are no other values, not even complex ones unless a criterion for real
+        ones was taken: that is proved.
+        """
         return self.ideal is not None and self.ideal.is_proved
 
     def __repr__(self) -> str:
@@ -175,8 +181,10 @@ def find_parameters(
     """
     tableau = TABLEAUS[whose](family.tableau)
     with within(seconds):
-        finding = _Finding(family, whose, FamilyConditions(tableau, family.ring))
-        return Design(family, whose, tableau, tuple(finding.steps(order or family.order)))
+        criterion = pair_conditions(family) if whose == "pair" else None
+        conditions = FamilyConditions(tableau, family.ring)
+        finding = _Finding(family, whose, conditions, criterion, order or family.order)
+        return Design(family, whose, tableau, tuple(finding.steps()))
 
 
 class _Finding(Frozen):
@@ -185,11 +193,15 @@ class _Finding(Frozen):
     family: Family
     whose: Whose
     conditions: FamilyConditions
+    criterion: PairConditions | None = None
 
-    def steps(self, wanted: int | None) -> list[Step]:
+    wanted: int | None = None
+
+    def steps(self) -> list[Step]:
         """One an order, from 1 on: up to the one that is wanted, or as far as some value reaches;
         one alone where what the file wants besides is not worked out.
         """
+        wanted = self.wanted
         if self.family.unsettled:
             return [Step(wanted or 1, "undecided", None)]
         left = seconds_left()
@@ -206,7 +218,10 @@ class _Finding(Frozen):
                 if first is not None:
                     with suppress(NotDecided):
                         step = self._at_once(step.order)
-            steps.append(self._looked_into(step))
+            if step.kind == "none" and self.criterion is not None and steps:
+                steps[-1] = self._looked_into(steps[-1], is_last=True)
+            is_last = self.criterion is None or wanted is None or k == wanted
+            steps.append(self._looked_into(step, is_last))
             if not steps[-1].may_have_methods or step.order == wanted:
                 break
         return _with_lower(steps)
@@ -214,6 +229,8 @@ class _Finding(Frozen):
     def _start(self) -> Ideal:
         """The ideal of what parameters satisfy whatever is wanted of them."""
         nonzero = (*self.conditions.denominators, *self.family.nonzero)
+        if self.criterion is not None:
+            nonzero = tuple(p for p in nonzero if not self.criterion.is_never_zero(p))
         return Ideal(self.family.ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
     def _step(self, order: int, lower: Ideal | None) -> Step:
@@ -229,6 +246,12 @@ class _Finding(Frozen):
         start = self._start()
         if lower is None:
             lower = start.with_zeros(self.family.relations)
+        if self.criterion is not None:
+            ideal = lower.with_zeros(self.criterion.of_order(order))
+            if ideal.is_everything:
+                return Step(order, "none", ideal, criterion=self.criterion)
+            kind = _kind(ideal, start)
+            return Step(order, kind, ideal, criterion=self.criterion if order > 2 else None)
         coming = (x for x in self.conditions.of_order(order) if x.polynomial)
         ideal, done, large = _as_long_as_small(lower, coming)
         if large is not None:
@@ -242,9 +265,7 @@ class _Finding(Frozen):
             done += new[:taken]
         if ideal.is_everything:
             return Step(order, "none", ideal, done[-1].tree if done else None)
-        if ideal.basis == start.basis:
-            return Step(order, "every-value", ideal)
-        return Step(order, "family" if ideal.dimension > 0 else "solutions", ideal)
+        return Step(order, _kind(ideal, start), ideal)
 
     @property
     def _relations(self) -> list[fmpq_mpoly]:
@@ -268,15 +289,17 @@ class _Finding(Frozen):
             return Step(order, "undecided", ideal)
         return Step(order, "family" if ideal.dimension > 0 else "solutions", ideal)
 
-    def _looked_into(self, step: Step) -> Step:
-        """A step with its polynomials, its solutions, and what is known of real ones; not decided
-        where its solutions take too long.
+    def _looked_into(self, step: Step, is_last: bool) -> Step:
+        """A step with its polynomials, its solutions, and what is known of real ones, unless a
+        higher order tells it; not decided where its solutions take too long.
         """
         ideal = step.ideal
         if ideal is None:
             return step
         try:
             polynomials, nonzero = _described(ideal)
+            if self.criterion is not None:
+                polynomials = self.criterion.solved(ideal) or polynomials
             step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
             if step.kind == "solutions":
                 step = replace(step, found=self._found(ideal))
@@ -284,7 +307,7 @@ class _Finding(Frozen):
             return replace(step, kind="undecided")
         left = seconds_left()
         with suppress(NotDecided), within(None if left is None else PART * left):
-            if step.kind in {"every-value", "family"}:
+            if is_last and step.kind in {"every-value", "family"}:
                 return self._with_real(step, ideal)
         return step
 
@@ -294,6 +317,8 @@ class _Finding(Frozen):
         Raises:
             NotDecided: the time is not enough.
         """
+        if self.criterion is not None and self._has_point(self.criterion, ideal):
+            return replace(step, is_real=True)
         real = without_complex(ideal)
         if real.basis != ideal.basis:
             polynomials, _ = _described(real)
@@ -301,6 +326,14 @@ class _Finding(Frozen):
         if real.dimension == 0:
             step = replace(step, found=self._found(real))
         return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
+
+    def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
+        """Whether there is a method where the unknowns that are free are 0."""
+        point = criterion.point(ideal)
+        if point is None:
+            return False
+        found = ((x, root) for x in solutions(point) for root in x.real)
+        return any(self._is_method(x, root) for x, root in found)
 
     def _found(self, ideal: Ideal) -> tuple[Found, ...]:
         """Finitely many solutions, each with its order by the ordinary certificate.
@@ -347,6 +380,13 @@ class _Finding(Frozen):
     def _is_method(self, solution: Solution, root: RealRoot) -> bool:
         """Whether a real solution is a method as the file wants it."""
         return is_admissible(self.family, solution, root) and bool(self._is_stable(solution, root))
+
+
+def _kind(ideal: Ideal, start: Ideal) -> Kind:
+    """For which values an order is reached that some values reach."""
+    if ideal.basis == start.basis:
+        return "every-value"
+    return "family" if ideal.dimension > 0 else "solutions"
 
 
 def _as_long_as_small(

@@ -136,7 +136,7 @@ def _where(found: Order, d: Plain) -> str:
     return f" where {', '.join(others)} and {last}" if others else f" where {last}"
 
 
-def _polynomials(texts: Sequence[str], d: Plain) -> str:
+def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex") -> str:
     """Polynomials that are zero; usually the first of many."""
     shown: list[str] = []
     room = ROOM if d.is_brief else len(texts) * LONG
@@ -146,12 +146,13 @@ def _polynomials(texts: Sequence[str], d: Plain) -> str:
             break
         is_long = len(text) > LONG
         shown.append(f"a polynomial of {len(text)} signs" if is_long else d.expression(text))
-    found = "the zeros, real and complex, of " + "; ".join(shown)
+    found = f"the zeros, {which}, of " + "; ".join(shown)
     if more := len(texts) - len(shown):
         return f"{found} and {counted(more, 'polynomial')} more with -v"
     return f"{found}, see --format json" if any(len(x) > LONG for x in texts) else found
 
 
+CRITERION = "B, C, D and the even condition"
 UNDECIDED = (
     "fewer unknowns make it decidable: values for some by --set or design: fix, a shape with"
     " fewer such as palindromic; --search N looks for methods and decides nothing"
@@ -203,7 +204,10 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
             wish = "what is wanted besides"
             if step.witness is not None:
                 wish = f"with the conditions before it, that of {d.tree(step.witness)}"
-            yield f"no value: {wish} cannot be met, not even by complex values"
+            if step.criterion is not None:
+                yield f"no real value, by {CRITERION}"
+            else:
+                yield f"no value: {wish} cannot be met, not even by complex values"
         case "undecided":
             yield from map(d.prose, _undecided(found))
         case "every-value":
@@ -214,7 +218,8 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
             what = counted(sum(x.solution.degree for x in step.found), "solution")
             if kind == "family":
                 what = f"a family of dimension {step.ideal.dimension}{_where(found, d)}"
-            yield f"{what}: {_polynomials(found.zeros, d)}" if is_whole else what
+            which = "real and complex" if step.criterion is None else f"real ones by {CRITERION}"
+            yield f"{what}: {_polynomials(found.zeros, d, which)}" if is_whole else what
             if kind == "family":
                 yield from _real(found, d)
     if step.ideal is not None and not step.is_all and step.kind != "undecided":

@@ -15,6 +15,7 @@ from garkcli.design.minimise.line import Conditions
 from garkcli.design.minimise.objective import Level, Objective, Size
 from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
+from garkcli.design.pairs import least_error
 from garkcli.design.solutions import Solution, solutions, value_at
 from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
@@ -122,6 +123,20 @@ class Comparison(Mutable):
                 continue
             for index in found.accepted:
                 self.add(found.solution, index)
+
+    def by_theorem(self) -> bool:
+        """The method with the least principal error of its pair, where a theorem knows it; whether
+        it does.
+        """
+        criterion, ideal = self.step.criterion, self.step.ideal
+        if criterion is None or ideal is None:
+            return False
+        best = least_error(criterion, self.step.order, ideal)
+        for solution in () if best is None else solutions(best):
+            for index, root in enumerate(solution.real):
+                if is_admissible(self.design.family, solution, root):
+                    self.add(solution, index)
+        return bool(self.candidates)
 
     def over(self, part: Part) -> None:
         """The candidates of one part."""

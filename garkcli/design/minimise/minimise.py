@@ -79,7 +79,7 @@ def minimise(
         comparison.share = None if left is None else monotonic() + SHARE * left
         if step.kind == "solutions":
             comparison.selection()
-        else:
+        elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
             assert step.ideal is not None
             nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
             with until(comparison.share):

@@ -1,0 +1,225 @@
+"""Pair orders of families whose weights are known: by the criterion of docs/pair-order.md, whose
+conditions are linear in unknown transfers, and the transfers of least error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from itertools import chain
+from typing import cast
+
+from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx
+
+from garkcli.deadline import only_small
+from garkcli.design.groebner import groebner_basis
+from garkcli.design.ideal import Ideal, rational
+from garkcli.design.member import is_admissible, value_of
+from garkcli.design.solutions import solutions
+from garkcli.errors import NotDecided
+from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.matrix import Vector, dot
+from garkcli.exact.parametric import Mixed, Parametric, fraction
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import sign, sign_at
+from garkcli.frozen import replace
+from garkcli.order.pair_order import added
+from garkcli.order.simplifying import Defects
+from garkcli.tableau.family import Family
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Edge, Method
+from garkcli.transfer import legendre
+
+
+class PairConditions:
+    """What orders of the symplectic pair ask of a family; over the reals it is all that they ask.
+
+    Args:
+        family: with the hypotheses of the criterion, which :func:`pair_conditions` looks at.
+    """
+
+    def __init__(self, family: Family) -> None:
+        self.family = family
+        self.defects = Defects(family.tableau)
+
+    def of_order(self, order: int) -> list[fmpq_mpoly]:
+        """The polynomials that are zero where the conditions hold that an order adds."""
+        edges = list(self.family.tableau.edges())
+        found = []
+        for letter, number in added(order):
+            if letter == "B":
+                found += self.zeros(self._B(number))
+            else:
+                found += self.on(edges, letter, number)
+        return found
+
+    def on(self, edges: Iterable[Edge], letter: str, number: int) -> list[fmpq_mpoly]:
+        """C(k), D(k) or the even condition on some blocks."""
+        rows = {"C": self.defects.C, "D": self.defects.D, "even": self.defects.even}
+        return self.zeros(chain.from_iterable(rows[letter](l, m, number) for l, m in edges))
+
+    def _B(self, number: int) -> Iterator[Number]:  # noqa: N802 -- the paper's letter
+        for l in range(self.family.tableau.size):
+            yield from self.defects.B(l, number)
+
+    def zeros(self, defects: Iterable[Number]) -> list[fmpq_mpoly]:
+        """The numerators that are not identically zero."""
+        ring = self.family.ring
+        numerators = (fraction(cast("Mixed", x), ring)[0] for x in defects)
+        return [p for p in numerators if p]
+
+    @property
+    def off_diagonal(self) -> list[Edge]:
+        """The blocks between different colours."""
+        return [(l, m) for l, m in self.family.tableau.edges() if l != m]
+
+    @cached_property
+    def start(self) -> Ideal:
+        """What radicals satisfy."""
+        return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
+
+    def is_never_zero(self, polynomial: fmpq_mpoly) -> bool:
+        """Whether a polynomial is a number in radicals that is not 0."""
+        has_parameters = any(polynomial.degrees()[: len(self.family.parameters)])
+        return not has_parameters and self.start.with_zeros([polynomial]).is_everything
+
+    def point(self, ideal: Ideal) -> Ideal | None:
+        """The zeros of an ideal at which the unknowns that are functions of no others are 0."""
+        solved = self.solved(ideal)
+        if solved is None:
+            return None
+        leading = {next(i for i, k in enumerate(p.monoms()[0]) if k) for p in solved}
+        free = [i for i in range(len(self.family.parameters)) if i not in leading]
+        found = ideal.with_values(dict.fromkeys(free, fmpq(0)))
+        return found if found.dimension == 0 else None
+
+    def solved(self, ideal: Ideal) -> list[fmpq_mpoly] | None:
+        """A basis in which unknowns are functions of later ones, those of radicals being the last;
+        None where it is not small.
+        """
+        context = fmpz_mpoly_ctx.get(list(self.family.ring.names), Ordering.lex)
+        if any(p.degrees()[len(self.family.ring.names) :] for p in ideal.basis):
+            return None  # UNIT is no unknown of the file
+        given = [context.from_dict(dict(p.to_dict())) for p in ideal.basis]
+        try:
+            with only_small():
+                basis = groebner_basis(given, context)
+        except NotDecided:
+            return None
+        return [rational(p, self.family.ring) for p in reversed(basis)]
+
+
+def pair_conditions(family: Family) -> PairConditions | None:
+    """What pair orders ask of a family; None where a hypothesis of the criterion does not hold for
+    every value: weights that are positive numbers, nodes that are row sums, blocks that see each
+    other, no linear colours.
+    """
+    tableau = family.tableau
+    if tableau.is_partitioned or any(colour.is_linear for colour in tableau.colours):
+        return None
+    if not all(isinstance(space, PointSpace) for space in tableau.spaces):
+        return None
+    edges = set(tableau.edges())
+    if any((m, l) not in edges for l, m in edges):
+        return None
+    conditions = PairConditions(family)
+    start = conditions.start
+    for l in range(tableau.size):
+        first = next(((l, m) for m in (l, *range(tableau.size)) if (l, m) in edges), None)
+        if first is None or not all(map(start.contains, conditions.on([first], "C", 1))):
+            return None
+    weights = [b for colour in tableau.colours for b in colour.b]
+    return conditions if _are_positive(family, start, weights) else None
+
+
+def _is_fixed(family: Family, x: Number) -> bool:
+    """Whether a coefficient has none of the free parameters."""
+    if not isinstance(cast("object", x), Parametric):
+        return True
+    parts = fraction(cast("Mixed", x), family.ring)
+    return not any(any(p.degrees()[: len(family.parameters)]) for p in parts)
+
+
+def _are_positive(family: Family, start: Ideal, numbers: list[Number]) -> bool:
+    """Whether numbers in the radicals of a family are all positive."""
+    if not all(_is_fixed(family, x) for x in numbers):
+        return False
+    gens = family.ring.context.gens()[: len(family.parameters)]
+    radicals = replace(family, ranges={}, positive=(), not_negative=())
+    for solution in solutions(start.with_zeros(gens)):
+        for root in solution.real:
+            if not is_admissible(radicals, solution, root):
+                continue
+            for x in numbers:
+                over, under = fraction(cast("Mixed", x), family.ring)
+                value = value_of(over, family.ring, solution.values)
+                value = value / value_of(under, family.ring, solution.values)
+                if isinstance(value, Algebraic):
+                    is_positive = sign_at(Polynomial.from_flint(value.poly), root) > 0
+                else:
+                    is_positive = sign(value) > 0
+                if not is_positive:
+                    return False
+    return True
+
+
+def least_error(conditions: PairConditions, order: int, ideal: Ideal) -> Ideal | None:
+    """One method with the least principal error of its pair, of all with real transfers whose pair
+    has an order: that of the Legendre transfer.
+
+    Args:
+        conditions: of the family.
+        order: of the pair, p.
+        ideal: of the values with this order.
+
+    Returns:
+        the ideal of its values; None where the theorem does not say that it is the least, or it is
+        none of the family.
+    """
+    family = conditions.family
+    tableau = family.tableau
+    size = tableau.size
+    methods = []
+    for l, colour in enumerate(tableau.colours):
+        block = tableau.block(l, l)
+        if block is None or not all(_is_fixed(family, x) for x in chain.from_iterable(block)):
+            return None
+        methods.append(Method(colour.name, tableau.space(l), block, colour.b))
+    if len(conditions.off_diagonal) != size * (size - 1):
+        return None
+    if order % 2 == 0 and not all(
+        all(map(conditions.start.contains, conditions.zeros(_of_even_order(conditions, l, order))))
+        for l in range(size)
+    ):
+        return None
+    zeros: list[Number] = []
+    for l, m in conditions.off_diagonal:
+        wanted = legendre(methods[l], methods[m], order // 2)
+        given = tableau.block(l, m)
+        assert given is not None
+        pairs = zip(chain.from_iterable(given), chain.from_iterable(wanted), strict=True)
+        zeros += [x - y for x, y in pairs]
+    found = ideal.with_zeros(conditions.zeros(zeros))
+    return None if found.is_everything or found.dimension > 0 else found
+
+
+def _of_even_order(conditions: PairConditions, l: int, order: int) -> Vector:
+    """What is zero where the error of a colour is least with C(k + 1) and D(k + 1) off the
+    diagonal: B(p + 1), and b(c^(k+1) d) = 0 for the diagonal block and its conjugate, where d =
+    A c^k − c^(k+1)/(k + 1). Nothing where the colour has no stages besides.
+    """
+    k = order // 2 - 1
+    tableau, defects = conditions.family.tableau, conditions.defects
+    space, b = tableau.space(l), tableau.colours[l].b
+    if space.stages <= k + 1:
+        return ()
+    block = defects._map(l, l)
+
+    def moment(i: int, j: int) -> Number:
+        """b(c^i A c^j)."""
+        (image,) = block.images([defects.power(l, j)])
+        return dot(space.times(b, defects.power(l, i)), image)
+
+    whole = dot(b, defects.power(l, 2 * k + 2)) * fmpq(1, k + 1)
+    product = dot(b, defects.power(l, k + 1)) * dot(b, defects.power(l, k))
+    return (*defects.B(l, order + 1), moment(k + 1, k) - whole, product - moment(k, k + 1) - whole)
