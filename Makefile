@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges bench fuzz pairs readback catalogue figures docs browser links man walk floors format clean
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback catalogue figures docs browser links man walk floors format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -42,6 +42,9 @@ portable: ## the suite under other circumstances, see docs/contributing/portabil
 
 bridges: $(READY) ## exported methods in the codes they are for, see docs/bridges.md; ONLY=scipy,petsc
 	$(BIN)/python -m tests.bridges.run --only "$(ONLY)"
+
+proofs: $(READY) ## certificates judged by Coq, see proofs/README.md
+	$(BIN)/python -m tests.proofs.run
 
 bench: $(READY) ## benchmarks, as ratios within one run
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
@@ -97,4 +100,4 @@ format: $(READY) ## put the code into its one format
 	$(BIN)/ruff format .
 
 clean: ## remove everything that was made
-	rm -rf $(VENV) .portable .bridges build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) .portable .bridges .proofs build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

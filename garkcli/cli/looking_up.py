@@ -41,18 +41,24 @@ _TRUTHS = {
 _KINDS = ("rk", "ark", "prk", "gark", "family")
 
 
-@declared("certificate", ("json", *(x for x in FORMATS if x != "json")))
+@declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
 def certificate(given: Given, output: Output) -> None:
     """What proves the orders of a method, to be checked without gark.
 
     The exact tableau, its conjugate and pair, the trees that span all trees of each order, and a
     tree that fails. tools/referee.py of the source distribution, one short file of plain Python,
-    decides the orders again from it.
+    decides the orders again from it; --format coq is for the proof assistant Coq.
     """
     from garkcli.api.calls import prove_method
     from garkcli.report.certificate import REPORT
 
-    output.tell(REPORT, prove_method(given.method()))
+    proof = prove_method(given.method())
+    if output.format == "coq":
+        from garkcli.report.coq import coq_proof
+
+        output.write(coq_proof(proof))
+    else:
+        output.tell(REPORT, proof)
 
 
 @declared("explain", FORMATS, WORD={"shell_complete": completed("check.meanings:known_words")})

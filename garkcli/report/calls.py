@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from typing import Literal
 
 from garkcli.api.anymethod import AnyMethod, method_of
 from garkcli.api.calls import prove_method
@@ -15,6 +16,7 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.report import citation
 from garkcli.report.certificate import REPORT
+from garkcli.report.coq import coq_proof
 from garkcli.report.listing import all_lists
 from garkcli.report.sweep import SweepReport
 from garkcli.sweep.plan import Plan, load_plan
@@ -58,20 +60,22 @@ def _cited(given: AnyMethod) -> citation.Cited:
     return citation.Cited((source,), reference, fields)
 
 
-def certificate(method: AnyMethod) -> str:
-    """What proves the orders of a method, as JSON text: ``gark certificate``.
+def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:
+    """What proves the orders of a method, as JSON text or for Coq: ``gark certificate``.
 
     Args:
         method: whatever ``method_of`` takes; its coefficients are exact.
+        format: ``"json"``, or ``"coq"`` for the theory in ``proofs/``.
 
     Raises:
-        MethodError: the coefficients are rounded.
+        MethodError: the coefficients are rounded; or, for Coq, a colour is linear.
 
     >>> import json
     >>> json.loads(certificate("heun"))["schema"]
     'gark/certificate/1'
     """
-    return REPORT.json([prove_method(method)])
+    proof = prove_method(method)
+    return coq_proof(proof) if format == "coq" else REPORT.json([proof])
 
 
 def run_sweep(

@@ -1,0 +1,132 @@
+"""Certificates judged by Coq: ``make proofs``.
+
+The theory of ``proofs/`` is compiled, then the file of ``gark certificate --format coq`` for every
+exact method of ``methods/`` and of the catalogue. Files with one number changed are refused.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from os import cpu_count
+from pathlib import Path
+from time import perf_counter
+
+from garkcli import catalogue, certificate, load
+from garkcli.errors import GarkError
+from tests.bridges.machine import NotHad, Tool, need
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / ".proofs"
+STEPS = ("Stages", "Trees", "Methods", "Check", "Pairs")
+COQ = Tool("Coq", ("coqc", "--version"), "coq")
+LONGEST = 300  # seconds for a method
+MUTANTS = 200
+MUTATED = ("rk4", "gauss-2", "tr-bdf2", "methods/collocation.gark.yaml")
+NO_AXIOMS = "Closed under the global context"
+
+
+def coqc(name: str) -> subprocess.CompletedProcess[str]:
+    """Compile a file in the folder of the build."""
+    command = ["coqc", "-q", "-noglob", "-R", ".", "Gark", f"{name}.v"]
+    return subprocess.run(
+        command, cwd=BUILD, capture_output=True, text=True, timeout=LONGEST, check=False
+    )
+
+
+def judged(number: int, source: str) -> tuple[str, str]:
+    """What Coq says of a method: "proved", "refused" or why there is no file."""
+    start = perf_counter()
+    try:
+        text = certificate(load(source), format="coq")
+    except GarkError as error:
+        return "left out", error.message
+    (BUILD / f"method{number}.v").write_text(text, encoding="utf-8")
+    try:
+        done = coqc(f"method{number}")
+    except subprocess.TimeoutExpired:
+        return "left out", f"more than {LONGEST} s"
+    theorems = text.count("\nTheorem ")
+    if done.returncode or done.stdout.count(NO_AXIOMS) != theorems:
+        return "refused", done.stderr or done.stdout
+    return "proved", f"{theorems} theorems, {perf_counter() - start:.1f} s"
+
+
+def mutant_file(text: str, rng: random.Random, count: int) -> str:
+    """A file that compiles when Coq refuses each of so many files with one number changed."""
+    head, body = text.split("Open Scope Q_scope.\n", 1)
+    data = re.sub(r"Theorem .*?Qed\.\nPrint Assumptions \w+\.\n", "", body, flags=re.DOTALL)
+    checks = ["conjugate_is_proved the_method the_conjugate"]
+    for name, order, label in re.findall(
+        r"has_order (\w+) (\d+)\.\nProof\.\n  apply has_order_by with \(F := (\w+)_trees\)", body
+    ):
+        checks.append(f"order_is_proved {name} {order} {label}_trees {label}_branches")
+    whole = " && ".join(f"({check})" for check in checks)
+    # numbers in lists; the pivots, which are of nat, and names are not among them
+    places = [m.span() for m in re.finditer(r"(?<=[\[ (])-?\d+(?=[];)#])", data)]
+    parts = [head.replace("List.", "List Bool.") + "Open Scope Q_scope.\n"]
+    chosen = [None, *rng.sample(places, min(count, len(places)))]
+    for number, place in enumerate(chosen):
+        changed = data
+        if place is not None:
+            start, end = place
+            changed = f"{data[:start]}{int(data[start:end]) + 1}{data[end:]}"
+        tactic = "vm_compute; reflexivity"
+        judge = f"{tactic}." if place is None else f"Fail ({tactic}). vm_compute."
+        end_of = "Qed." if place is None else "Abort."
+        parts.append(
+            f"Module M{number}.\n{changed}\n"
+            f"Lemma all : ({whole})%bool = true.\nProof. {judge} {end_of}\nEnd M{number}.\n"
+        )
+    return "\n".join(parts)
+
+
+def main() -> int:
+    """Run; the exit code is 1 where Coq refuses a method or takes a changed file, 2 without Coq."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", default="", help="methods whose name has this in it")
+    only = parser.parse_args().only
+    try:
+        need(COQ)
+    except NotHad as why:
+        print(f"not run: {why}", file=sys.stderr)
+        return 2
+    shutil.rmtree(BUILD, ignore_errors=True)
+    BUILD.mkdir()
+    for step in STEPS:
+        shutil.copy(ROOT / "proofs" / f"{step}.v", BUILD)
+        done = coqc(step)
+        if done.returncode:
+            print(done.stderr, file=sys.stderr)
+            return 1
+    files = sorted(str(p) for p in (ROOT / "methods").rglob("*.gark.yaml"))
+    sources = [x for x in [*files, *catalogue] if only in x]
+    bad = 0
+    with ThreadPoolExecutor(cpu_count()) as pool:
+        for source, (verdict, why) in zip(
+            sources, pool.map(judged, range(len(sources)), sources), strict=True
+        ):
+            print(f"{verdict:9} {source.removeprefix(str(ROOT) + '/')}: {why.splitlines()[0]}")
+            bad += verdict == "refused"
+    rng = random.Random(1)
+    taken = 0
+    for number, source in enumerate(x for x in MUTATED if only in x):
+        text = certificate(load(str(ROOT / source) if "/" in source else source), format="coq")
+        mutants = mutant_file(text, rng, MUTANTS // len(MUTATED))
+        (BUILD / f"mutants{number}.v").write_text(mutants, encoding="utf-8")
+        done = coqc(f"mutants{number}")
+        count = mutants.count("Fail (")
+        print(f"{'taken' if done.returncode else 'refused':9} {count} files made of {source}")
+        if done.returncode:
+            print(done.stderr, file=sys.stderr)
+            taken += 1
+    return 1 if bad or taken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
