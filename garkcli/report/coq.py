@@ -34,7 +34,7 @@ def coq_proof(proof: MethodProof) -> str:
         raise MethodError(
             "a colour has a linear vector field, which the theory of Coq does not know",
             "leave `linear` out, or take --format json",
-            code="certificate",
+            code="cannot-export",
         )
     parts = [_HEAD.format(name=_comment(proof.name), version=__version__)]
     parts.append(_data("the_method", tableau))

@@ -79,7 +79,7 @@ RUNS = [
     (("convert", VERLET), ("yaml", "text", "json", "markdown", "latex")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown", "latex")),
     (("modified", VERLET), ("text", "json", "markdown", "latex")),
-    (("certificate", VERLET), ("json", "text", "markdown", "latex")),
+    (("certificate", VERLET), ("json", "text", "markdown", "latex", "coq")),
     (("design", FREE), ("text", "json", "markdown", "latex")),
     (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "markdown", "latex", "jsonl", "csv")),
     (("schema",), ("json",)),
