@@ -8,7 +8,25 @@ from typing import TypeAlias
 from garkcli.frozen import Frozen, field, replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
-from garkcli.sources.shaping import Texts, changed, is_zero, rows_of, square, symplectic, weights
+from garkcli.sources.registers import (
+    low_storage,
+    of_nystrom,
+    of_shu_osher,
+    of_three_registers,
+    recognised,
+)
+from garkcli.sources.shaping import (
+    ZERO,
+    Texts,
+    changed,
+    is_row,
+    is_zero,
+    row_of,
+    rows_of,
+    square,
+    symplectic,
+    weights,
+)
 from garkcli.sources.signatures import Signature
 from garkcli.sources.values import (
     Array,
@@ -122,15 +140,18 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
 
 def _refuse_uses(roles: Roles) -> None:
     """Refuse arrays that other code has made: nothing of them is written here."""
-    matrix = roles.get("A")
-    written = [x for x in (matrix, roles.get("b")) if isinstance(x, Array)]
-    if len(written) < 2:
+    matrix = roles.get("A", roles.get("A_q"))
+    others = [x for x in _COEFFICIENTS if isinstance(roles.get(x), Array)]
+    if not isinstance(matrix, Array) or not others:
         raise NoTable
-    assert isinstance(matrix, Array)
     numbers = sum(_is_number(x) for x in matrix.flat())
     unknown = sum(isinstance(x, Unknown) for x in matrix.flat())
     if unknown and not numbers:
         raise NoTable
+
+
+_COEFFICIENTS = ("b", "c", "delta")
+"""Arrays that a matrix, or what stands for it, has beside it."""
 
 
 def _is_number(value: Value) -> bool:
@@ -169,13 +190,33 @@ def _told(roles: Roles, table: FoundTable) -> FoundTable:
 _WORDS = ("tolerance", "parts", "structure")
 
 
+def is_complete(roles: Roles) -> bool:
+    """Whether these values may be all of a table."""
+    given = set(roles)
+    if any(x <= given for x in _WHOLE):
+        return True
+    return "b" not in given and all(_is_matrix(roles.get(x)) for x in ("A", "c"))
+
+
+_WHOLE = (
+    *({"A", "b"}, {"A", "A2"}, {"drifts"}, {"A_q", "b_q", "b"}),
+    {"A", "delta", "gamma1", "gamma2"},
+)
+
+
+def _is_matrix(value: Value | None) -> bool:
+    return isinstance(value, Array) and value.is_matrix
+
+
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     form = meant.signature.form if meant.signature else "rk"
     if form == "ark":
         return _two_parts(roles, empty)
     if form == "lists":
         return _listed(roles, empty)
-    if form != "rk":
+    if {"A_q", "b_q"} <= set(roles):
+        return _nystrom(roles, empty)
+    if form.endswith("-first"):
         stages = _stages(roles)
         drifts = weights(plain(roles.get("drifts")), stages)
         kicks = weights(plain(roles.get("kicks")), stages)
@@ -283,14 +324,23 @@ def _stages(roles: Roles) -> int:
 def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     """A table of one colour."""
     stages = 0
+    roles = _with_ends(roles)
     if meant.signature and "stages" in meant.signature.roles:
         stages = _stages(roles)
     elif whole(roles.get("stages")) and meant.is_sure:
         stages = whole(roles.get("stages")) or 0
-    b = _weights_of(roles, meant, stages)
-    if stages and len(b) != stages:
-        raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
-    A = square(plain(_with_rows(roles.get("A"))), len(b))
+    found = _of_registers(meant, roles)
+    if found is None:
+        b = _weights_of(roles, meant, stages)
+        if stages and len(b) != stages:
+            raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
+        A = square(plain(_with_rows(roles.get("A"))), len(b))
+    else:
+        form, A, b = found
+        note = f"the coefficients are those of the form {form}"
+        is_sure = bool(meant.signature) or "c" in roles
+        empty = replace(empty, notes=(*empty.notes, note), is_assembled=not is_sure, is_sure=True)
+        roles = {role: x for role, x in roles.items() if form != "Shu–Osher" or role != "c"}
     c = _nodes(roles, len(b))
     A, b, c, embedded = _embedded(roles, A, b, c, meant)
     return replace(
@@ -300,6 +350,82 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         c=(c,),
         embedded=None if embedded is None else (embedded,),
         dense=_dense(roles, len(b)),
+    )
+
+
+def _with_ends(roles: Roles) -> Roles:
+    """The rows whole, where their first or last number stands apart."""
+    found = dict(roles)
+    for role in ("A", "b", "embedded"):
+        row = found.get(role)
+        ends = [found.pop(f"{role}_{x}", None) for x in ("first", "last")]
+        if isinstance(row, Array) and ends != [None, None]:
+            parts = ([ends[0]], row.items, [ends[1]])
+            found[role] = Array([x for part in parts for x in part if x is not None])
+    return found
+
+
+def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Rows, Row] | None:
+    """The form, the matrix and the weights of low-storage and Shu–Osher coefficients; None of
+    others.
+    """
+    form = meant.signature.form if meant.signature else "rk"
+    A = roles.get("A")
+    if "gamma1" in roles:
+        names = ("gamma1", "gamma2", "gamma3", "delta", "A")
+        rows = [weights(plain(roles[x])) if x in roles else () for x in names]
+        rows[2] = rows[2] or (ZERO,) * len(rows[-1])
+        return ("3S*", *of_three_registers(*rows))
+    if "b" not in roles and _is_matrix(roles.get("c")) and _is_matrix(A):
+        alpha, beta = (rows_of(plain(roles[x])) for x in ("c", "A"))
+        return ("Shu–Osher", *of_shu_osher(alpha, beta))
+    if form not in {"rk", "lists"}:
+        rows = [weights(plain(x)) for role, x in roles.items() if role in _DIAGONALS]
+        return (form, *low_storage(form, rows, weights(plain(roles.get("b")))))
+    if not isinstance(A, Array) or _is_matrix(A) or not isinstance(roles.get("b"), Array):
+        return None
+    row, b = plain(A), weights(plain(roles["b"]))
+    if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b)):
+        return None
+    c = roles.get("c")
+    A_, b, form = recognised(row_of(row), b, weights(plain(c)) if c is not None else None)
+    return form, A_, b
+
+
+_DIAGONALS = ("A", "A_2", "A_3", "A_4")
+
+
+def _is_pair_of_rows(row: Row, stages: int) -> bool:
+    """Whether a row has a number a stage, and is no matrix that is written out flat."""
+    if stages == 3 and len(row) == 3:
+        return is_zero(row[0])
+    return stages > 2 - (len(row) == stages) and len(row) in (stages - 1, stages)
+
+
+def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
+    """Ā, b̄, b and c as the pair (q, p) with linear velocities."""
+    b_q, b = (weights(plain(roles[x])) for x in ("b_q", "b"))
+    stages = len(b)
+    c = _nodes(roles, stages)
+    if c is None:
+        raise Unreadable("the nodes of a Nyström method are not written out")
+    A = square(plain(_with_rows(roles["A_q"])), stages)
+    seen, of_q = of_nystrom(A, b_q, c)
+    units = [tuple("1" if i == j else ZERO for j in range(stages)) for i in range(stages)]
+    embedded = None
+    errors = [roles.get(x) for x in ("error_q", "error")]
+    if all(isinstance(x, Array) and len(x.items) == stages for x in errors):
+        of_error = [weights(plain(x)) for x in errors]
+        _, low = of_nystrom(A, changed("-", b_q, of_error[0]), c)
+        embedded = (low, changed("-", b, of_error[1]))
+    return replace(
+        empty,
+        A=((None, ((ZERO,) * stages, *units)), (seen, None)),
+        b=(of_q, b),
+        c=(None, None),
+        embedded=embedded,
+        parts=("q", "p"),
+        structure="nystrom",
     )
 
 

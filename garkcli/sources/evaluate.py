@@ -203,6 +203,8 @@ class Evaluator:
 
     def _scope(self, scope: ir.Scope, space: Space) -> None:
         if scope.kind == "record":
+            # functions that make it
+            self._run(scope.body, [space])
             return
         inner = Space(space)
         for name, _ in scope.parameters:

@@ -8,14 +8,14 @@ from collections.abc import Mapping
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
-from garkcli.sources.assembling import Meant, NoTable, Roles, table_of
+from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table_of
 from garkcli.sources.evaluate import Space
 from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES, role_of
 from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
 from garkcli.sources.signatures import PRINTED, SIGNATURES, other_kind
-from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word
+from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, whole
 
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
@@ -111,8 +111,11 @@ class TableFinder:
 
     def _record(self, record: Record, scope: ir.Scope) -> None:
         kind = other_kind(record.kind)
-        if kind:
-            if len(record.args) + len(record.fields) >= 3:
+        if kind and record.kind not in SIGNATURES:
+            values = [*record.args, *record.fields.values()]
+            is_use = any(isinstance(x, Unknown) and _is_given(x) for x in values)
+            has_numbers = any(isinstance(x, Array) or whole(x) for x in values)
+            if len(values) >= 3 and (has_numbers or not is_use):
                 line = scope.line if scope.kind == "entry" else record.line
                 name = self._name(record, scope)
                 self._other[name, line] = _other(self._source, line, self._format, name, kind)
@@ -139,11 +142,10 @@ class TableFinder:
         are_arrays = all(isinstance(roles.get(x), Array) for x in ("A", "b"))
         if signature and signature.is_guess and not are_arrays:
             return
-        is_complete = ("A" in roles and ("b" in roles or "A2" in roles)) or "drifts" in roles
-        if signature is None and not is_complete:
+        if signature is None and not is_complete(roles):
             self._scalars(self._name(record, scope), fields, record.line)
             return
-        if not is_complete and not (signature and signature.has_default_weights):
+        if not is_complete(roles) and not (signature and signature.has_default_weights):
             return
         line = record.line
         if record.kind == _TABLE and scope.kind == "entry":
@@ -211,7 +213,7 @@ class TableFinder:
             if "A" in of_role and all(len(at) == 2 for at in of_role["A"]):
                 groups[stem] = {**groups.get(stem, {}), **_grid(of_role)}
         for stem, roles in groups.items():
-            if not {"A", "b"} <= set(roles):
+            if not is_complete(roles):
                 continue
             title = roles.pop("title", None)
             name = stem or scope.name

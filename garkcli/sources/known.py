@@ -339,7 +339,7 @@ def _butcher_table(call: Call) -> Value | None:
 
 _BY_FUNCTION: Mapping[Known, str] = {
     _converted: """
-        convert big BigFloat BigInt Rational float Float64 Float32 Float16 Double64 Int
+        convert big BigFloat BigInt Rational float Float64 Float32 Float16 Double64 Int Int128
         Int64 collect SVector SMatrix SArray MVector MMatrix Vector Matrix Array Tuple
         tuple list array asarray ImmutableMatrix float64 float32 longdouble double single
         tensor as_tensor Fraction mpf mpq mpfr fmpq fmpz QQ Decimal Float S sympify str

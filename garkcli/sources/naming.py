@@ -22,6 +22,10 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
         *("embedded_order", "error_estimator_order", "p", "adaptiveorder"),
         *("order_embedded", "embeddedOrder", "orderhat", "EmbeddedDifferenceOrder"),
     ),
+    **{x: (x, x.replace("gamma", "γ")) for x in ("gamma1", "gamma2", "gamma3")},
+    "delta": ("delta", "δ"),
+    "A_q": ("Abar", "abar", "A_bar", "a_bar", "Ā"),
+    "b_q": ("bbar", "b_bar", "b̄"),
     "stages": ("stages", "s", "n_stages", "nstages"),
     "title": ("name", "title"),
     "fsal": ("fsal", "FSAL", "is_fsal"),
@@ -33,6 +37,8 @@ _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bhat|b_hat|bembed|b2|order"
     r"|embedded_order|embedded|nodes|weights|stages|fsal|name)"
 )
+_DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[abc])")
+"""``rk4a``, ``lsrk54b``."""
 MAX_NAME = 200
 
 
@@ -41,12 +47,14 @@ def role_of(name: str) -> tuple[str, str] | None:
 
     >>> role_of("rk4_A"), role_of("b_heun"), role_of("bhat"), role_of("velocity")
     (('rk4', 'A'), ('heun', 'b'), ('', 'embedded'), None)
+    >>> role_of("rk4a")
+    ('rk4', 'A')
     """
     if name in ROLES:
         return "", ROLES[name]
     if len(name) > MAX_NAME:
         return None
-    for pattern in (_SUFFIX, _PREFIX):
+    for pattern in (_SUFFIX, _PREFIX, _DIGIT):
         found = pattern.fullmatch(name)
         if found:
             return found["stem"], ROLES[found["word"]]

@@ -14,7 +14,7 @@ class Signature(Frozen):
     Attributes:
         roles: of its arguments, in order; ``-`` for those that say nothing of a table.
         form: ``rk``, ``ark`` (two parts on shared stages), ``lists`` (a list of each), ``steps``
-            (weights of kicks and drifts).
+            (weights of kicks and drifts), a scheme of few registers.
         counts: how many arguments it has; empty where that is not fixed.
         format: of the table, where it is another one than that of the language.
         has_default_weights: whether missing weights are the last row of the matrix.
@@ -39,6 +39,14 @@ _PETSC_RK = Signature(
     format="petsc",
     has_default_weights=True,
 )
+
+
+def _of_registers(form: str, roles: str) -> Signature:
+    return Signature(roles.split(), form)
+
+
+_THREE = "gamma1 gamma2 gamma3 delta A_first A c"
+_LAST = "b_last embedded_last b embedded c"
 PRINTED = "a printed tableau"
 """What stands for a call where data are a table."""
 NDSOLVE = "coefficients of NDSolve"
@@ -75,6 +83,18 @@ SIGNATURES: Mapping[str, Signature] = {
     "TableauDIRK": _rk("title order A b c"),
     "_ButcherTableau": _rk("c A b error"),
     "ExplicitRKSolver": _rk("stages A b c", 4),
+    "LowStorageRK2NConstantCache": _of_registers("2N", "A b_first b c"),
+    "LowStorageRK2CConstantCache": _of_registers("2C", "A b_first b c"),
+    "LowStorageRK3SConstantCache": _of_registers("3S*", _THREE),
+    "LowStorageRK3SpConstantCache": _of_registers("3S*", f"{_THREE} embedded_first embedded"),
+    "LowStorageRK3SpFSALConstantCache": _of_registers(
+        "3S*", f"{_THREE} embedded_first embedded embedded_last"
+    ),
+    "LowStorageRK2RPConstantCache": _of_registers("2R", f"A {_LAST}"),
+    "LowStorageRK3RPConstantCache": _of_registers("3R", f"A A_2 {_LAST}"),
+    "LowStorageRK4RPConstantCache": _of_registers("4R", f"A A_2 A_3 {_LAST}"),
+    "LowStorageRK5RPConstantCache": _of_registers("5R", f"A A_2 A_3 A_4 {_LAST}"),
+    "NystromVITableau": _of_registers("nystrom", "A_q b_q b error_q error c"),
 }
 """What is known of the calls that make tables, by name."""
 OTHER_KINDS = (

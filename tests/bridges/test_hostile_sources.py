@@ -38,6 +38,7 @@ HOSTILE = {
     + "double A[1][1] = {{A60}}, b[1] = {1};",
     "a power tower": "a = 2\n" + "".join(f"a = a*a + {k}\n" for k in range(60)),
     "names": "import os\nA = os.system('false')\nb = __import__('os')\n",
+    "one word": "classdef",
     "calls": 'A = eval("1")\nb = exec("2")\nA = open("x")\n',
     "a type": "# 2 2 run(`false`)\n0 0 0\n0 0 0\n0 0 0\n",
     "null bytes": "A = [\x000]\nb = [\x001]\n",

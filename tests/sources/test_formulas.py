@@ -63,7 +63,9 @@ def test_texts(text: str) -> None:
     assert _is_same(table, TEXTS[text])
 
 
-@pytest.mark.parametrize("text", ["f[2]", "1 2 +", "k", "{1, 2", "1/0", "Root[#^2 + 1 &, 1]"])
+@pytest.mark.parametrize(
+    "text", ["f[2]", "", "]", "1 2 +", "k", "{1, 2", "1/0", "Root[#^2 + 1 &, 1]"]
+)
 def test_what_has_no_value_is_not_known(text: str) -> None:
     """The table is told as unread, and no entry is a zero."""
     source = f"A = {{{{0, 0}}, {{{text}, 0}}}}; b = {{1/2, 1/2}}; c = {{0, 1}};"

@@ -66,7 +66,7 @@ class MathematicaLowering(Formulas):
         if listed:
             return (ir.Do(ir.Call(ir.Name(NDSOLVE), listed, (("order", _ORDER),)), line),)
         opener = start + (self.sign(start + 1) == "[")
-        if self.closes.get(opener, 0) < end - 1 or depth > MAX_NESTING:
+        if self.closes.get(opener, -1) < end - 1 or depth > MAX_NESTING:
             return (ir.Do(value, line),)
         parts = self.parts(opener + 1, self.closes[opener], ",")
         return tuple(x for part in parts for x in self.block(*part, depth + 1))

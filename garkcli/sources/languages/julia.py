@@ -134,7 +134,9 @@ class JuliaLowering(Lowering):
         head: Node | None = inside[0]
         while head is not None and head.type != "identifier":
             head = next(iter(self.children(head)), None)
-        return ir.Scope("record", self.text(head), (), line, tuple(fields))
+        parts = [y for x in inside for y in (self.children(x) if x.type == "block" else [x])]
+        made = self.block(x for x in parts if x.type == "function_definition")
+        return ir.Scope("record", self.text(head), made, line, tuple(fields))
 
     def _assignment(self, left: Node, right: Node, line: int) -> Iterator[ir.Statement]:
         head = left

@@ -1,0 +1,189 @@
+"""Methods as codes with few registers print them, as tableaus: 2N, 3S*, van der Houwen, Shu–Osher;
+and Nyström methods as pairs.
+
+Every scheme is followed step by step, with what is in its registers as a multiple of the value at
+the beginning of the step and of the slopes so far. The numbers may be of any kind that can be added
+and multiplied: exact ones, or balls around what is printed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+from garkcli.errors import MethodError
+from garkcli.frozen import Frozen
+
+Numbers: TypeAlias = Sequence[Any]
+"""Exact numbers or balls; whole numbers among them."""
+
+
+class Steps(Frozen):
+    """An explicit method as it is followed.
+
+    Attributes:
+        A: shape (s, s).
+        b: the weights.
+        starts: how much of the value at the beginning of the step is in each stage, and in the
+            value at its end: 1 in all of them.
+    """
+
+    A: Sequence[Numbers]
+    b: Numbers
+    starts: Numbers
+
+
+class _Registers:
+    """What a scheme has made so far: the value at the beginning comes first, then the slopes."""
+
+    def __init__(self, stages: int) -> None:
+        self._size = stages + 1
+        self._seen: list[Numbers] = []
+        self.y = self._unit(0)
+        self.nothing: Numbers = [0] * self._size
+
+    def _unit(self, place: int) -> Numbers:
+        return [int(i == place) for i in range(self._size)]
+
+    def slope(self, value: Numbers) -> Numbers:
+        """The slope at a value: one stage more."""
+        self._seen.append(value)
+        return self._unit(len(self._seen))
+
+    def steps(self, end: Numbers) -> Steps:
+        """The method whose value at the end of the step is given."""
+        starts = [x[0] for x in (*self._seen, end)]
+        return Steps([x[1:] for x in self._seen], end[1:], starts)
+
+
+def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
+    """A combination of registers."""
+    columns = zip(*(register for _, register in terms), strict=True)
+    return [sum(x * y for (x, _), y in zip(terms, column, strict=True)) for column in columns]
+
+
+def _whole(row: Numbers, stages: int, first: int) -> Numbers:
+    """A row of so many numbers, where the first one is left out as all know it.
+
+    Raises:
+        MethodError: it has another length.
+    """
+    full = [first, *row] if len(row) == stages - 1 else row
+    if len(full) != stages:
+        raise MethodError(f"{len(row)} numbers for {stages} stages")
+    return full
+
+
+def two_registers(A: Numbers, B: Numbers) -> Steps:
+    """Williamson's 2N: dy ← A_i dy + h f(y), y ← y + B_i dy.
+
+    >>> from flint import fmpq
+    >>> A, B = [0, fmpq(-5, 9), fmpq(-153, 128)], [fmpq(1, 3), fmpq(15, 16), fmpq(8, 15)]
+    >>> two_registers(A, B).b
+    [1/6, 3/10, 8/15]
+    """
+    A = _whole(A, len(B), 0)
+    made = _Registers(len(B))
+    y, dy = made.y, made.nothing
+    for a, b in zip(A, B, strict=True):
+        dy = _sum((a, dy), (1, made.slope(y)))
+        y = _sum((1, y), (b, dy))
+    return made.steps(y)
+
+
+def minus_two_registers(A: Numbers, B: Numbers) -> Steps:
+    """The same with dy ← h f(y) − A_i dy."""
+    return two_registers([-x for x in A], B)
+
+
+def three_registers(
+    gamma1: Numbers, gamma2: Numbers, gamma3: Numbers, delta: Numbers, beta: Numbers
+) -> Steps:
+    """Ketcheson's 3S*: S₂ ← S₂ + δ_i S₁, S₁ ← γ₁ S₁ + γ₂ S₂ + γ₃ S₃ + β_i h f(S₁), where S₃ is the
+    value at the beginning; 2S has γ₃ = 0.
+    """
+    stages = len(beta)
+    known = ((gamma1, 0), (gamma2, 1), (gamma3, 0), (delta, 1))
+    rows = [_whole(row[:stages], stages, first) for row, first in known]
+    made = _Registers(stages)
+    y, other = made.y, made.nothing
+    for g1, g2, g3, d, b in zip(*rows, beta, strict=True):
+        other = _sum((1, other), (d, y))
+        y = _sum((g1, y), (g2, other), (g3, made.y), (b, made.slope(y)))
+    return made.steps(y)
+
+
+def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
+    """Van der Houwen's, 2R with one diagonal below the main one: every entry that is on none of the
+    diagonals is the weight of its column. Of each diagonal an entry a row, from the second row on.
+    """
+    stages = len(b)
+    rows = [_whole(x, stages, 0) for x in diagonals]
+    A = []
+    for i in range(stages):
+        row = [b[j] if j < i else 0 for j in range(stages)]
+        for below, diagonal in enumerate(rows, start=1):
+            if i >= below:
+                row[i - below] = diagonal[i]
+        A.append(row)
+    return Steps(A, b, [1] * (stages + 1))
+
+
+def ahead(b: Numbers, A: Numbers) -> Steps:
+    """2C: y ← y + B_i h f, and f is evaluated at y + A_i h f, with the last f of before."""
+    A = _whole(A, len(b), 0)
+    return van_der_houwen(b, [0, *(x + y for x, y in zip(A[1:], b, strict=False))])
+
+
+def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
+    """Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit method.
+
+    Args:
+        alpha: a row for each stage but the first, and one for the value at the end; a first row of
+            zeros may stand before them.
+        beta: the same.
+
+    Raises:
+        MethodError: a value needs a later one.
+    """
+    if alpha and beta and not any((*alpha[0], *beta[0])):
+        alpha, beta = alpha[1:], beta[1:]
+    stages = len(alpha)
+    if len(beta) != stages:
+        raise MethodError(f"alpha has {stages} rows, beta has {len(beta)}")
+    made = _Registers(stages)
+    values, slopes = [made.y], [made.slope(made.y)]
+    for i, rows in enumerate(zip(alpha, beta, strict=True), start=1):
+        if any(x for row in rows for x in row[i:]):
+            raise MethodError("a value needs a later one: the method is implicit")
+        a, b = ([*row[:i], *[0] * (i - len(row))] for row in rows)
+        terms = [*zip(a, values, strict=True), *zip(b, slopes, strict=True)]
+        values.append(_sum((1 - sum(a), made.y), *terms))
+        if i < stages:
+            slopes.append(made.slope(values[i]))
+    return made.steps(values[-1])
+
+
+FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {
+    "2N": two_registers,
+    "2N with -A": minus_two_registers,
+    "van der Houwen": lambda A, b: van_der_houwen(b, A),
+    "2C": lambda A, b: ahead(b, A),
+}
+"""Schemes that are printed as two rows A and b."""
+
+
+def nystrom(A: Sequence[Numbers], b: Numbers, c: Numbers) -> tuple[list[Numbers], Numbers]:
+    """The velocities that the positions of a Nyström method see, which is the pair (q, p) with
+    stages for p at p, p + h g_1, …, p + h g_s: as q' = p is linear these are enough.
+
+    Args:
+        A: Ā, which gives positions from forces.
+        b: b̄, the same at the end of the step.
+        c: the nodes.
+
+    Returns:
+        For each position and for the end of the step one weight more than there are forces.
+    """
+    first = [node - sum(row) for node, row in zip(c, A, strict=True)]
+    return [[x, *row] for x, row in zip(first, A, strict=True)], [1 - sum(b), *b]

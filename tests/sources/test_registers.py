@@ -1,0 +1,156 @@
+"""Low-storage, Shu–Osher and Nyström coefficients in sources: the methods that they are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli.bridges.importing import imported
+from garkcli.methodfile.load import load
+from garkcli.sources.found import FoundTable
+from garkcli.sources.languages import c, fortran, julia, matlab, python
+from tests.cli.harness import gark
+
+ROOT = Path(__file__).parents[2]
+CARPENTER_KENNEDY = """
+rk4a = [0, -567301805773/1357537059087, -2404267990393/2016746695238, ...
+  -3550918686646/2091501179385, -1275806237668/842570457699];
+rk4b = [1432997174477/9575080441755, 5161836677717/13612068292357, ...
+  1720146321549/2090206949498, 3134564353537/4481467310338, 2277821191437/14882151754819];
+rk4c = [0, 1432997174477/9575080441755, 2526269341429/6820363962896, ...
+  2006345519317/3224310063776, 2802321613138/2924317926251];
+"""
+WILLIAMSON = """
+static const double a[3] = {0., -5./9, -153./128}, b[3] = {1./3, 15./16, 8./15};
+static const double c[3] = {0., 1./3, 3./4};
+"""
+KENNEDY = """
+struct CKL54 <: Method
+    a::SVector{5, Float64}
+    function CKL54()
+        a = SVector(0.0, 970286171893 / 4311952581923, 6584761158862 / 12103376702013,
+                    2251764453980 / 15575788980749, 26877169314380 / 34165994151039)
+        b = SVector(1153189308089 / 22510343858157, 1772645290293 / 4653164025191,
+                    -1672844663538 / 4480602732383, 2114624349019 / 3568978502595,
+                    5198255086312 / 14908931495163)
+        c = SVector(0.0, a[2], b[1] + a[3], b[1] + b[2] + a[4], b[1] + b[2] + b[3] + a[5])
+        return new(a, b, c)
+    end
+end
+"""
+RANOCHA = """
+function RDPK3Sp35ConstantCache(::Type{T}) where {T}
+    gamma1 = T[0, 2.587669070352079020144955303389306026e-01,
+        -1.324366873994502973977035353758550057e-01, 5.055601231460399101814291350373559483e-02,
+        5.670552807902877312521811889846000976e-01]
+    gamma2 = T[1, 5.528418745102160639901976698795928733e-01,
+        6.731844400389673824374042790213570079e-01, 2.803103804507635075215805236096803381e-01,
+        5.521508873507393276457754945308880998e-01]
+    gamma3 = T[0, 0, 0, 2.752585813446636957256614568573008811e-01,
+        -8.950548709279785077579454232514633376e-01]
+    delta = T[1, 3.407687209321455242558804921815861422e-01,
+        3.414399280584625023244387687873774697e-01, 7.229302732875589702087936723400941329e-01, 0]
+    beta = T[2.300285062878154351930669430512780706e-01,
+        3.021457892454169700189445968126242994e-01, 8.025601039472704213300183888573974531e-01,
+        4.362158997637629844305216319994356355e-01, 1.129268494470295369172265188216779157e-01]
+    return gamma1, gamma2, gamma3, delta, beta
+end
+"""
+NYSTROM = """
+function DPRKN4Tableau(::Type{T}, ::Type{T2}) where {T, T2}
+    a = zeros(T, 4, 4)
+    a[2, 1] = convert(T, 1 // 32)
+    a[3, 1] = convert(T, 7 // 1000); a[3, 2] = convert(T, 119 // 500)
+    a[4, 1] = convert(T, 1 // 14); a[4, 2] = convert(T, 8 // 27); a[4, 3] = convert(T, 25 // 189)
+    b = [convert(T, 1 // 14), convert(T, 8 // 27), convert(T, 25 // 189), zero(T)]
+    bp = [convert(T, 1 // 14), convert(T, 32 // 81), convert(T, 250 // 567), convert(T, 5 // 54)]
+    btilde = [1 // 14 + 7 // 150, 8 // 27 - 67 // 150, 25 // 189 - 3 // 20, 1 // 20]
+    bptilde = [1 // 14 - 13 // 21, 32 // 81 + 20 // 27, 250 // 567 - 275 // 189, 5 // 54 + 1 // 3]
+    c = T2[convert(T2, 1 // 4), convert(T2, 7 // 10), one(T2)]
+    return NystromVITableau(a, b, bp, btilde, bptilde, c, false, 2)
+end
+"""
+FORTRAN = """
+module nystrom
+  real, parameter :: abar(3,3) = reshape([0., 1./8, 0., 0., 0., 1./2, 0., 0., 0.], [3, 3])
+  real, parameter :: bbar(3) = [1./6, 1./3, 0.], b(3) = [1./6, 2./3, 1./6], c(3) = [0., .5, 1.]
+end module
+"""
+SHU_OSHER = """
+alpha = [[1], [3/4, 1/4], [1/3, 0, 2/3]]
+beta = [[1], [0, 1/4], [0, 0, 2/3]]
+"""
+FOUND = {
+    "2N, Carpenter and Kennedy": (matlab.find, CARPENTER_KENNEDY, 4, None),
+    "2N, Williamson": (c.find, WILLIAMSON, 3, None),
+    "van der Houwen": (julia.find, KENNEDY, 4, None),
+    "3S*": (julia.find, RANOCHA, 3, None),
+    "Nyström": (julia.find, NYSTROM, 4, 3),
+    "Nyström by names": (fortran.find, FORTRAN, 4, None),
+    "Shu–Osher": (python.find, SHU_OSHER, 3, None),
+}
+
+
+def one(name: str) -> FoundTable:
+    """The only table of a source."""
+    find, text, *_ = FOUND[name]
+    (table,) = find(text, "x")
+    return table
+
+
+@pytest.mark.parametrize("name", FOUND)
+def test_the_order_is_that_of_the_paper(name: str) -> None:
+    """Proved of the tableau, within the rounding of the printed digits, and no higher."""
+    table = one(name)
+    assert table.trouble == ""
+    found = imported(table, "x")
+    embedded = found.embedded_order
+    assert found.order.order == FOUND[name][2]
+    assert (None if embedded is None else embedded.order) == FOUND[name][3]
+
+
+def test_names_and_forms() -> None:
+    """A method has the name of its constructor, and the note says how its numbers were read."""
+    told = {name: (one(name).name, one(name).notes) for name in FOUND}
+    assert told["van der Houwen"][0] == "CKL54"
+    assert told["3S*"] == (
+        "RDPK3Sp35ConstantCache",
+        ("the coefficients are those of the form 3S*",),
+    )
+    assert told["2N, Carpenter and Kennedy"][0] == "rk4"
+
+
+def test_the_same_method_in_two_forms() -> None:
+    """The form of Shu and Osher is the tableau of the catalogue, exactly."""
+    found = imported(one("Shu–Osher"), "x").method
+    wanted = load(str(ROOT / "garkcli/catalogue/data/erk/ssp-33.gark.yaml"))
+    assert (str(found.A), str(found.b)) == (str(wanted.A), str(wanted.b))
+
+
+def test_without_nodes_it_is_a_guess() -> None:
+    """Weights with the sum 1 tell 2N from the others, and the table is in doubt; where these do not
+    tell it is not read.
+    """
+    text = "\n".join(WILLIAMSON.splitlines()[:2])
+    (table,) = c.find(text, "x.c")
+    assert (table.trouble, table.is_assembled) == ("", True)
+    (table,) = c.find("double a[3] = {0, .5, .25}, b[3] = {.25, .5, .25};", "x.c")
+    assert "more than one low-storage method" in table.trouble
+
+
+def test_a_wrong_number_is_found(tmp_path: Path) -> None:
+    """In velocities' weights of a Nyström method: its sum is not 1."""
+    (tmp_path / "n.jl").write_text(
+        NYSTROM.replace("5 // 54)]\n    btilde", "5 // 53)]\n    btilde")
+    )
+    run = gark("audit", str(tmp_path))
+    assert run.code == 1
+    assert "the weights have the sum" in run.out
+
+
+def test_a_wrong_start_is_told(tmp_path: Path) -> None:
+    """A stage of 3S* that does not begin at the value of the step makes no method."""
+    (tmp_path / "m.jl").write_text(RANOCHA.replace("-1.324366", "-1.424366"))
+    run = gark("audit", str(tmp_path))
+    assert "stage 4 begins at" in run.out + run.err
