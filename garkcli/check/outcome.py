@@ -85,6 +85,11 @@ class Outcome(Shown, Frozen):
     rules: tuple[BlockRule, ...] = ()
 
     @property
+    def found(self) -> Analysis | EveryValue | None:
+        """What is true of the method, or for every value of its parameters; None for neither."""
+        return self.analysis or self.every
+
+    @property
     def failed_claims(self) -> tuple[Claim, ...]:
         """The claims that do not hold."""
         return tuple(claim for claim in self.claims if not claim.holds)
@@ -92,7 +97,7 @@ class Outcome(Shown, Frozen):
     @property
     def is_read(self) -> bool:
         """Whether the file could be read, as a method or as a family of them."""
-        return self.analysis is not None or self.every is not None
+        return self.found is not None
 
     @property
     def makes_no_claim(self) -> bool:

@@ -57,10 +57,8 @@ def _method_phrase(_: str, answer: Answer, d: Plain) -> str:
     """``explicit, 4 stages``."""
     outcome = answer.value
     structure = "" if outcome.structure == "general" else f"for {outcome.structure} problems, "
-    if outcome.every is not None:
-        return f"{structure}{stages_text(outcome.every.tableau)}"
-    analysis = outcome.analysis
-    return f"{structure}{analysis.subject.shape.name}, {stages_text(analysis.tableau)}"
+    kind = "" if outcome.every is not None else f"{outcome.analysis.subject.shape.name}, "
+    return f"{structure}{kind}{stages_text(outcome.found.tableau)}"
 
 
 def _method_words(outcome: Any, d: Plain) -> str:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def _signs(outcome: Outcome) -> dict[str, Any]:
-    found = outcome.analysis or outcome.every
+    found = outcome.found
     if found is None:
         return {}
     names = {"colours": [colour.name for colour in found.tableau.colours]}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from functools import cached_property
 from typing import Any
 
 from flint import fmpq
@@ -21,7 +20,6 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import NO_SETTINGS, load
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.reference import Reference
-from garkcli.report.checked import REPORT
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
@@ -57,18 +55,11 @@ class Reported(Frozen):
     has_pictures: bool = True
     most_conditions: int = MOST_CONDITIONS
 
-    @cached_property
-    def data(self) -> dict[str, Any]:
-        """What ``gark check --format json`` says of it."""
-        return REPORT.data(self.outcome)
-
     @property
     def tableau(self) -> Tableau | None:
         """Its tableau, that of a family with entries in the parameters."""
-        if self.outcome.analysis is not None:
-            return self.outcome.analysis.tableau
-        every = self.outcome.every
-        return None if every is None else every.tableau
+        found = self.outcome.found
+        return None if found is None else found.tableau
 
     @property
     def free(self) -> str | None:
@@ -91,20 +82,6 @@ class Reported(Frozen):
         return None if self.method is None else self.method.tolerance
 
 
-class _Wishes(Frozen):
-    """What the page is to have.
-
-    Attributes:
-        order: up to which order conditions are listed; None for the first that fails.
-        has_pictures: whether there are pictures.
-        settings: values of the parameters of a file.
-    """
-
-    order: int | None
-    has_pictures: bool
-    settings: Mapping[str, str]
-
-
 def reported(
     given: Any,
     order: int | None = None,
@@ -123,44 +100,23 @@ def reported(
     Raises:
         MethodError: what is given is no method.
     """
-    wishes = _Wishes(order, has_pictures, settings)
     if isinstance(given, (str, os.PathLike)):
-        return _of_path(os.fspath(given), wishes)
-    method = method_of(given)
+        try:
+            method: GarkMethod = load(os.fspath(given), settings)
+        except HasFreeParameters as error:
+            outcome = check_every(error, DEFAULT_LIMIT, False, settings)
+            if not outcome.is_read:
+                return Reported(outcome)
+            line, fields = reference_of(error.text, error.source)
+            return Reported(outcome, reference=line, bibliography=fields, wanted_order=order)
+        except MethodFileError as error:
+            source = error.source
+            return Reported(Outcome(source, source, faults=error.faults, text=error.text))
+    else:
+        method = method_of(given)
     if isinstance(method, MethodFile):
-        return _of_file(method, wishes)
+        about = method.reference, method.bibliography, method.description
+        return Reported(check_method(method), method, *about, order, has_pictures)
     name = method.name or "the method"
     outcome = Outcome(name, name, analysis=analyse(method))
     return Reported(outcome, method, wanted_order=order, has_pictures=has_pictures)
-
-
-def _of_path(path: str, wishes: _Wishes) -> Reported:
-    try:
-        method = load(path, wishes.settings)
-    except HasFreeParameters as error:
-        return _of_family(error, wishes)
-    except MethodFileError as error:
-        source = error.source
-        return Reported(Outcome(source, source, faults=error.faults, text=error.text))
-    return _of_file(method, wishes)
-
-
-def _of_family(error: HasFreeParameters, wishes: _Wishes) -> Reported:
-    """A file with free parameters."""
-    outcome = check_every(error, DEFAULT_LIMIT, False, wishes.settings)
-    if not outcome.is_read:
-        return Reported(outcome)
-    line, fields = reference_of(error.text, error.source)
-    return Reported(outcome, reference=line, bibliography=fields, wanted_order=wishes.order)
-
-
-def _of_file(method: MethodFile, wishes: _Wishes) -> Reported:
-    return Reported(
-        check_method(method),
-        method,
-        method.reference,
-        method.bibliography,
-        method.description,
-        wishes.order,
-        wishes.has_pictures,
-    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
 from garkcli.report.conditions import ConditionRow, is_parametric, row_of
@@ -50,7 +51,7 @@ def _content(method: Reported) -> Content | None:
         "roots": [(root, names[root - 1]) for root in roots],
         "states": [state for state in _STATES if state in states],
         "failing": sum(row["state"] in ("fails", "varies") for row in rows),
-        "tolerance": method.data.get("tolerance"),
+        "tolerance": method.tolerance and decimal(method.tolerance),
         "file": method.outcome.file,
     }
 
@@ -59,8 +60,7 @@ def _wanted(method: Reported) -> int:
     """Up to which order: that which was asked for, or the first of which a condition fails."""
     if method.wanted_order is not None:
         return method.wanted_order
-    outcome = method.outcome
-    found = outcome.analysis or outcome.every
+    found = method.outcome.found
     assert found is not None
     return found.order.order + 1
 

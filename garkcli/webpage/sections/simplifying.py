@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
+from garkcli.check.every_facts import Fact
 from garkcli.check.findings import BOUND, SHARP_BOUND
 from garkcli.order.simplifying import Simplifying
 from garkcli.webpage.reported import Reported
@@ -14,47 +16,26 @@ _LEVELS = 6
 
 
 def _content(method: Reported) -> Content | None:
-    found, limit = _found(method)
-    tableau = method.tableau
-    if found is None or tableau is None:
+    whole: Any = method.outcome.found
+    if whole is None:
         return None
-    names = [colour.name for colour in tableau.colours]
-    data = method.data
-    bounds = [("bound", found.bound, BOUND, _number(data, "bound"))]
-    bounds.append(("sharper bound", found.sharp_bound, SHARP_BOUND, _number(data, "sharp_bound")))
+    found, told = whole.simplifying, whole  # the bounds as far as the order bears them out
+    if isinstance(found, Fact):
+        found = told = found.value
+    if not isinstance(found, Simplifying):
+        return None
     return {
-        "names": names,
-        "B": _cells(found.B, limit),
-        "C": [_cells(row, limit) for row in found.C],
-        "D": [_cells(row, limit) for row in found.D],
+        "names": [colour.name for colour in whole.tableau.colours],
+        "B": _cells(found.B, found.limit),
+        "C": [_cells(row, found.limit) for row in found.C],
+        "D": [_cells(row, found.limit) for row in found.D],
         "numbers": _numbers(found),
-        "bounds": bounds,
+        "bounds": [
+            ("bound", found.bound, BOUND, told.bound),
+            ("sharper bound", found.sharp_bound, SHARP_BOUND, told.sharp_bound),
+        ],
         "every": method.outcome.every,
     }
-
-
-def _found(method: Reported) -> tuple[Simplifying | None, int]:
-    """What holds, and where the search for it stopped."""
-    analysis = method.outcome.analysis
-    if analysis is not None:
-        return analysis.simplifying, analysis.limit
-    every = method.outcome.every
-    if every is None:
-        return None, 0
-    value = every.simplifying.value
-    if not isinstance(value, Simplifying):
-        return None, 0
-    return value, every.limit
-
-
-def _number(data: Content, name: str) -> int:
-    """A bound as ``gark check`` reports it: within a tolerance as far as it is borne out."""
-    if name in data.get("simplifying", {}):
-        number: int = data["simplifying"][name]
-        return number
-    found = data[name]
-    value: int = found["value"] if isinstance(found, dict) else found
-    return value
 
 
 def _cells(numbers: Sequence[int | None], limit: int) -> list[tuple[str, int | None]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from garkcli.api.calls import find_stability
+from garkcli.exact.display import decimal
 from garkcli.report.stability import REPORT, StabilityReport, formulas
 from garkcli.webpage.mathml import typeset
 from garkcli.webpage.reported import Reported
@@ -25,7 +26,7 @@ def _content(method: Reported) -> Content | None:
     return {
         "formulas": [typeset(f"{x} = {y}") for x, y in formulas(found) if len(y) <= _LONGEST],
         "parts": REPORT.labelled(StabilityReport("", "", found), without=_TYPESET),
-        "near": method.data["tolerance"] or "",
+        "near": method.tolerance and decimal(method.tolerance),
         "file": file,
     }
 

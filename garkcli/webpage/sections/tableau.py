@@ -83,18 +83,16 @@ class Table(Frozen):
 
 
 def _content(method: Reported) -> Content | None:
-    tableau = method.tableau
-    if tableau is None:
+    outcome = method.outcome
+    if outcome.found is None:
         return None
-    analysis = method.outcome.analysis
+    analysis = outcome.analysis
     if analysis is None:
         shown = list(_of_family(method))
         dense: list[tuple[Markup, Markup]] = []
     else:
-        further = NOTHING
-        if method.method is not None:
-            further = method.method.further
-        tolerance = method.tolerance
+        further = NOTHING if method.method is None else method.method.further
+        tableau, tolerance = analysis.tableau, method.tolerance
         found = _entries(tableau, tolerance, further)
         shown = [_table("The method", tableau, found)]
         dense = [(typeset(left), typeset(right)) for left, right in dense_polynomials(found)]
@@ -106,9 +104,7 @@ def _content(method: Reported) -> Content | None:
             },
             tolerance,
         )
-    found_of = analysis or method.outcome.every
-    obstacle = "" if found_of is None else str(found_of.obstacle)
-    return {"tables": shown, "dense": dense, "obstacle": obstacle}
+    return {"tables": shown, "dense": dense, "obstacle": str(outcome.found.obstacle)}
 
 
 def _companions(
@@ -187,7 +183,6 @@ def _part(
         "lines": lines,
         "feet": feet,
         "has_colours": tableau.size > 1,
-        "has_embedded": found.embedded is not None,
     }
 
 
