@@ -289,15 +289,11 @@ def _text(value: object, text: Callable[[object], str]) -> str:
 
 def _beyond(fact: Fact, text: Callable[[object], str]) -> str:
     """What there is at the common zeros of polynomials."""
-    if isinstance(fact.value, bool):
-        return text(not fact.value)
-    return f"{fact.value + 1} or more"
+    return text(not fact.value) if isinstance(fact.value, bool) else f"{fact.value + 1} or more"
 
 
 def _unknown(fact: Fact, name: str) -> str:
-    if not fact.unknown:
-        return ""
-    return f"; not decided where {values_text(fact.unknown, name)}"
+    return "" if not fact.unknown else f"; not decided where {values_text(fact.unknown, name)}"
 
 
 def _grouped(fact: Fact) -> list[tuple[object, list[RealRoot]]]:

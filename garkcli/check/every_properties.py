@@ -80,9 +80,7 @@ def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
 
     def ask(tableau: Tableau) -> Any:
         # the order is asked for with rounded coefficients only, B, C and D for one property
-        known = _NOTHING
-        if key == "stage-order":
-            known = simplifying(tableau, limit)
+        known = simplifying(tableau, limit) if key == "stage-order" else _NOTHING
         value = Subject(tableau, 1, known, limit).verdict(key).value
         return value if isinstance(value, (bool, int)) else str(value)
 

@@ -165,9 +165,7 @@ def _order_with(file: FamilyFile, tableau: Tableau, limit: int) -> EveryOrder:
 
 def _embedded(file: FamilyFile, limit: int) -> EveryOrder | None:
     rows = file.further.embedded
-    if rows is None:
-        return None
-    return _order_with(file, with_weights(file.tableau, rows), limit)
+    return None if rows is None else _order_with(file, with_weights(file.tableau, rows), limit)
 
 
 def _again(text: str, source: str, settings: dict[str, str], limit: int) -> EveryValue:

@@ -274,9 +274,7 @@ def _near(text: str) -> str:
         return cure
     letters = plain(text)
     longer = [word for word in words if letters in plain(word).split()]
-    if longer and letters:
-        return did_you_mean(letters, longer)
-    return "gark explain lists the terms"
+    return did_you_mean(letters, longer) if longer and letters else "gark explain lists the terms"
 
 
 @lru_cache(maxsize=1)

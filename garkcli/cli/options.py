@@ -241,9 +241,7 @@ def _option(row: Option, formats: Sequence[str]) -> click.Option:
     is_of_argument = bool(row.of) and "default" not in settings
     settings["show_default"] = is_of_argument or settings.get("default") is not None
     flags = [*row.flags, row.name]
-    if row.of:
-        return _Argument(flags, row.of, **settings)
-    return click.Option(flags, **settings)
+    return _Argument(flags, row.of, **settings) if row.of else click.Option(flags, **settings)
 
 
 class Given(SimpleNamespace):

@@ -79,9 +79,7 @@ def converge(given: Given, output: Output) -> int:
         given.problem = "oscillator"
     _check(given)
     given.against = given.against or ("evaluations" if given.work else "h")
-    if len(paths) == 1:
-        return _one(paths[0], given, output)
-    return _several(paths, given, output)
+    return _one(paths[0], given, output) if len(paths) == 1 else _several(paths, given, output)
 
 
 def _check(given: Given) -> None:

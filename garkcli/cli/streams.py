@@ -191,9 +191,7 @@ def wants_colour(stream: object) -> bool:
     if os.environ.get("NO_COLOR"):
         return False
     forced = os.environ.get("FORCE_COLOR", "")
-    if forced:
-        return forced != "0"
-    return is_terminal(stream) and os.environ.get("TERM") != "dumb"
+    return forced != "0" if forced else is_terminal(stream) and os.environ.get("TERM") != "dumb"
 
 
 class Ended(BaseException):

@@ -70,9 +70,7 @@ def trees(given: Given, output: Output) -> None:
         _draw_sheet(given.svg, listed, colours > 1, output)
     else:
         totals = None if used else counts_of(query)
-        lines = None
-        if totals is not None:
-            lines = sum(query.total(by_root) for _, by_root in totals)
+        lines = sum(query.total(by_root) for _, by_root in totals) if totals is not None else None
         _refuse_millions(lines, given.yes)
         rows = counting("trees", rows_of(query, orders), lines)
         output.stream(report.REPORT, report.TreeList(query, rows, totals), given.document)

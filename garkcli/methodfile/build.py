@@ -154,9 +154,7 @@ class BlockBuilder:
 
     def _rule(self, name: str, degree: int | None = None) -> Rule:
         """A rule that makes one block, with its degree where it has one."""
-        if name != "legendre":
-            return RULES[name]
-        return legendre_rule(self._alone, degree)
+        return RULES[name] if name != "legendre" else legendre_rule(self._alone, degree)
 
     @cached_property
     def _alone(self) -> list[AnyTableau]:

@@ -102,9 +102,7 @@ def _folders(place: str) -> Iterator[str]:
 def _matches(name: str, pattern: str) -> bool:
     """Whether a name is one of a pattern; a hidden one has to be asked for."""
     is_hidden = name.startswith(".")
-    if is_hidden and not pattern.startswith("."):
-        return False
-    return fnmatchcase(name, pattern)
+    return False if is_hidden and not pattern.startswith(".") else fnmatchcase(name, pattern)
 
 
 def _names(folder: str) -> list[str]:

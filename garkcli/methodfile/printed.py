@@ -146,9 +146,7 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
     match expression:
         case Literal(value=value):
             least = FEWEST_DIGITS if expression.text.isdigit() else fewest
-            if _digits(expression) < least:
-                return arb(value)
-            return arb(value, arb(_unit(expression)))
+            return arb(value) if _digits(expression) < least else arb(value, arb(_unit(expression)))
         case Chain(signs=signs, operands=operands):
             total = arb(0) if signs[0] in "+-" else arb(1)
             for sign, operand in zip(signs, operands, strict=True):

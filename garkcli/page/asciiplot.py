@@ -124,9 +124,7 @@ def _short(exponent: float) -> str:
     digits, _, ending = f"{number:.1e}".partition("e")
     mantissa = float(digits)
     power = int(ending)
-    if power >= 5:
-        return f"{mantissa:g}e{power}"
-    return str(round(mantissa * 10**power))
+    return f"{mantissa:g}e{power}" if power >= 5 else str(round(mantissa * 10**power))
 
 
 def terminal_band(

@@ -31,15 +31,11 @@ class Paint(Frozen):
 
     def __call__(self, style: str, text: str) -> str:
         """``text`` in one of the styles good, bad, strong, faint, note."""
-        if not self.color or not text:
-            return text
-        return _in_code(_CODES[style], text)
+        return text if not self.color or not text else _in_code(_CODES[style], text)
 
     def dots(self, line: str) -> str:
         """A line of a drawn tree, its dots in the colours of their numbers."""
-        if not self.color:
-            return line
-        return _DOT.sub(_coloured_dot, line)
+        return line if not self.color else _DOT.sub(_coloured_dot, line)
 
     def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
         """A word that is good or bad news."""

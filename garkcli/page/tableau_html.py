@@ -58,9 +58,7 @@ def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
 def _stage(entries: Entries, l: int, i: int, m: int) -> list[str]:
     """Row i of the block l, m; blanks where there is none."""
     block = entries.A[l][m]
-    if block is None:
-        return [""] * len(entries.b[m])
-    return _cells(block[i], entries)
+    return [""] * len(entries.b[m]) if block is None else _cells(block[i], entries)
 
 
 def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
@@ -70,9 +68,7 @@ def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
 
 def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
     """A row of the tableau: a line to the left of each block, one above where it is the first."""
-    above = ""
-    if is_first:
-        above = f"border-top:{_LINE};"
+    above = f"border-top:{_LINE};" if is_first else ""
     cells = [_cell(head, above)]
     for group in groups:
         style = f"{above}border-left:{_LINE};"
@@ -90,9 +86,7 @@ def _cell(text: str, style: str) -> str:
 
 def _table(title: str, rows: Iterable[str]) -> str:
     beside = "white-space:nowrap;text-align:left"
-    caption = ""
-    if title:
-        caption = f'<caption style="{beside}">{_text(title)}</caption>'
+    caption = f'<caption style="{beside}">{_text(title)}</caption>' if title else ""
     style = "border-collapse:collapse"
     body = "\n".join(rows)
     return f'<table style="{style}">{caption}<tbody>\n{body}\n</tbody></table>'

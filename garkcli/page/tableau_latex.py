@@ -190,6 +190,4 @@ def _is_sum(latex: str) -> bool:
 
 
 def _cell(cell: Cell, entries: Entries) -> str:
-    if isinstance(cell, arb):
-        return number(cell_text(cell, entries.digits))
-    return to_latex(cell)
+    return number(cell_text(cell, entries.digits)) if isinstance(cell, arb) else to_latex(cell)

@@ -97,9 +97,7 @@ def _between_nodes(modulus: fmpq_poly) -> list[fmpq]:
 
 
 def _number(number: Number, degree: int) -> str | list[str]:
-    if degree == 1:
-        return str(number)
-    return [str(x) for x in coordinates(number, degree)]
+    return str(number) if degree == 1 else [str(x) for x in coordinates(number, degree)]
 
 
 def _between(space: StageSpace) -> list[str] | None:
@@ -110,9 +108,7 @@ def _between(space: StageSpace) -> list[str] | None:
 
 
 def _modulus(space: StageSpace) -> list[str] | None:
-    if not isinstance(space, PolynomialSpace):
-        return None
-    return _texts(space.modulus)
+    return None if not isinstance(space, PolynomialSpace) else _texts(space.modulus)
 
 
 def _numbers(found: Iterable[Number], degree: int) -> list[str | list[str]]:

@@ -77,9 +77,7 @@ def keys(cited: Sequence[Cited]) -> list[str]:
     found = []
     for one, key in zip(cited, plain, strict=True):
         same = sorted(other.text for other, its in zip(cited, plain, strict=True) if its == key)
-        letter = ""
-        if len(same) > 1:
-            letter = _numbered(same.index(one.text))
+        letter = _numbered(same.index(one.text)) if len(same) > 1 else ""
         found.append(key + letter)
     return found
 

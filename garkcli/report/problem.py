@@ -74,9 +74,7 @@ def _described_fields(problem: RightHandSide) -> str:
     if _is_short(fields):
         shown = ", ".join(fields)
         return f"{name}; {shown}"
-    sides = "one right-hand side"
-    if len(fields) > 1:
-        sides = f"{len(fields)} right-hand sides"
+    sides = f"{len(fields)} right-hand sides" if len(fields) > 1 else "one right-hand side"
     variables = ", ".join(problem.variables)
     return f"{name}, {sides} of {variables}"
 

@@ -92,9 +92,7 @@ def _one_of(schema: Any) -> str:
     """The words that the values of a field are; nothing where they are others."""
     words = schema.get("enum", []) if isinstance(schema, dict) else []
     named = [x for x in words if isinstance(x, str) and x]
-    if not 1 < len(named) <= _MOST_WORDS:
-        return ""
-    return f" One of: {', '.join(named)}."
+    return "" if not 1 < len(named) <= _MOST_WORDS else f" One of: {', '.join(named)}."
 
 
 _MOST_WORDS = 13

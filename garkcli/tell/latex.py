@@ -83,9 +83,7 @@ class Latex(Plain):
         return f"${polynomial_latex(p, variable)}$"
 
     def over(self, top: str, bottom: str) -> str:
-        if bottom == "$1$":
-            return top
-        return rf"$\frac{{{top.strip('$')}}}{{{bottom.strip('$')}}}$"
+        return top if bottom == "$1$" else rf"$\frac{{{top.strip('$')}}}{{{bottom.strip('$')}}}$"
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:
         names = [f"z_{{{k + 1}}}" for k in range(p.variables)]
@@ -93,9 +91,7 @@ class Latex(Plain):
 
     def root(self, root: RealRoot) -> str:
         text = root_text(root)
-        if text is None:
-            return super().root(root).replace("…", r"\dots")
-        return self.expression(text)
+        return super().root(root).replace("…", r"\dots") if text is None else self.expression(text)
 
     def place(self, place: Place) -> str:
         base = {"â": r"\hat a", "Â": r"\hat A"}.get(place.letter, place.letter)

@@ -55,9 +55,7 @@ def render(methods: Sequence[Reported]) -> str:
 
 
 def _title(methods: Sequence[Reported]) -> str:
-    if len(methods) == 1:
-        return methods[0].outcome.name
-    return counted(len(methods), "method")
+    return methods[0].outcome.name if len(methods) == 1 else counted(len(methods), "method")
 
 
 def _method(method: Reported, number: int) -> Content:
@@ -99,9 +97,7 @@ def _environment() -> Environment:
 
 def _visible(value: object) -> object:
     """A text whose every sign can be seen; what is markup already stays as it is."""
-    if isinstance(value, str) and not isinstance(value, Markup):
-        return printable(value)
-    return value
+    return printable(value) if isinstance(value, str) and not isinstance(value, Markup) else value
 
 
 @cache

@@ -24,9 +24,7 @@ from garkcli.tableau.tableau import Tableau
 def _adjoint(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     """The method whose adjoint is meant; it may have stages without simple nodes."""
     part = at.method(node, where, why="")
-    if part is None:
-        return None
-    return at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
+    return None if part is None else at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
 
 
 ADJOINT = g.Kind(g.defined("part").schema, _adjoint)

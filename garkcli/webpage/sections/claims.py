@@ -10,9 +10,7 @@ from garkcli.webpage.section import Content, Section
 
 def _content(method: Reported) -> Content | None:
     outcome = method.outcome
-    if not outcome.is_read:
-        return None
-    return {"claims": [_shown(outcome, x) for x in outcome.claims]}
+    return None if not outcome.is_read else {"claims": [_shown(outcome, x) for x in outcome.claims]}
 
 
 def _shown(outcome: Outcome, claim: Claim) -> Content:

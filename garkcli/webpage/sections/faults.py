@@ -17,9 +17,7 @@ def _content(method: Reported) -> Content | None:
 
 def _shown(fault: Fault, lines: list[str]) -> Content:
     """A fault with the line that it is in."""
-    line = ""
-    if 0 < fault.line <= len(lines):
-        line = lines[fault.line - 1]
+    line = lines[fault.line - 1] if 0 < fault.line <= len(lines) else ""
     return {
         "line": fault.line,
         "column": fault.column,

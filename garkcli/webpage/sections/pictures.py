@@ -24,9 +24,7 @@ def of_several(methods: Sequence[Reported]) -> list[Content]:
     """The pictures of methods side by side; none of a single one."""
     drawn = [x.method for x in methods if x.has_pictures]
     given = [method for method in drawn if method is not None]
-    if len(given) < 2:
-        return []
-    return [_shown(picture) for picture in compared_pictures(given)]
+    return [] if len(given) < 2 else [_shown(picture) for picture in compared_pictures(given)]
 
 
 def _shown(picture: Picture) -> Content:
