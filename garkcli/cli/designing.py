@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import islice
+from itertools import count, islice
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -133,8 +133,7 @@ def _check_stability(given: Given) -> None:
     others = (given.emit, given.emit_all, given.search, given.minimise)
     if all(option is None for option in others):
         return
-    message = f"--{given.stability} gives a set of values, "
-    message += "--emit, --search, --minimise do not"
+    message = f"--{given.stability} gives a set of values, --emit, --search, --minimise do not"
     cure = "ask for one; with --order solutions of that order are looked at"
     raise UsageProblem(message, cure, code="options-clash")
 
@@ -188,8 +187,7 @@ def _refuse_unsettled(family: FamilyFile) -> None:
         UsageProblem: something was not.
     """
     for key in family.unsettled:
-        message = f"what {key} under design asks was not worked out "
-        message += "in the time of --seconds"
+        message = f"what {key} under design asks was not worked out in the time of --seconds"
         raise UsageProblem(message, "give it more, or want less", code="not-found")
 
 
@@ -263,9 +261,9 @@ def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output
     report = DesignReport(called(given.file), found, given.digits, chosen, minimum, sets or ())
     output.tell(REPORT, report)
     if is_compared and minimum is None:
-        return _exit_code(None)
+        return EXIT_CODES[None]
     _emit(found if minimum is None else minimum, family, given, output)
-    return _exit_code(None if found.last.kind == "undecided" else is_reached)
+    return EXIT_CODES[None if found.last.kind == "undecided" else is_reached]
 
 
 def _found(family: FamilyFile, given: Given) -> Design:
@@ -328,8 +326,7 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
     try:
         return walk_down(known, values)
     except NotDecided:
-        message = "--choose: what is left is not decided "
-        message += "in the time of --seconds"
+        message = "--choose: what is left is not decided in the time of --seconds"
         raise UsageProblem(message, "choose with --set", code="not-found") from None
 
 
@@ -366,9 +363,9 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
             found = stable_values(family, whose=given.whose, **asked)
     except NotDecided as error:
         say_problem(error)
-        return _exit_code(None)
+        return EXIT_CODES[None]
     output.tell(REPORT, StableReport(family.source, found, given.digits))
-    return _exit_code(found.has_values)
+    return EXIT_CODES[found.has_values]
 
 
 def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Output) -> None:
@@ -412,20 +409,12 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
 
 def file_names(folder: str, source: str) -> Iterator[str]:
     """Where the files of the methods go that are found from a file, one after the other."""
-    stem = Path(source).name.split(".")[0] or "method"
-    if source in _STANDARD_INPUT:
-        stem = "method"
-    k = 0
-    while True:
-        k += 1
-        yield str(Path(folder, f"{stem}-{k}.gark.yaml"))
+    stem = "" if source in _STANDARD_INPUT else Path(source).name.split(".")[0]
+    return (str(Path(folder, f"{stem or 'method'}-{k}.gark.yaml")) for k in count(1))
 
 
-def _exit_code(is_reached: bool | None) -> int:
-    """What cannot be decided is no fault of the file: 3, as what could not be done."""
-    if is_reached is None:
-        return 3
-    return 0 if is_reached else 1
+EXIT_CODES = {True: 0, False: 1, None: 3}
+"""By what is reached; that it cannot be decided is no fault of the file, as what cannot be done."""
 
 
 def _all_of(answers: Iterable[bool | None]) -> bool | None:

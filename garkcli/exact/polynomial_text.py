@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 
 from flint import arb, fmpq, fmpz
 
-from garkcli.exact.display import to_text
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
+from garkcli.exact.parametric import Parametric
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
@@ -51,7 +51,7 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     'x^2 - 22*x + 48'
     """
     terms = [(a, power_text(variable, k)) for k, a in enumerate(p.coefficients)]
-    return _sum_text(terms[::-1])
+    return sum_text(terms[::-1])
 
 
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
@@ -64,29 +64,23 @@ def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
     for exponents, a in p.terms:
         powers = [power_text(x, k) for x, k in zip(variables, exponents, strict=True) if k]
         terms.append((a, "*".join(powers)))
-    return _sum_text(terms)
+    return sum_text(terms)
 
 
-def _sum_text(terms: Iterable[tuple[Number, str]]) -> str:
+def sum_text(terms: Iterable[tuple[Number | Parametric, str]]) -> str:
     """Coefficients with what they are multiplied by; zeros are left out."""
     text = ""
     for a, power in terms:
         if not a:
             continue
-        is_negative, factor = _factor_text(a)
+        factor = str(a)
+        is_negative = factor.startswith("-") and " " not in factor
+        factor = f"({factor})" if " " in factor else factor.removeprefix("-")
         text += " - " if is_negative else " + "
-        text += _term(factor, power)
+        text += power if power and factor == "1" else "*".join(filter(None, [factor, power]))
     if text.startswith(" - "):
         return "-" + text.removeprefix(" - ")
     return text.removeprefix(" + ") or "0"
-
-
-def _factor_text(a: Number) -> tuple[bool, str]:
-    text = to_text(a)
-    if " " in text:
-        return False, f"({text})"
-    is_negative = text.startswith("-")
-    return is_negative, text.removeprefix("-")
 
 
 def power_text(variable: str, k: int, exponent: str = "") -> str:
@@ -96,14 +90,6 @@ def power_text(variable: str, k: int, exponent: str = "") -> str:
     if k == 1:
         return variable
     return f"{variable}^{exponent or k}"
-
-
-def _term(factor: str, power: str) -> str:
-    if not power:
-        return factor
-    if factor == "1":
-        return power
-    return f"{factor}*{power}"
 
 
 def root_text(root: RealRoot) -> str | None:

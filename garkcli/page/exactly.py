@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from garkcli.exact.display import to_latex, to_text
+from garkcli.exact.display import to_latex
 from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
+from garkcli.exact.parametric import Parametric
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, power_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
@@ -31,7 +32,7 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
     x^{2}-22x+48
     """
     descending = reversed(list(enumerate(p.coefficients)))
-    return _sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in descending)
+    return sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in descending)
 
 
 def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
@@ -45,16 +46,17 @@ def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
     for exponents, a in p.terms:
         named = zip(variables, exponents, strict=True)
         terms.append((a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named)))
-    return _sum_latex(terms)
+    return sum_latex(terms)
 
 
-def _sum_latex(terms: Iterable[tuple[Number, str]]) -> str:
+def sum_latex(terms: Iterable[tuple[Number | Parametric, str]]) -> str:
+    """Coefficients with what they are multiplied by in LaTeX; zeros are left out."""
     text = ""
     for a, power in terms:
         if not a:
             continue
         factor = to_latex(a)
-        is_sum = " " in to_text(a)
+        is_sum = " " in str(a)
         is_negative = factor.startswith("-") and not is_sum
         factor = factor.removeprefix("-") if is_negative else factor
         if is_sum:

@@ -12,11 +12,11 @@ from garkcli.check.every_facts import told as told_value
 from garkcli.check.every_family import EveryFamily
 from garkcli.check.every_properties import find_property
 from garkcli.design.stability_functions import FamilyFunction, family_functions
-from garkcli.exact.display import to_latex, to_text
-from garkcli.exact.polynomial_text import power_text
+from garkcli.exact.display import to_text
+from garkcli.exact.polynomial_text import power_text, sum_text
 from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.exactly import ALGEBRAIC, root_data
+from garkcli.page.exactly import ALGEBRAIC, root_data, sum_latex
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON
 from garkcli.report import check as c
@@ -259,53 +259,20 @@ def every_stability(file: str, name: str, family: EveryFamily) -> EveryStability
     return EveryStability(file, name, family, family_functions(family.tableau, family.ring))
 
 
-def sum_text(coefficients: Sequence[Any], variable: str) -> str:
-    """A polynomial, lowest power first, its coefficients in brackets where they are sums.
-
-    >>> from flint import fmpq
-    >>> sum_text((fmpq(1), fmpq(0), fmpq(-1, 2)), "z")
-    '1 - 1/2*z^2'
-    """
-    text = ""
-    for k, a in enumerate(coefficients):
-        if not a:
-            continue
-        number = to_text(a)
-        is_sum = " " in number
-        is_negative = number.startswith("-") and not is_sum
-        factor = f"({number})" if is_sum else number.removeprefix("-")
-        power = power_text(variable, k)
-        if power and factor != "1":
-            power = f"{factor}*{power}"
-        text += (" - " if is_negative else " + ") + (
-            power or number.removeprefix("-" * is_negative)
-        )
-    if text.startswith(" - "):
-        return "-" + text.removeprefix(" - ")
-    return text.removeprefix(" + ") or "0"
+def _text(coefficients: Sequence[Any], variable: str) -> str:
+    """A polynomial, lowest power first, its coefficients in brackets where they are sums."""
+    return sum_text((a, power_text(variable, k)) for k, a in enumerate(coefficients))
 
 
-def sum_latex(coefficients: Sequence[Any], variable: str) -> str:
-    """The same in LaTeX."""
-    text = ""
-    for k, a in enumerate(coefficients):
-        if not a:
-            continue
-        number = to_latex(a)
-        power = power_text(variable, k, f"{{{k}}}")
-        if " " in to_text(a) and power:
-            number = rf"\left({number}\right)"
-        if power and number in {"1", "-1"}:
-            number = number.removesuffix("1")
-        text += f"{'' if number.startswith('-') else '+'}{number}{power}"
-    return text.removeprefix("+") or "0"
+def _latex(coefficients: Sequence[Any], variable: str) -> str:
+    return sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in enumerate(coefficients))
 
 
 def _sum(variable: str) -> Kind:
     return Kind(
         S.array(S.EXACT),
         lambda xs, _: [to_text(x) for x in xs],
-        lambda xs, d: d.formula(sum_latex(xs, variable), sum_text(xs, variable)),
+        lambda xs, d: d.formula(_latex(xs, variable), _text(xs, variable)),
     )
 
 
@@ -322,8 +289,8 @@ def _function_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
     rows = []
     for f in found:
         which = "" if f.name == "all" else f" of colour {d.prose(f.name)}"
-        over, under = (sum_text(x, "z") for x in (f.numerator, f.denominator))
-        up, down = (sum_latex(x, "z") for x in (f.numerator, f.denominator))
+        over, under = (_text(x, "z") for x in (f.numerator, f.denominator))
+        up, down = (_latex(x, "z") for x in (f.numerator, f.denominator))
         latex = up if down == "1" else rf"\frac{{{up}}}{{{down}}}"
         text = over if under == "1" else f"({over}) / ({under})"
         rows.append((f"R(z){which}", d.formula(latex, text)))
