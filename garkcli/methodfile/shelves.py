@@ -9,8 +9,9 @@ import json
 import os
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import Fault, MethodFileError
@@ -74,6 +75,15 @@ Found = Mapping[str, Sequence[Shelved]]
 """Methods by the keys of their names, or of their aliases; several where these are not unique."""
 
 
+def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) -> Found:
+    """Methods by keys that each of them has."""
+    found: dict[str, list[Shelved]] = {}
+    for method in methods:
+        for key in dict.fromkeys(keys(method)):
+            found.setdefault(key, []).append(method)
+    return found
+
+
 class Shelf:
     """Methods with names that are in one place.
 
@@ -87,30 +97,19 @@ class Shelf:
     @cached_property
     def methods(self) -> Found:
         """By their names."""
-        found: dict[str, list[Shelved]] = {}
-        for method in self._shelved():
-            found.setdefault(key_of(method.name), []).append(method)
-        return found
+        return _by(lambda x: [key_of(x.name)], self._shelved())
 
     @cached_property
     def aliases(self) -> Found:
         """By what else they are called."""
-        found: dict[str, list[Shelved]] = {}
-        for methods in self.methods.values():
-            for method in methods:
-                for key in dict.fromkeys(map(key_of, self.called(method))):
-                    found.setdefault(key, []).append(method)
-        return found
+        return _by(lambda x: map(key_of, self.called(x)), chain(*self.methods.values()))
 
     @cached_property
     def spellings(self) -> Found:
         """By the letters and digits of their names and aliases."""
-        found: dict[str, list[Shelved]] = {}
-        for methods in self.methods.values():
-            for method in methods:
-                for key in dict.fromkeys(map(letters_of, (method.name, *self.called(method)))):
-                    found.setdefault(key, []).append(method)
-        return found
+        return _by(
+            lambda x: map(letters_of, (x.name, *self.called(x))), chain(*self.methods.values())
+        )
 
     def called(self, method: Shelved) -> Sequence[str]:
         """The aliases of one of its methods; none where its file cannot be read."""

@@ -194,12 +194,9 @@ def _bounded(run: LongRun) -> str:
 
 def _reason(history: InvariantHistory, run: LongRun) -> str:
     if run.stability is not None:
-        fate = FATES[run.stability.fate]
-        difference = _determinant(run.stability)
-        return f"det R(h) − 1 = {difference}, {fate}"
+        return f"det R(h) − 1 = {_determinant(run.stability)}, {FATES[run.stability.fate]}"
     if history.shape == "line":
-        times = _times(history)
-        return f"the slope is {times} times its uncertainty"
+        return f"the slope is {_times(history)} times its uncertainty"
     if history.shape == "curve":
         # the fitted slope of what is no line may be nothing but rounding
         return f"it {_direction(history)} all along, by more than it oscillates"
@@ -224,10 +221,7 @@ def _times(history: InvariantHistory) -> str:
 
 def _determinant(stability: Stability) -> str:
     """Det R(h) − 1."""
-    if stability.is_symplectic:
-        return "0"
-    difference = stability.determinant - 1
-    return to_decimal(difference, 4)
+    return to_decimal(stability.determinant - 1, 4)
 
 
 # numbers
@@ -434,9 +428,7 @@ SYMPLECTIC = Section(
     Row(
         "determinant_minus_1",
         TEXT,
-        lambda x: (
-            None if x.run.stability is None else to_decimal(x.run.stability.determinant - 1, 4)
-        ),
+        lambda x: x.run.stability and _determinant(x.run.stability),
         is_optional=True,
     ),
     Row("defects", parts(DEFECT), lambda x: x.symplecticity.defects),
