@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Literal, TypeAlias
 
+from garkcli.bridges.elsewhere import declared_orders, order_of
 from garkcli.bridges.importing import orders_of, read
 from garkcli.bridges.judging import Judged, careless_digits, judged
 from garkcli.bridges.plausible import is_plausible
@@ -12,7 +13,7 @@ from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_ta
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.findings import repair_text, witness_text
-from garkcli.doing import doing
+from garkcli.doing import counting, doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, replace
@@ -112,16 +113,21 @@ def audited(paths: Iterable[str]) -> Iterator[Audited]:
     Raises:
         UsageProblem: a source cannot be read.
     """
-    for path in paths:
+    given = list(paths)
+    orders = declared_orders(given)
+    for path in counting("files", given, len(given)):
         with doing(path):
-            found = _audited(path)
+            found = _audited(path, orders)
         yield from found
 
 
-def _audited(path: str) -> list[Audited]:
+def _audited(path: str, orders: Mapping[str, int]) -> list[Audited]:
     """The tables of one source."""
     text, source = source_text(path)
-    judged = (audit(table) for table in find_tables(text, source, readers_for(path)))
+    judged = []
+    for table in find_tables(text, source, readers_for(path)):
+        declared = None if table.order or table.kind else order_of(table, orders)
+        judged.append(audit(table if declared is None else replace(table, order=declared)))
     return [found for found in judged if found is not None]
 
 
@@ -154,7 +160,7 @@ def audit(table: FoundTable) -> Audited | None:
     # of high orders it takes long to see that a method has not one more than it declares
     order, embedded_order = orders_of(method, table, declared if declared >= HIGH else None)
     subject = Subject(table, method, order, embedded_order)
-    if table.is_assembled and order.order < 2 and not declared and not subject.is_slightly_off:
+    if table.is_assembled and order.order < 2 and not subject.is_slightly_off:
         message = "numbers with the names of coefficients whose roles are not recognised"
         return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
     findings: list[AuditFinding] = []
@@ -316,7 +322,7 @@ def _weights(subject: Subject) -> Iterator[AuditFinding]:
 def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     """Nodes that are no row sums, as far as they cost an order."""
     rows = subject.wrong_rows
-    if subject.misses_order:
+    if subject.misses_order or all(x is None for x in subject.table.c):
         return
     if not rows:
         careless = subject.careless_rows

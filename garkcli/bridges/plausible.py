@@ -24,9 +24,11 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     The nodes of a method are the row sums of its matrix, most of them even where one is misprinted;
     without nodes its matrix is triangular and the sum of its weights 1.
     """
-    if table.is_sure or table.order is not None or table.colours > 1:
+    if table.is_sure or table.order is not None:
         return True
     tableau = method.tableau
+    if table.colours > 1:
+        return all(abs(_sum(x.b) - 1) < FAR for x in tableau.colours)
     block = tableau.block(0, 0)
     colour = tableau.colours[0]
     if block is None:

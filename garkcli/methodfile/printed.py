@@ -23,7 +23,7 @@ MANY_DIGITS = 14
 """In the source of a solver a decimal of so many digits is a rounded one, however long others are:
 products of two that are written out have twice as many.
 """
-LONG_DENOMINATOR = 10**6
+LONG_DENOMINATOR = 10**5
 """Fractions with a smaller denominator are no approximants."""
 LONG_DECIMAL = 10**9
 """Decimals that were written as fractions with a smaller one are exact."""
@@ -88,7 +88,7 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
 
 
 def careless_units(printed: Printed) -> dict[Number, fmpq]:
-    """The same where numbers are rounded carelessly: ``CARELESS`` units of their last place. What
+    """The same where decimals are rounded carelessly: ``CARELESS`` units of their last place. What
     may have been computed in floats before it was printed, fractions and decimals that are no
     longer than floats, may be off by so many units of these.
     """
@@ -96,8 +96,11 @@ def careless_units(printed: Printed) -> dict[Number, fmpq]:
     fractions = {value for expression, value in printed if _is_whole(expression)}
     for value, unit in units.items():
         of_float = rounded_up(abs(to_ball(value))) * FLOAT
-        is_float = unit and (value in fractions or unit > of_float / SHORTER)
-        units[value] = CARELESS * (max(unit, of_float) if is_float else unit)
+        if value in fractions and unit:
+            units[value] = max(10 * unit, CARELESS * of_float)
+        else:
+            is_float = unit > of_float / SHORTER
+            units[value] = CARELESS * (max(unit, of_float) if is_float else unit)
     return units
 
 

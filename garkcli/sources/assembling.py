@@ -44,6 +44,12 @@ Roles: TypeAlias = dict[str, Value]
 """What is known of a table, by role: A, b, c, embedded, error, dense, order, …"""
 
 
+FAR = 1
+"""Embedded weights have a sum that is nearer to 1, and their differences one nearer to 0, misprints
+included.
+"""
+
+
 class NoTable(Exception):
     """These arrays are no table, whatever they are called."""
 
@@ -94,7 +100,7 @@ def plain(value: Value | None) -> Texts:
         case Array(items=items):
             return [plain(conversion([x], 0) if isinstance(x, Word) else x) for x in items]
         case Unknown(reason=reason, line=line):
-            raise Unreadable(f"{reason}, line {line}, is not known")
+            raise Unreadable(f"{reason}, line {line}, is not known" if line else reason)
     raise Unreadable(f"{described(value)} is not known")
 
 
@@ -124,14 +130,15 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
     if signature and signature.counts and meant.arguments not in signature.counts:
         counts = " or ".join(map(str, signature.counts))
         return troubled(empty, f"{meant.maker} takes {counts} arguments", is_misshapen=True)
-    if not signature and not meant.is_sure:
+    if not (signature or meant.is_sure or meant.is_assembled):
         _refuse_uses(roles)
     try:
         table = _told(roles, _built(meant, roles, empty))
         return replace(table, is_sure=True) if signature and signature.is_guess else table
     except Unreadable as error:
         if meant.is_sure or meant.is_assembled:
-            return troubled(empty, error.message, isinstance(error, Misshapen))
+            sure = replace(empty, is_sure=True)
+            return troubled(sure, error.message, isinstance(error, Misshapen))
         if _is_unread(roles):
             return troubled(replace(empty, is_sure=True), error.message)
         trouble = f"arrays called A and b do not fit together: {error.message}"
@@ -484,7 +491,12 @@ def _embedded(
     row = weights(plain(given))
     if len(row) < len(b) and meant.maker:
         row = weights(plain(given), len(b))
-    is_error = role == "error" or abs(_near(given)) < 0.05
+    near = _near(given)
+    is_error = abs(near) < 0.05 or (role == "error" and meant.is_assembled)
+    off = near if role == "error" else near - 1
+    if not (meant.is_sure or is_error) and abs(off) > FAR:
+        # an array of that name which is something else
+        return none
     if len(row) == len(b) + 1:
         if is_zero(row[-1]):
             row = row[:-1]
@@ -520,7 +532,9 @@ def _two_parts(roles: Roles, empty: FoundTable) -> FoundTable:
 
     The implicit table is first; no bt is the last row of At, no b is bt.
     """
-    stages = _stages(roles)
+    given = roles.get("b2")
+    of_weights = isinstance(given, Array) and "stages" not in roles
+    stages = len(given.items) if of_weights and isinstance(given, Array) else _stages(roles)
     implicit = square(plain(roles.get("A2")), stages)
     b_implicit = _given(roles, "b2", stages) or implicit[-1]
     explicit = square(plain(roles.get("A")), stages)

@@ -12,9 +12,10 @@ from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table
 from garkcli.sources.evaluate import Space
 from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES, role_of
+from garkcli.sources.parts import role_of_part, roles_of_parts
 from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
-from garkcli.sources.signatures import PRINTED, SIGNATURES, other_kind
+from garkcli.sources.signatures import PARTS, PRINTED, SIGNATURES, other_kind
 from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, whole
 
 _NUMBERED = re.compile(
@@ -81,7 +82,7 @@ class TableFinder:
         values, lines = dict(space), space.lines
         self._named(values, lines, scope)
         if len(self._meant) + len(self._other) == count:
-            self._scalars(scope.name, values, scope.line)
+            self._scalars(scope.title, values, scope.line)
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
         """Arrays that are complete are a table before one of them is assigned anew."""
@@ -101,7 +102,7 @@ class TableFinder:
 
     def _declared_by_class(self, space: Space) -> None:
         """The order of a class is that of the table which it uses."""
-        order = space.get("order")
+        order = space.get("order", space.get("ORDER"))
         if not isinstance(order, Number):
             return
         used = {(x.kind, x.line) for x in space.values() if isinstance(x, Record)}
@@ -128,12 +129,17 @@ class TableFinder:
                 return
             roles = dict(zip(signature.roles, record.args, strict=False))
             roles.pop("-", None)
-            if any(isinstance(x, Unknown) and _is_given(x) for x in roles.values()):
+            if any(map(_is_given, roles.values())):
                 return
         for name, value in fields.items():
             role = name if record.kind == PRINTED else ROLES.get(name)
             if role is not None and not isinstance(value, Null):
                 roles.setdefault(role, value)
+        parts = roles_of_parts(fields)
+        if parts is not None:
+            roles, signature = parts, PARTS
+        if signature is PARTS and any(map(_is_given, roles.values())):
+            return
         _with_diagonal(roles, fields)
         if record.kind == _TABLE and not _is_written(fields.get("d")):
             roles.pop("embedded", None)
@@ -175,7 +181,7 @@ class TableFinder:
             if name != first.reason and " " not in name:
                 return name
         is_entry = scope.kind == "entry" and scope.name
-        return scope.name if is_entry else record.key or scope.name
+        return scope.name if is_entry else record.key or scope.title
 
     # arrays by their names
 
@@ -186,9 +192,17 @@ class TableFinder:
             roles = block_roles(value) if name.upper().startswith("B") else None
             if roles is not None:
                 line = lines.get(name, scope.line)
-                meant = Meant(scope.name or name, line, dict(roles), "B", None, is_sure=True)
+                meant = Meant(scope.title or name, line, dict(roles), "B", None, is_sure=True)
                 self._meant.append(meant)
                 return
+        parts = roles_of_parts(values)
+        if parts is not None:
+            is_pair = "H" in values
+            given = {x for x in values if role_of_part(x)} | ({"A", "H", "c"} if is_pair else set())
+            line = min(lines.get(x, scope.line) for x in given)
+            made = Meant(scope.title, line, parts, "", PARTS)
+            self._meant.append(made)
+            values = {name: x for name, x in values.items() if name not in given}
         groups: dict[str, Roles] = {}
         blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}
         begins: dict[str, int] = {}
@@ -216,7 +230,7 @@ class TableFinder:
             if not is_complete(roles):
                 continue
             title = roles.pop("title", None)
-            name = stem or scope.name
+            name = stem or scope.title
             if isinstance(title, Word):
                 name = title.text
             bases = scope.bases if scope.kind == "class" else ()
@@ -243,9 +257,9 @@ def _other(source: str, line: int, format: str, name: str, kind: str) -> FoundTa
     return FoundTable(source, line, format, name, (), (), (), kind=kind)
 
 
-def _is_given(value: Unknown) -> bool:
+def _is_given(value: Value) -> bool:
     """Whether a value is an argument, or a part of one: then a table is used, and none is made."""
-    return "the argument" in value.reason
+    return isinstance(value, Unknown) and "the argument" in value.reason
 
 
 def _is_written(value: Value | None) -> bool:

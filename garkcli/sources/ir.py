@@ -184,6 +184,8 @@ class Scope(Frozen):
         parameters: of a function, or the fields of a record, with their values where they have one.
         types: the parameters that are types: calling one converts.
         bases: of a class.
+        of: the type of the first argument of a function, where it is written: what it belongs to in
+            languages that choose functions by these.
     """
 
     kind: Kind
@@ -193,6 +195,12 @@ class Scope(Frozen):
     parameters: tuple[tuple[str, Expr | None], ...] = ()
     types: frozenset[str] = frozenset()
     bases: tuple[str, ...] = ()
+    of: str = ""
+
+    @property
+    def title(self) -> str:
+        """What people call it."""
+        return self.of or self.name
 
 
 class Branch(Frozen):

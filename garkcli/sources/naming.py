@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix"),
-    "b": ("b", "B", "bvec", "b_sol", "c_sol", "weights", "α", "b_vec"),
+    "b": ("b", "B", "bvec", "b_sol", "bsol", "c_sol", "weights", "α", "b_vec"),
     "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae"),
     "embedded": (
         *("bhat", "b_hat", "bh", "bembed", "bstar", "b_star", "btilde"),
@@ -15,9 +15,9 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
         *("embedded", "b2", "bhat_vec", "d", "αEEst", "alphaEEst", "b̂"),
         *("bEEst", "α̂", "b_low", "b_lower"),
     ),
-    "error": ("E", "e", "evec", "b_error", "b_err", "c_error", "err"),
+    "error": ("E", "e", "evec", "b_error", "b_err", "berr", "c_error", "err"),
     "dense": ("P", "dense", "binterp", "binterpt"),
-    "order": ("order", "q", "ord", "DifferenceOrder"),
+    "order": ("order", "ORDER", "RK_ORDER", "q", "ord", "DifferenceOrder"),
     "embedded_order": (
         *("embedded_order", "error_estimator_order", "p", "adaptiveorder"),
         *("order_embedded", "embeddedOrder", "orderhat", "EmbeddedDifferenceOrder"),

@@ -13,6 +13,9 @@ _NAME = re.compile(r"(?P<stem>[^\W\d_]+[̂̃]?)_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}
 _MATRICES = ("a", "A", "aa", "b")
 _DIAGONALS = ("γ", "gamma", "gam", "d")
 _EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e")
+_DIFFERENCES = frozenset({"btilde"})
+_SURELY = _DIFFERENCES | {"bhat", "b̂", "bembed"}
+"""Names that are no others' than those of embedded weights, and of their differences."""
 NEAR = 1e-4
 """Numbers that differ by less are meant to be the same."""
 _Entries = dict[tuple[int, int], Value]
@@ -44,10 +47,14 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     if stem is None:
         return None
     matrix = entries[stem]
+    for other in set(entries) & set(rows) - {stem}:
+        # c10, c11 … behind c9
+        rows[other] |= {10 * i + j: x for (i, j), x in entries[other].items() if i > 0}
     if stem in {"a", "A"} and {"C", "gamma", "γ"} & set(entries):
         return Scalars(kind="Rosenbrock")
     unknown = next((x for x in matrix.values() if isinstance(x, Unknown)), None)
-    if unknown is not None and "argument" in unknown.reason:
+    written = sum(isinstance(x, Number) for x in matrix.values())
+    if unknown is not None and ("argument" in unknown.reason or 2 * written < len(matrix)):
         # a table is used, and none is made
         return None
     weight, node = ("c", "a") if stem == "b" else ("b", "c")
@@ -75,7 +82,7 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
         found.roles["c"] = Array(list(c))
     if given and _is_near(_total(list(given.values())), ONE):
         found.roles["b"] = Array([given.get(i + first, ZERO) for i in range(stages)])
-    elif not given and _is_near(_total(A[-1]), ONE):
+    elif not given and nodes and _is_near(_total(A[-1]), ONE):
         found.roles["b"] = Array(list(A[-1]))
         found.notes.append("no weights are written out: they are the last row of A")
     elif len(nodes) + len(matrix) > 4:
@@ -109,12 +116,6 @@ def _families(values: Mapping[str, Value]) -> tuple[dict[str, _Entries], dict[st
         else:
             cut = 2
             entries.setdefault(stem, {})[int(i[:cut]), int(i[cut:])] = value
-    for stem, row in rows.items():
-        # b10, b11 … behind b9 are weights
-        longer = entries.get(stem, {})
-        if max(row) == 9 and longer and stem != "a" and all(i < 3 for i, _ in longer):
-            row |= {10 * i + j: x for (i, j), x in longer.items()}
-            entries.pop(stem)
     return entries, rows
 
 
@@ -151,6 +152,11 @@ def _fitted(
         sums = [_total(row) for row in matrix]
         for shift in (1, 0, 2):
             given = [nodes.get(i + shift) for i in range(stages)]
+            second = given[1] if stages > 1 else None
+            if second is not None and not note and all(map(_is_zero, matrix[1])):
+                told = "the only entry of the second row is its node"
+                given_row = [second, *matrix[1][1:]]
+                ways.append((told, [matrix[0], given_row, *matrix[2:]]))
             count = sum(x is not None for x in given)
             if not count or count < min(len(nodes), 2):
                 continue
@@ -180,6 +186,10 @@ def _with_embedded(found: Scalars, rows: Mapping[str, _Row], stages: int, low: i
         count = max(stages, max(row) - first + 1)
         total = _total(list(row.values()))
         is_error, is_weights = _is_near(total, ZERO), _is_near(total, ONE)
+        if stem in _SURELY and not (is_error or is_weights) and len(row) + 1 >= stages:
+            # the sum is wrong, which is for an audit to say
+            is_error = stem in _DIFFERENCES
+            is_weights = not is_error
         if (is_error or is_weights) and count <= stages + 1:
             entries: list[Value] = [row.get(i + first, ZERO) for i in range(count)]
             found.roles["error" if is_error else "embedded"] = Array(entries)

@@ -51,6 +51,8 @@ PRINTED = "a printed tableau"
 """What stands for a call where data are a table."""
 NDSOLVE = "coefficients of NDSolve"
 """The same for the lists that a function of Mathematica gives."""
+PARTS = Signature(["A", "b", "c", "A2", "b2", "c2"], "ark")
+"""An explicit part and an implicit one."""
 SIGNATURES: Mapping[str, Signature] = {
     PRINTED: Signature([], is_guess=True),
     NDSOLVE: Signature(["A", "b", "c", "error"], is_guess=True),
@@ -67,6 +69,8 @@ SIGNATURES: Mapping[str, Signature] = {
         format="petsc",
         has_default_weights=True,
     ),
+    "IMEXButcher": PARTS,
+    "IMEXTableau": PARTS,
     "TSBasicSymplecticRegister": Signature(
         ["title", "order", "stages", "drifts", "kicks"], "drift-first", counts=(5,), format="petsc"
     ),

@@ -175,3 +175,147 @@ def test_implicit_methods_of_petsc(name: str, tmp_path: Path) -> None:
     text = gark("export", name, "--to", "petsc").out
     assert "TSARKIMEXRegister" in text
     assert list(told("right.c", text, tmp_path).values()) == [[]]
+
+
+PARTS = {
+    "classes.py": """
+class RK111(RungeKuttaIMEX):
+    stages = 1
+    c = np.array([0, 1])
+    A = np.array([[0, 0], [1, 0]])
+    H = np.array([[0, 0], [0, 1]])
+    order = 2
+""",
+    "tableau.jl": """
+tableau(::ARS111) = IMEXTableau(; a_exp = @SArray([0 0; 1 0]), a_imp = @SArray([0 0; 0 2]))
+alg_order(::ARS111) = 1
+""",
+    "rows.py": """
+class IMEX_Euler(IMEXRungeKutta):
+    def __init__(self, domain):
+        butcher_imp = np.array([[0., 0.], [0., 1.], [0., 1.]])
+        butcher_exp = np.array([[0., 0.], [1., 0.], [1., 0.]])
+        super().__init__(domain, butcher_imp, butcher_exp)
+""",
+}
+
+
+def test_two_parts_are_one_method(tmp_path: Path) -> None:
+    """An explicit and an implicit matrix are judged together; missing weights are last rows."""
+    for name, text in PARTS.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    run = gark("audit", str(tmp_path), "--format", "json")
+    found = {x["name"]: (x["order"], x["declared_order"]) for x in json.loads(run.out)["tables"]}
+    assert found == {"RK111": (1, 2), "ARS111": (0, 1), "__init__": (1, None)}
+
+
+ELSEWHERE = {
+    "alg_utils.jl": "alg_order(::Union{Kutta, Other}) = 4\nalg_order(alg::Midpoint) = 2\n",
+    "kutta.jl": """
+function KuttaConstantCache(T, T2)
+    a21 = convert(T, 1 // 2)
+    a31 = convert(T, -1)
+    a32 = convert(T, 2)
+    b1 = convert(T, 1 // 6)
+    b2 = convert(T, 2 // 3)
+    b3 = convert(T, 1 // 6)
+    c2 = convert(T2, 1 // 2)
+    c3 = convert(T2, 1)
+    return KuttaConstantCache(a21, a31, a32, b1, b2, b3, c2, c3)
+end
+function MidpointTableau(T)
+    A = [0 0; 1//2 0]
+    b = [0, 1]
+    c = [0, 1//2]
+    return MidpointTableau(A, b, c)
+end
+""",
+    "tables.py": "EULER = dict(A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1])\n",
+    "solvers.py": "class Solver(Base):\n    tableau = EULER\n    order = 1\n",
+    "own.py": """
+class Third:
+    tableau = ButcherTableau(A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1])
+    def order(self, terms):
+        del terms
+        return 3
+""",
+}
+
+
+def test_orders_are_declared_elsewhere(tmp_path: Path) -> None:
+    """For an algorithm or a class, in another file; by a method of the class."""
+    for name, text in ELSEWHERE.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    run = gark("audit", str(tmp_path), "--format", "json")
+    found = {
+        x["name"]: (x["declared_order"], [y["level"] for y in x["findings"]])
+        for x in json.loads(run.out)["tables"]
+    }
+    assert found == {
+        "KuttaConstantCache": (4, ["warning"]),
+        "MidpointTableau": (2, []),
+        "EULER": (1, ["warning"]),
+        "tableau": (3, ["error"]),
+    }
+
+
+OTHERS = {
+    "test.py": "def test_shapes():\n    bad_t = [[0, 1], [2, 3]]\n    call(bad_t)\n",
+    "radau.py": """
+class Radau:
+    def load(self):
+        A = np.array([[5/12, -1/12], [3/4, 1/4]])
+        b = [3/4, 1/4]
+        c = [1/3, 1]
+        E = [-10.0484, 1.38208]
+""",
+    "weights.jl": "function f(y, T)\n    A_imp = T[-3 0; 0 0]\n    A_exp = T[0 1; 1 -1]\nend\n",
+}
+
+
+def test_what_only_has_such_names(tmp_path: Path) -> None:
+    """A matrix whose name begins with b is no block of RKLab, error constants are no weights, and
+    parts of a right-hand side no tableaus.
+    """
+    for name, text in OTHERS.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    run = gark("audit", str(tmp_path), "--format", "json")
+    tables = json.loads(run.out)["tables"]
+    assert [(x["order"], x["embedded_order"], x["findings"]) for x in tables] == [(3, None, [])]
+
+
+SCALARS = """
+submodule (rk) steps
+contains
+module procedure named
+    real(wp), parameter :: a2 = 1.0_wp / 4.0_wp, a3 = 1.0_wp / 2.0_wp
+    real(wp), parameter :: b31 = 1.0_wp / 4.0_wp, b32 = 1.0_wp / 4.0_wp
+    real(wp), parameter :: c1 = 0.0_wp, c3 = 1.0_wp
+end procedure named
+module procedure scaled
+    real(wp), parameter :: a1 = 1.0_wp / 100.0_wp, a2 = 3.0_wp / 5.0_wp
+    real(wp), parameter :: b20 = -4278.0_wp, b21 = 4425.0_wp, b30 = 524746.0_wp
+    real(wp), parameter :: b31 = -532125.0_wp, b32 = 16170.0_wp
+    real(wp), parameter :: c0 = -179124.0_wp, c1 = 200000.0_wp
+end procedure scaled
+end submodule
+"""
+
+
+def test_single_numbers_are_read_or_named(tmp_path: Path) -> None:
+    """An entry that is but its node is taken from it; what does not fit is named, not lost."""
+    assert told("steps.f90", SCALARS, tmp_path) == {"named": [], "scaled": ["unread"]}
+
+
+def test_rows_of_signed_fractions_in_lists(tmp_path: Path) -> None:
+    """Rows in brackets of their own, with blanks between their entries."""
+    text = """
+function Radau(T = Float64)
+    a = [
+        [ 5//12   (- 1)/12 ]
+        [ 3//4     1//4    ]
+    ]
+    return Tableau{T}(:RadauIIA2, 3, a, [3//4, 1//4], [1//3, 1//1])
+end
+"""
+    assert told("radau.jl", text, tmp_path) == {"RadauIIA2": []}

@@ -53,6 +53,9 @@ _DEFINITIONS = frozenset(
 )
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
 
+_GENERAL = frozenset({"Type", "Val", "Number", "Real", "Integer", "Int", "Bool", "Union", "Any"})
+"""Types that say nothing of what a function belongs to."""
+
 
 class Token(Frozen):
     """An operand or a sign of an expression.
@@ -164,11 +167,13 @@ class JuliaLowering(Lowering):
                 types |= {x for part in parts[1:] for x in self._type_names(part)}
             head = parts[0]
         parameters = []
-        name = ""
+        name = of = ""
         inside = self.children(head)
         if head.type == "call_expression" and inside:
             name = self.text(inside[0]).partition("{")[0].rpartition(".")[2]
-            for given in self.children(inside[1]) if len(inside) > 1 else []:
+            given_all = self.children(inside[1]) if len(inside) > 1 else []
+            of = self._owner(given_all[0], types) if given_all else ""
+            for given in given_all:
                 known = self._parameter(given, types)
                 if known:
                     parameters.append((known, None))
@@ -179,7 +184,20 @@ class JuliaLowering(Lowering):
             case (ir.Do(value=value, line=last),):
                 # the last value is what the function gives
                 statements = (*statements[:-1], ir.Return(value, last))
-        return ir.Scope("function", name, statements, line, tuple(parameters), frozenset(types))
+        return ir.Scope(
+            "function", name, statements, line, tuple(parameters), frozenset(types), of=of
+        )
+
+    def _owner(self, given: Node, types: set[str]) -> str:
+        """The type of an argument: ``::RK4{T}``, ``alg::RK4``."""
+        if given.type not in {"unary_typed_expression", "typed_expression"}:
+            return ""
+        node = given.named_children[-1]
+        if node.type == "parametrized_type_expression" and node.named_children:
+            node = node.named_children[0]
+        name = self.text(node)
+        is_general = name in types or name in _GENERAL or name.startswith("Abstract")
+        return "" if is_general else name
 
     def _parameter(self, given: Node, types: set[str]) -> str:
         """The name of a parameter; one that is a type is put among these."""

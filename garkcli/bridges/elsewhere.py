@@ -1,0 +1,66 @@
+"""Orders that a source tree declares away from its tables: for an algorithm, for a class."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+
+from garkcli.bridges.sources import source_text
+from garkcli.errors import UsageProblem
+from garkcli.sources.found import FoundTable
+
+_OF_ALGORITHM = re.compile(
+    r"^[ \t]*(?:\w+\.)?alg_order\(\s*\w{0,50}::(?:Union\{)?(?P<names>[\w\s,.]{1,900})\}?\s*\)"
+    r"\s*=\s*(?P<order>[0-9]{1,2})[ \t]*(?:#.*)?$",
+    re.MULTILINE,
+)
+"""``alg_order(::Tsit5) = 5`` of SciML."""
+_CLASS = re.compile(r"^class\b.*(?:\n(?:[ \t].*)?)*", re.MULTILINE)
+_USED = re.compile(r"^[ \t]+\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
+_ORDER = re.compile(r"^[ \t]+order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
+_MADE_FOR = re.compile(
+    r"(?P<name>\w+?)(?:E?S?DIRK)?(?:IMEX)?(?:Constant)?(?:Cache|Tableau)(?:Actual)?"
+)
+"""A table is called after its algorithm: ``Tsit5ConstantCache``."""
+
+
+def declared_orders(paths: Iterable[str]) -> Mapping[str, int]:
+    """Orders by the names of algorithms and of tables; a name with two orders is left out."""
+    found: dict[str, set[int]] = {}
+    for path in paths:
+        if not path.endswith((".jl", ".py")):
+            continue
+        try:
+            text, _ = source_text(path)
+        except UsageProblem:
+            continue
+        for name, order in orders_in(text):
+            found.setdefault(name, set()).add(order)
+    return {name: orders.pop() for name, orders in found.items() if len(orders) == 1}
+
+
+def orders_in(text: str) -> list[tuple[str, int]]:
+    r"""What one source declares.
+
+    >>> orders_in("alg_order(alg::Union{BS5, Tsit5}) = 5")
+    [('BS5', 5), ('Tsit5', 5)]
+    >>> orders_in("class RK4(Solver):\n    order = 4\n    tableau = _RK4\n")
+    [('_RK4', 4)]
+    """
+    found = []
+    for match in _OF_ALGORITHM.finditer(text) if "alg_order" in text else ():
+        names = [name.strip().rpartition(".")[2] for name in match["names"].split(",")]
+        found += [(name, int(match["order"])) for name in names]
+    for match in _CLASS.finditer(text) if "tableau" in text else ():
+        order = _ORDER.search(match[0])
+        if order is not None:
+            found += [(x["name"], int(order["n"])) for x in _USED.finditer(match[0])]
+    return found
+
+
+def order_of(table: FoundTable, orders: Mapping[str, int]) -> int | None:
+    """The order that is declared for a table by its name; None where there is none."""
+    if table.name in orders:
+        return orders[table.name]
+    made_for = _MADE_FOR.fullmatch(table.name)
+    return None if made_for is None else orders.get(made_for["name"])

@@ -1,0 +1,61 @@
+"""Two matrices of one method by their names: an explicit and an implicit part of shared stages."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from garkcli.sources.values import ONE, Array, Value
+
+_NAME = re.compile(
+    r"(?P<word>butcher|[abc]|b_?hat|b_?embed)_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
+    re.IGNORECASE,
+)
+_PAIR = {"A": "A", "H": "A2"}
+"""Classes of Dedalus: A is explicit, H implicit, and the last rows are the weights."""
+_ROLES = {"butcher": "A", "a": "A", "b": "b", "c": "c"}
+
+
+def role_of_part(name: str) -> str:
+    """What an array of one part of a method is; empty where its name does not tell.
+
+    >>> role_of_part("a_exp"), role_of_part("bhatim"), role_of_part("exp")
+    ('A', 'embedded2', '')
+    """
+    found = _NAME.fullmatch(name)
+    if found is None:
+        return ""
+    role = _ROLES.get(found["word"].lower(), "embedded")
+    return role if found["part"].lower().startswith("e") else f"{role}2"
+
+
+def roles_of_parts(values: Mapping[str, Value]) -> dict[str, Value] | None:
+    """The roles of the arrays of both parts; None where there are not two matrices.
+
+    Missing weights are the last rows of the matrices, which have a row more than columns, or whose
+    last node is 1.
+    """
+    found = {role_of_part(name): value for name, value in values.items()}
+    found.pop("", None)
+    if not {"A", "A2"} <= set(found) and "b" not in values and "c" in values:
+        found = {role: values[name] for name, role in _PAIR.items() if name in values}
+        found["c"] = values["c"]
+        if not _ends_at_one(found["c"]):
+            return None
+    matrices = [found.get(x) for x in ("A", "A2")]
+    if not all(isinstance(x, Array) and x.is_matrix for x in matrices):
+        return None
+    for role, weights in (("A", "b"), ("A2", "b2")):
+        matrix = found[role]
+        assert isinstance(matrix, Array)
+        last = matrix.items[-1]
+        if weights not in found:
+            found[weights] = last
+            if isinstance(last, Array) and len(last.items) < len(matrix.items):
+                found[role] = Array(matrix.items[:-1])
+    return found | {x: values[x] for x in ("order",) if x in values}
+
+
+def _ends_at_one(nodes: Value) -> bool:
+    last = nodes.items[-1] if isinstance(nodes, Array) and nodes.items else None
+    return getattr(last, "value", None) == ONE.value
