@@ -71,8 +71,7 @@ class Step(Frozen):
         found: the solutions, where there are finitely many; of a family the real ones.
         is_real: of a family and of every value, whether a real value is a method of the file; None
             where that is not decided.
-        criterion: where the real values are those of a criterion for real ones; of complex values
-            with the order there may be more. None elsewhere.
+        criterion: by which the real values were found; None where all conditions were looked at.
     """
 
     order: int
@@ -98,6 +97,13 @@ class Step(Frozen):
             return True
         is_open = any(x.open for x in self.found) or (self.kind == "solutions" and not self.is_all)
         return None if is_open else False
+
+    @property
+    def is_of_real_values(self) -> bool:
+        """Whether complex values with the order may be others; up to order 2 conditions are the
+        same.
+        """
+        return self.criterion is not None and self.order > 2
 
     @property
     def may_have_methods(self) -> bool:
@@ -250,8 +256,7 @@ class _Finding(Frozen):
             ideal = lower.with_zeros(self.criterion.of_order(order))
             if ideal.is_everything:
                 return Step(order, "none", ideal, criterion=self.criterion)
-            kind = _kind(ideal, start)
-            return Step(order, kind, ideal, criterion=self.criterion if order > 2 else None)
+            return Step(order, _kind(ideal, start), ideal, criterion=self.criterion)
         coming = (x for x in self.conditions.of_order(order) if x.polynomial)
         ideal, done, large = _as_long_as_small(lower, coming)
         if large is not None:

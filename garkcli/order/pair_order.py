@@ -63,15 +63,15 @@ def added(order: int) -> Iterator[tuple[Literal["B", "C", "D", "even"], int]]:
 
 
 def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriterion:
-    """The largest order of the pair that the criterion bears out, up to ``limit``.
+    r"""The largest order of the pair that the criterion bears out, up to ``limit``.
 
     Args:
         method: exact, or rounded: then a condition holds where rounding explains its defect.
         limit: the order at which to stop.
 
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.tableau.forms import gark
-    >>> pair_criterion(gark([diagonal_method("ssprk3")], {})).order
+    >>> from garkcli import loads
+    >>> ssprk3 = loads("A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]\\nb: [1/6, 1/6, 2/3]").tableau
+    >>> pair_criterion(ssprk3).order
     2
     """
     defects = defects_of(method)

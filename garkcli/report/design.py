@@ -204,7 +204,7 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
             wish = "what is wanted besides"
             if step.witness is not None:
                 wish = f"with the conditions before it, that of {d.tree(step.witness)}"
-            if step.criterion is not None:
+            if step.is_of_real_values:
                 yield f"no real value, by {CRITERION}"
             else:
                 yield f"no value: {wish} cannot be met, not even by complex values"
@@ -218,7 +218,7 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
             what = counted(sum(x.solution.degree for x in step.found), "solution")
             if kind == "family":
                 what = f"a family of dimension {step.ideal.dimension}{_where(found, d)}"
-            which = "real and complex" if step.criterion is None else f"real ones by {CRITERION}"
+            which = f"real ones by {CRITERION}" if step.is_of_real_values else "real and complex"
             yield f"{what}: {_polynomials(found.zeros, d, which)}" if is_whole else what
             if kind == "family":
                 yield from _real(found, d)

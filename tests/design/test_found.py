@@ -41,6 +41,7 @@ def gauss_lobatto(stages: int, transfer: str) -> Tableau:
         "p-stable-gauss2-lobatto3",
         "p-stable-gauss3-lobatto4",
         "p-stable-least-error-gauss2-lobatto3",
+        "p-stable-least-error-gauss2-lobatto4",
     ],
 )
 def test_the_pairs_are_p_stable(name: str) -> None:
@@ -156,3 +157,13 @@ def test_the_polynomials_of_the_family_of_transfers_are_all() -> None:
         listed.append(context.from_dict(terms))
     assert all(ideal.contains(p) for p in listed)
     assert Ideal(family.ring).with_zeros(listed).dimension == 2
+
+
+def test_the_errors_of_gauss_2_and_lobatto_4() -> None:
+    """The table of the page: the least error of all, and that of the P-stable pairs, exactly."""
+    for name, squared in (
+        ("least-error-gauss2-lobatto4", fmpq(31811, 2332800)),
+        ("p-stable-least-error-gauss2-lobatto4", fmpq(793, 46656)),
+    ):
+        found = error_constants(pair(tableau_of(name)), 5)
+        assert found.all.two_squared == squared
