@@ -8,17 +8,25 @@ from garkcli.sources.found import MAX_TABLES, FoundTable, Row, TooLarge
 
 MAX_WRITTEN = 10_000_000
 """Most characters of the numbers of a source, its names and zeros written out."""
+FREE = 200_000
+"""So many are written out of the shortest source."""
+TIMES = 20
+"""And so many times as many as it has itself."""
 
 
 class Allowance:
     """What is left of it for one source.
 
+    Args:
+        length: of the source, in characters; 0 for one that gives no names to what it says.
+
     Attributes:
         line: of what is read, from 1.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, length: int) -> None:
         self.line = 1
+        self._most = min(FREE + TIMES * length, MAX_WRITTEN) if length else MAX_WRITTEN
         self._written = 0
         self._tables = 0
 
@@ -29,9 +37,9 @@ class Allowance:
             TooLarge: that is too many.
         """
         self._written += characters
-        if self._written > MAX_WRITTEN:
+        if self._written > self._most:
             what = "characters of numbers when its names and zeros are written out"
-            raise TooLarge(f"the source has more than {MAX_WRITTEN} {what}", self.line)
+            raise TooLarge(f"the source has more than {self._most} {what}", self.line)
 
     def table(self, table: FoundTable, is_kept: bool = True) -> FoundTable:
         """A table that was made.

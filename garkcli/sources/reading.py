@@ -46,7 +46,7 @@ def tables_in(
     """
     if len(text) > SHORT and not HINTS.search(text):
         return []
-    allowance = Allowance()
+    allowance = Allowance(len(text))
     finder = TableFinder(source, format, allowance)
     evaluator = Evaluator(base, allowance, finder, is_growing, has_whole_quotients)
     evaluator.module(lowered(text))
