@@ -38,6 +38,7 @@ _TRUTHS = {
     "dense": "Methods with dense output.",
     "exact": "Methods whose coefficients are not rounded.",
 }
+LISTS = ("families", "transfer", "schemes", "splittings", "problems")
 _KINDS = ("rk", "ark", "prk", "gark", "family")
 
 
@@ -124,11 +125,14 @@ def _filters() -> list[click.Option]:
 
 
 @declared(
-    "list", (*FORMATS, "csv"), WHAT={"type": click.Choice(["methods", "exports"])}, options=_filters
+    "list",
+    (*FORMATS, "csv"),
+    WHAT={"type": click.Choice(["methods", *LISTS, "exports"])},
+    options=_filters,
 )
 def list_(given: Given, output: Output) -> None:
     """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
-    methods, those of the catalogue, or exports, the targets of gark export.
+    one of these lists; methods, those of the catalogue; or exports, the targets of gark export.
 
     Methods are those that are as every option says and that have every WORD in their name, an
     alias, their title or their reference; --no-... those for which it is known not to hold.
@@ -145,7 +149,8 @@ def list_(given: Given, output: Output) -> None:
 
         output.tell(listing.EXPORTS, bridges())
     else:
-        output.tell(listing.REPORT, listing.all_lists())
+        one = listing.only(given.what) if given.what else listing.REPORT
+        output.tell(one, listing.all_lists())
 
 
 def _filter_keys() -> list[str]:

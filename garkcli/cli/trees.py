@@ -37,8 +37,7 @@ def trees(given: Given, output: Output) -> None:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
 
     A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
-    With
-    --symplectic the rooted trees that differ in the place of their root are one row: their
+    With --symplectic the rooted trees that differ in the place of their root are one row: their
     conditions are equivalent for symplectic methods.
     """
     kind = _kind_asked(given, output.format)

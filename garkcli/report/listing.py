@@ -85,15 +85,22 @@ def _title(lists: Lists, _: Plain) -> str:
     return ", ".join(f"{len(x)} {name}" for x, name in zip(lists, names, strict=True))
 
 
-REPORT: Report[Lists] = Report.only(
-    "gark/list/1",
-    "report of gark list",
-    Section(
+ROWS: dict[str, Row[Lists]] = {
+    row.key: row
+    for row in (
         Row("families", table(FAMILY, 0), lambda x: [*x.families.values()]),
         Row("transfer", table(NAMED, 0), lambda x: [*x.rules.items()]),
         Row("schemes", table(SCHEME, 0), lambda x: [*x.schemes.values()]),
         Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
         Row("problems", table(NAMED, 0), lambda x: [*x.problems.items()]),
+    )
+}
+"""By what gark list can list alone."""
+REPORT: Report[Lists] = Report.only(
+    "gark/list/1",
+    "report of gark list",
+    Section(
+        *ROWS.values(),
         Row(
             "own",
             SAID,
@@ -103,6 +110,13 @@ REPORT: Report[Lists] = Report.only(
         title=_title,
     ),
 )
+
+
+def only(what: str) -> Report[Lists]:
+    """The report of one of the lists."""
+    return Report.only("gark/list/1", f"report of gark list {what}", Section(ROWS[what]))
+
+
 TARGET = Section(
     Row("name", TEXT, label=""),
     Row("kinds", TEXTS, lambda x: [*x.kinds]),

@@ -55,7 +55,8 @@ def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
         if os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1":
             shown = brought_up_to_date(step.text, lines)
             text = page.read_text(encoding="utf-8")
-            page.write_text(text.replace(step.text, shown, 1), encoding="utf-8")
+            renewed = text.replace(step.block(step.text), step.block(shown), 1)
+            page.write_text(renewed, encoding="utf-8")
             continue
         assert agrees(step.text, lines), f"{step.command} shows\n\n" + "\n".join(lines)
         count += 1

@@ -42,11 +42,17 @@ class Step:
         command: the command line; empty for a file.
         text: the file, or what the command shows.
         file: the name of the file; empty for a command.
+        line: the line of the page that the command stands on.
     """
 
     command: str
     text: str
     file: str = ""
+    line: str = ""
+
+    def block(self, shown: str) -> str:
+        """The command with what it shows, as lines of the page."""
+        return f"$ {self.line}\n{shown}\n" if shown else f"$ {self.line}\n"
 
 
 def steps(page: Path) -> Iterator[Step]:
@@ -66,10 +72,10 @@ def steps(page: Path) -> Iterator[Step]:
             yield Step("", block, name)
         if language == "console":
             for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
-                command, _, shown = part.partition("\n")
-                command = command.partition("  #")[0].strip()
+                line, _, shown = part.partition("\n")
+                command = line.partition("  #")[0].strip()
                 if can_be_run(command):
-                    yield Step(command, shown.rstrip("\n"))
+                    yield Step(command, shown.rstrip("\n"), line=line)
 
 
 def can_be_run(command: str) -> bool:
