@@ -85,7 +85,7 @@ def _title(lists: Lists, _: Plain) -> str:
     return ", ".join(f"{len(x)} {name}" for x, name in zip(lists, names, strict=True))
 
 
-ROWS: dict[str, Row[Lists]] = {
+ROWS = {
     row.key: row
     for row in (
         Row("families", table(FAMILY, 0), lambda x: [*x.families.values()]),
