@@ -550,12 +550,26 @@ def _two_parts(roles: Roles, empty: FoundTable) -> FoundTable:
     shared = replace(
         empty, A=(row,), b=(b_explicit, b_implicit), c=(c_explicit,), embedded=embedded
     )
+    if c_explicit is None and c_implicit is None and _have_other_sums(roles["A"], roles["A2"]):
+        return replace(shared, A=(row, row), c=(None, None))
     if c_explicit is None:
         return replace(shared, c=(c_implicit,))
     if c_implicit is not None and c_implicit != c_explicit:
         # each part is evaluated at its own times
         return replace(shared, A=(row, row), c=(c_explicit, c_implicit))
     return shared
+
+
+def _have_other_sums(first: Value, second: Value) -> bool:
+    """Whether the rows of two matrices have different sums, which are their nodes."""
+    if not isinstance(first, Array) or not isinstance(second, Array):
+        return False
+    pairs = zip(map(_near, first.items), map(_near, second.items), strict=False)
+    return any(abs(x - y) > _SAME for x, y in pairs)
+
+
+_SAME = 1e-9
+"""Sums that differ by less are the same."""
 
 
 def _given(roles: Roles, role: str, stages: int) -> Row | None:

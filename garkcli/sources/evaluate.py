@@ -202,6 +202,9 @@ class Evaluator:
         return [space]
 
     def _scope(self, scope: ir.Scope, space: Space) -> None:
+        if scope.name == "__init__":
+            # the class is what people call
+            scope = replace(scope, name=self._scopes[-1].name)
         if scope.kind == "record":
             # functions that make it
             self._run(scope.body, [space])
@@ -288,8 +291,8 @@ class Evaluator:
         value: Value = self.unknown("never assigned")
         if statement.value is not None:
             value = self.value(statement.value, space)
-        if isinstance(value, Record) and not value.key and isinstance(target, ir.Name):
-            value.key = target.name
+        if isinstance(value, Record) and not value.key:
+            value.key = self._key(target, space)
         if isinstance(target, ir.Items):
             self._taken_apart(target, value, space, line)
             return
@@ -306,6 +309,16 @@ class Evaluator:
                 filling = value
                 value = old.map(lambda _: filling)
         self._store(target, value, space, line)
+
+    def _key(self, target: ir.Expr, space: Space) -> str:
+        """What a record is called that is assigned: its name, or its key among others."""
+        match target:
+            case ir.Name(name=name):
+                return name
+            case ir.Index(at=(*_, last)):
+                key = self.value(last, space)
+                return key.text if isinstance(key, Word) else ""
+        return ""
 
     def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
         items: Sequence[Value] = ()

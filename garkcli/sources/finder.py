@@ -42,6 +42,7 @@ class TableFinder:
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
         self._orders: dict[tuple[str, int], Number] = {}
+        self._users: dict[tuple[str, int], set[str]] = {}
 
     def tables(self) -> list[FoundTable]:
         """All of them, each once; arrays that a call takes are found with it."""
@@ -50,6 +51,9 @@ class TableFinder:
             declared = self._orders.get((meant.maker, meant.line))
             if declared is not None:
                 meant.roles.setdefault("order", declared)
+            users = self._users.get((meant.maker, meant.line), ())
+            if meant.name.startswith("_") and len(users) == 1:
+                meant = replace(meant, name=next(iter(users)))
             try:
                 table = table_of(meant, self._source, self._format)
             except NoTable:
@@ -73,7 +77,7 @@ class TableFinder:
             made.append(space.returned)
         made += [x for x in space.values() if isinstance(x, Record) and x.kind in {"", _TABLE}]
         if scope.kind == "class":
-            self._declared_by_class(space)
+            self._declared_by_class(scope, space)
         count = len(self._meant) + len(self._other)
         for record in made:
             self._record(record, scope)
@@ -100,13 +104,16 @@ class TableFinder:
         values = {x: space[x] for x in names}
         self._named(values, space.lines, scope)
 
-    def _declared_by_class(self, space: Space) -> None:
-        """The order of a class is that of the table which it uses."""
-        order = space.get("order", space.get("ORDER"))
-        if not isinstance(order, Number):
-            return
+    def _declared_by_class(self, scope: ir.Scope, space: Space) -> None:
+        """The order of a class is that of the table which it uses; a table whose name is private
+        has that of the only class which uses it.
+        """
         used = {(x.kind, x.line) for x in space.values() if isinstance(x, Record)}
-        self._orders |= dict.fromkeys(used, order)
+        order = space.get("order", space.get("ORDER"))
+        if isinstance(order, Number):
+            self._orders |= dict.fromkeys(used, order)
+        for place in used:
+            self._users.setdefault(place, set()).add(scope.name)
 
     # records and calls
 

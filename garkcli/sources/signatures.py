@@ -87,6 +87,7 @@ SIGNATURES: Mapping[str, Signature] = {
     "TableauDIRK": _rk("title order A b c"),
     "_ButcherTableau": _rk("c A b error"),
     "ExplicitRKSolver": _rk("stages A b c", 4),
+    "LowStorageRungeKutta2NTableau": _of_registers("2N", "A b c"),
     "LowStorageRK2NConstantCache": _of_registers("2N", "A b_first b c"),
     "LowStorageRK2CConstantCache": _of_registers("2C", "A b_first b c"),
     "LowStorageRK3SConstantCache": _of_registers("3S*", _THREE),

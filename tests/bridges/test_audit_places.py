@@ -206,7 +206,7 @@ def test_two_parts_are_one_method(tmp_path: Path) -> None:
         (tmp_path / name).write_text(text, encoding="utf-8")
     run = gark("audit", str(tmp_path), "--format", "json")
     found = {x["name"]: (x["order"], x["declared_order"]) for x in json.loads(run.out)["tables"]}
-    assert found == {"RK111": (1, 2), "ARS111": (0, 1), "__init__": (1, None)}
+    assert found == {"RK111": (1, 2), "ARS111": (0, 1), "IMEX_Euler": (1, None)}
 
 
 ELSEWHERE = {

@@ -1,0 +1,62 @@
+"""A method has the name that people call it by: its key, its type, its class."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli.bridges.importing import imported
+from garkcli.sources.languages import julia, python
+
+HEUN = "A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1]"
+PYTHON = {
+    "the class that uses it": (
+        f"_heun_tableau = ButcherTableau({HEUN})\nclass Heun(Solver):\n    tableau = _heun_tableau\n",
+        "Heun",
+    ),
+    "itself, where several do": (
+        f"_heun = ButcherTableau({HEUN})\nclass A(S):\n    t = _heun\nclass B(S):\n    t = _heun\n",
+        "_heun",
+    ),
+    "its own, where that is public": (
+        f"HEUN = ButcherTableau({HEUN})\nclass Heun(Solver):\n    tableau = HEUN\n",
+        "HEUN",
+    ),
+    "its class": (
+        "class Heun(Tableau):\n    def __init__(self):\n        A = [[0, 0], [1, 0]]\n"
+        "        b = [0.5, 0.5]\n        super().__init__(A, b)\n",
+        "Heun",
+    ),
+    "its key": (f"RK = {{}}\nRK['Heun'] = Method({HEUN})\n", "Heun"),
+    "the text of its key": (f"RK = {{}}\nname = 'Heun'\nRK[name] = Method({HEUN})\n", "Heun"),
+}
+
+
+@pytest.mark.parametrize("name", PYTHON)
+def test_python(name: str) -> None:
+    """A private name is that of nobody; a class, a key or a public constant is."""
+    text, wanted = PYTHON[name]
+    (table,) = python.find(text, "x.py")
+    assert (table.trouble, table.name) == ("", wanted)
+
+
+SSP222 = """
+struct SSP222 <: Name end
+function IMEXTableau(::SSP222)
+    γ = 1 - √2 / 2
+    return IMEXTableau(; a_exp = @SArray([0 0; 1 0]), b_exp = @SArray([1 / 2, 1 / 2]),
+        a_imp = @SArray([γ 0; (1 - 2γ) γ]), b_imp = @SArray([1 / 2, 1 / 2]))
+end
+function IMEXTableau(::ARS111)
+    return IMEXTableau(; a_exp = @SArray([0 0; 1 0]), a_imp = @SArray([0 0; 0 1]))
+end
+"""
+
+
+def test_julia() -> None:
+    """The type that a method is dispatched on; weights that are left out are last rows, nodes the
+    sums of each colour's own rows.
+    """
+    first, second = julia.find(SSP222, "x.jl")
+    assert (first.name, first.c, len(first.A)) == ("SSP222", (None, None), 2)
+    assert (second.name, second.b, len(second.A)) == ("ARS111", (("1", "0"), ("0", "1")), 1)
+    assert (imported(first, "x").order.order, imported(second, "x").order.order) == (2, 1)
