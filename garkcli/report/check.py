@@ -88,11 +88,6 @@ def _some(names: Sequence[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + more
 
 
-def named(x: Any) -> Answer:
-    """The name, told where it says more than the file."""
-    return Answer(x.name, level=DETAIL if x.name != x.file else DATA)
-
-
 # orders
 
 
@@ -840,7 +835,6 @@ def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-HEAD = (Row("file", kinds.TEXT, level=DATA), Row("name", kinds.TEXT, named, DETAIL))
 OK = (
     Row("ok", kinds.TRUTH, level=DATA),
     Row("structure", kinds.choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
@@ -864,7 +858,7 @@ COLUMNS = (
     *("bound_in_brief", "symplectic", "claims_in_brief"),
 )
 CHECKED = Section(
-    *HEAD,
+    *kinds.FILE_AND_NAME,
     *OK,
     *via(lambda o: o.analysis, ANALYSIS),
     TRANSFER,
@@ -889,7 +883,7 @@ CHECKED = Section(
 
 AT_LEAST_ONE = Kind({}, section=FAULT, is_list=True, is_never_empty=True)
 UNREADABLE = Section(
-    *HEAD,
+    *kinds.FILE_AND_NAME,
     Row("ok", Kind({"const": False}), level=DATA),
     Row("errors", AT_LEAST_ONE, lambda o: o.faults),
     IN_BRIEF,

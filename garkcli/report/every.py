@@ -215,7 +215,7 @@ VERDICTS = Kind(
     ],
 )
 EVERY = Section(
-    *c.HEAD,
+    *kinds.FILE_AND_NAME,
     *c.OK,
     *(row.of(lambda o: o.every) for row in FAMILY),
     c.LEFT_BEHIND,
@@ -322,8 +322,7 @@ STABLE = Section(
     )
 )
 EVERY_STABILITY = Section(
-    Row("file", kinds.TEXT, level=DATA),
-    Row("name", kinds.TEXT, c.named, DETAIL),
+    *kinds.FILE_AND_NAME,
     Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
     Row("functions", parts(FUNCTION), level=DATA),
     Row("stability", part(STABLE), lambda x: x, DATA),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -87,33 +87,26 @@ def _square_root(root: RealRoot, digits: int) -> str:
     return _decimals(lambda bits: root.ball(bits).sqrt(), digits)
 
 
-def _further(found: Sequence[Any]) -> str:
-    return " and further intervals" if len(found) > 1 else ""
+def _around_zero(
+    bounds: str, nowhere: str, everywhere: str, end: Callable[[RealRoot, Plain], str]
+) -> Callable[[Any, Plain], str]:
+    """The interval of an axis that begins at 0: of −z on the real one, of y² on the imaginary."""
+
+    def words(found: Any, d: Plain) -> str:
+        if isinstance(found, Bounds):
+            return d.bounds(found, bounds)
+        first = found[0] if found else None
+        if first is None or first.is_point or first.start is None or first.start.exact != 0:
+            return nowhere
+        if first.end is None:
+            return d.prose(everywhere)
+        return end(first.end, d) + (" and further intervals" if len(found) > 1 else "")
+
+    return words
 
 
-def _reach_words(found: Any, d: Plain) -> str:
-    """The interval of the negative real axis that begins at 0."""
-    if isinstance(found, Bounds):
-        return d.bounds(found, "−z ≤ ")
-    first = found[0] if found else None
-    if first is None or first.is_point or first.start is None or first.start.exact != 0:
-        return "z = 0 only"
-    if first.end is None:
-        return d.prose("z ≤ 0")
-    return d.upto("−z", first.end) + _further(found)
-
-
-def _height_words(found: Any, d: Plain) -> str:
-    """The interval of the imaginary axis around 0, from intervals of y²."""
-    if isinstance(found, Bounds):
-        return d.bounds(found, "y² ≤ ")
-    first = found[0] if found else None
-    if first is None or first.is_point or first.start is None or first.start.exact != 0:
-        return "y = 0 only"
-    if first.end is None:
-        return "all y"
-    end = _square_root(first.end, d.digits)
-    return d.prose(f"|y| ≤ {end}, y² ≤ ") + d.root(first.end) + _further(found)
+def _height(end: RealRoot, d: Plain) -> str:
+    return d.prose(f"|y| ≤ {_square_root(end, d.digits)}, y² ≤ ") + d.root(end)
 
 
 def _end_data(found: Any, d: Plain) -> dict[str, Any]:
@@ -126,8 +119,12 @@ def _end_data(found: Any, d: Plain) -> dict[str, Any]:
 
 
 _END = kinds.record(to=S.nullable(ALGEBRAIC))
-REAL = Kind(S.one_of(_END, kinds.BOUNDS), _end_data, _reach_words)
-IMAGINARY = Kind(S.one_of(_END, kinds.BOUNDS), _end_data, _height_words)
+REAL = Kind(
+    S.one_of(_END, kinds.BOUNDS),
+    _end_data,
+    _around_zero("−z ≤ ", "z = 0 only", "z ≤ 0", lambda end, d: d.upto("−z", end)),
+)
+IMAGINARY = replace(REAL, words=_around_zero("y² ≤ ", "y = 0 only", "all y", _height))
 SSP = Kind(
     S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS),
     lambda x, d: kinds.bounds_data(x) if isinstance(x, Bounds) else kinds.RADIUS.data(x, d),
@@ -359,16 +356,10 @@ def title(x: Any, d: Plain) -> str:
     return name if within is None else d.known(f"{name}, all methods", Status(within))
 
 
-def named(x: Any) -> Answer:
-    """The name, told where it says more than the file."""
-    return Answer(x.name, level=DETAIL if x.name != x.file else DATA)
-
-
 def head(kind: str) -> list[Row]:
     """The first fields of every report."""
     return [
-        Row("file", kinds.TEXT, level=DATA),
-        Row("name", kinds.TEXT, named, DETAIL),
+        *kinds.FILE_AND_NAME,
         Row("derivation", Kind(S.DERIVATION), level=DATA),
         Row("kind", kinds.constant(kind), lambda _: kind, DATA),
         Row("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),

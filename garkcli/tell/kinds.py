@@ -16,7 +16,7 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.facts import Answer, Beside, Kind, Status
+from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Status
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
@@ -94,6 +94,14 @@ def as_reason(text: Reason | str) -> Reason:
     """Words as a reason without values."""
     return Reason(text) if isinstance(text, str) else text
 
+
+def _named(x: Any) -> Answer:
+    """The name, told where it says more than the file."""
+    return Answer(x.name, level=Level.DETAIL if x.name != x.file else Level.DATA)
+
+
+FILE_AND_NAME = (Row("file", TEXT, level=Level.DATA), Row("name", TEXT, _named, Level.DETAIL))
+"""Where a result is from, and what people call it."""
 
 # blocks and places
 
