@@ -91,23 +91,16 @@ def _is_whole(file: object) -> bool:
         return False
     if "errors" in file:
         return True
-    if not all(_is_order(file.get(order)) for order in ORDERS):
-        return False
+    # True is no number here
+    are_orders = all(type(file.get(order)) in (int, type(None)) for order in ORDERS)
     claims = file.get("claims")
-    return isinstance(claims, list) and all(map(_is_whole_claim, claims))
-
-
-def _is_order(value: object) -> bool:
-    """Whether it is an order, or none; True is no number here."""
-    return value is None or type(value) is int
+    return are_orders and isinstance(claims, list) and all(map(_is_whole_claim, claims))
 
 
 def _is_whole_claim(claim: object) -> bool:
     if not isinstance(claim, dict):
         return False
-    has_name = isinstance(claim.get("claim"), str)
-    has_verdict = isinstance(claim.get("holds"), bool)
-    return has_name and has_verdict
+    return isinstance(claim.get("claim"), str) and isinstance(claim.get("holds"), bool)
 
 
 def regressions(report: Mapping[str, Any], baseline: Earlier) -> list[Regression]:
@@ -125,12 +118,11 @@ def _new_file(now: File) -> list[Regression]:
     file = now["file"]
     if "errors" in now:
         return [Regression(file, "new file", "none", "unreadable")]
-    found: list[Regression] = []
-    for claim in now["claims"]:
-        if not claim["holds"]:
-            name, truth = claim["claim"], claim["found"]
-            found.append(Regression(file, name, f"new, expected {claim['expected']}", truth))
-    return found
+    return [
+        Regression(file, x["claim"], f"new, expected {x['expected']}", x["found"])
+        for x in now["claims"]
+        if not x["holds"]
+    ]
 
 
 def _changed(now: File, before: File) -> list[Regression]:
@@ -140,14 +132,11 @@ def _changed(now: File, before: File) -> list[Regression]:
     if "errors" in now:
         return [Regression(file, "file", "a method", "unreadable")]
     held = {claim["claim"]: claim["holds"] for claim in before["claims"]}
-    found: list[Regression] = []
-    for claim in now["claims"]:
-        name = claim["claim"]
-        failed_before = name in held and not held[name]
-        if claim["holds"] or failed_before:
-            continue
-        earlier = "held" if name in held else "not claimed"
-        found.append(Regression(file, name, earlier, f"found {claim['found']}"))
+    found = [
+        Regression(file, name, "held" if name in held else "not claimed", f"found {x['found']}")
+        for x in now["claims"]
+        if not x["holds"] and held.get(name := x["claim"], True)
+    ]
     for order in ORDERS:
         old, new = before.get(order), now.get(order)
         if type(old) is int and (new is None or new < old):
