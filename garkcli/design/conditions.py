@@ -23,7 +23,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, dot
-from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long
+from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long, times
 from garkcli.frozen import Frozen, replace
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Edge, Tableau
@@ -65,7 +65,7 @@ class Cleared(Frozen):
 
         def cleared(row: Sequence[object], denominator: Entry) -> Row:
             parts = [fraction(x, ring) for x in row]
-            return tuple(numerator * (denominator // own) for numerator, own in parts)
+            return tuple(times(numerator, denominator // own) for numerator, own in parts)
 
         blocks = {
             edge: tuple(cleared(row, D) for row in block) for edge, block in tableau.blocks.items()
