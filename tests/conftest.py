@@ -4,13 +4,19 @@ import atexit
 import gc
 import os
 import sys
+from collections.abc import Generator
+from pathlib import Path
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+# Workers have all cores: threads of OpenBLAS, which wait in loops, would take them from each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+assert "numpy" not in sys.modules  # which reads it
 
 # the same examples every time: what passes here passes there; see docs/contributing/fuzzing.md
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
@@ -21,6 +27,16 @@ settings.load_profile("gark")
 @given(st.none())
 def draw_nothing(_: None) -> None:
     """What hypothesis does before a first test is done."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file(
+    file_path: Path,
+) -> Generator[None, list[pytest.Collector], list[pytest.Collector]]:
+    """Look for examples in docstrings only where a file of the tests has any."""
+    found = yield
+    has_examples = b">>> " in file_path.read_bytes()
+    return [x for x in found if has_examples or type(x).__name__ != "DoctestModule"]
 
 
 def pytest_collection_finish() -> None:

@@ -64,7 +64,7 @@ def assert_no_contradiction(found: Analysis) -> None:
         assert own.is_lower_bound == conjugate.is_lower_bound == both.is_lower_bound
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(
     st.sampled_from(SMALL),
     st.sampled_from([3, 5, 8, 12, 16]),

@@ -9,7 +9,7 @@ from random import Random
 
 import pytest
 from flint import arb, ctx, fmpq
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.errors import ZeroWeight
@@ -115,6 +115,7 @@ def test_orders_are_those_of_every_tree(seed: int) -> None:
 
 @pytest.mark.parametrize("name", ["rk4", "kutta", "gauss 3", "lobatto-iiic 3", "radau-iia 3"])
 @given(seed=SEEDS, exponent=st.integers(3, 20))
+@settings(max_examples=12)
 def test_every_rounding_keeps_the_order(name: str, seed: int, exponent: int) -> None:
     """Whatever a method is rounded to within t, it has its order within t, and so have its
     conjugate and its pair.
