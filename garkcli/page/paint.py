@@ -64,6 +64,16 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}"
 
 
+def numbered(names: Sequence[str]) -> str:
+    """Names behind their numbers; empty where they are these numbers.
+
+    >>> numbered(["q", "p"]), numbered(["1", "2"])
+    ('1 q, 2 p', '')
+    """
+    pairs = [(str(k), name) for k, name in enumerate(names, start=1)]
+    return ", ".join(map(" ".join, pairs)) if any(k != name for k, name in pairs) else ""
+
+
 def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
     """Lines with the same margin.
 

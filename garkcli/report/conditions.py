@@ -8,20 +8,19 @@ from functools import cache
 from flint import fmpq
 
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
-from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.order.conditions import Condition
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.latex import number
-from garkcli.page.paint import counted
+from garkcli.page.paint import counted, numbered
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, part, sentence, stream, told
-from garkcli.tell.kinds import POSITION, TEXTS, TOLERANCE, choice
+from garkcli.tell.kinds import NUMERAL, POSITION, TEXTS, TOLERANCE, choice, numeral_text
 from garkcli.tell.report import Report
 from garkcli.trees.notation import condition_latex, condition_text, format_tree, vertex_letters
 from garkcli.trees.tree import Tree
@@ -149,11 +148,8 @@ class Conditions(Mutable):
         """The names of the colours, where their numbers are not their names."""
         if self.subject is not None:
             return self.subject.legend
-        numbers = [str(l) for l in range(1, len(self.colours) + 1)]
-        if [*self.colours] == numbers:
-            return ""
-        pairs = map(" ".join, zip(numbers, self.colours, strict=True))
-        return f"colours: {', '.join(pairs)}"
+        legend = numbered(self.colours)
+        return f"colours: {legend}" if legend else ""
 
     @property
     def summary(self) -> str:
@@ -185,15 +181,11 @@ def is_parametric(number: object) -> bool:
     return isinstance(number, Parametric)
 
 
-def _text(x: Number, d: Plain) -> str:
-    return to_text(x) if d.places is None else to_decimal(x, d.places)
-
-
 def _number(condition: Condition, key: str, d: Plain) -> str:
     """A number of a condition, in decimals where one is long or these are asked for."""
     x = getattr(condition, key)
     if d.places is not None:
-        return d.formula(number(_text(x, d)), _text(x, d))
+        return NUMERAL.words(x, d)  # type: ignore[misc]
     longest = max(len(to_text(condition.value)), len(to_text(condition.residual)))
     if not x or longest <= MOST_DIGITS or is_parametric(x):
         return d.expression(to_text(x), lambda: to_latex(x))
@@ -205,7 +197,9 @@ def _number(condition: Condition, key: str, d: Plain) -> str:
 
 
 def _numeral(key: str, level: Level) -> Row:
-    kind = Kind(S.NUMERAL, lambda x, d: _text(getattr(x, key), d), lambda x, d: _number(x, key, d))
+    kind = Kind(
+        S.NUMERAL, lambda x, d: numeral_text(getattr(x, key), d), lambda x, d: _number(x, key, d)
+    )
     return Row(key, kind, lambda x: x.condition, level)
 
 

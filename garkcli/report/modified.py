@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.backward.summary import BackwardAnalysis
-from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.latex import number
-from garkcli.page.paint import counted
+from garkcli.page.paint import counted, numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import WORDS, describe
 from garkcli.tell.facts import (
@@ -30,7 +28,7 @@ from garkcli.tell.facts import (
     told,
     via,
 )
-from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
+from garkcli.tell.kinds import COUNT, NUMERAL, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
 from garkcli.tell.report import Report
 from garkcli.trees.tree import Tree
 
@@ -85,21 +83,6 @@ class Term(NamedTuple):
     coefficient: Number
 
 
-# the coefficients
-
-
-def _coefficient(x: Number, d: Plain) -> str:
-    if d.places is None:
-        return d.number(x)
-    text = to_decimal(x, d.places)
-    return d.formula(number(text), text)
-
-
-COEFFICIENT = Kind(
-    S.NUMERAL,
-    lambda x, d: to_text(x) if d.places is None else to_decimal(x, d.places),
-    _coefficient,
-)
 TERM = Section(
     Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
     Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
@@ -107,8 +90,8 @@ TERM = Section(
     Row("root", POSITION, lambda x: x.tree.root + 1, DATA),
     Row("order", POSITION, lambda x: x.tree.order, DATA),
     Row("symmetry", POSITION),
-    Row("coefficient", COEFFICIENT),
-    Row("factor", COEFFICIENT, lambda x: x.coefficient / x.symmetry),
+    Row("coefficient", NUMERAL),
+    Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
 )
 """Of the sum Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 
@@ -238,13 +221,6 @@ def _symplectic(x: BackwardAnalysis) -> Answer:
     return Answer(x.is_symplectic, Status(x.tolerance), _FORMLESS if is_formless else NO_REASON)
 
 
-def _colours(report: ModifiedReport) -> Answer:
-    """Told where their names are not their numbers."""
-    numbers = tuple(str(l + 1) for l in range(len(report.names)))
-    legend = ", ".join(map(" ".join, zip(numbers, report.names, strict=True)))
-    return Answer(legend, level=DATA if report.names == numbers else USUAL)
-
-
 def _vertices(report: ModifiedReport) -> str:
     count = report.found.equation.max_order
     vertices = "1 vertex" if count == 1 else f"{count} vertices"
@@ -272,7 +248,7 @@ MODIFIED = Section(
         ],
     ),
     Row("trees", WORDS, _vertices),
-    Row("colours_in_words", WORDS, _colours, label="colours"),
+    Row("colours_in_words", WORDS, lambda x: numbered(x.names), label="colours"),
     Row("colours", TEXTS, lambda x: x.names, DATA),
     Row("max_order", POSITION, lambda x: x.found.equation.max_order, DATA),
     Row("note", WORDS, _note),

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
-from garkcli.exact.display import decimal, plain_decimal, to_text
+from garkcli.exact.display import decimal, plain_decimal, to_decimal, to_text
+from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.page.latex import number
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
@@ -102,6 +104,19 @@ def _named(x: Any) -> Answer:
 
 FILE_AND_NAME = (Row("file", TEXT, level=Level.DATA), Row("name", TEXT, _named, Level.DETAIL))
 """Where a result is from, and what people call it."""
+
+
+def numeral_text(x: Number, d: Plain) -> str:
+    """A number exactly, or in as many decimals as are asked for."""
+    return to_text(x) if d.places is None else to_decimal(x, d.places)
+
+
+def _numeral(x: Number, d: Plain) -> str:
+    text = numeral_text(x, d)
+    return d.number(x) if d.places is None else d.formula(number(text), text)
+
+
+NUMERAL = Kind(S.NUMERAL, numeral_text, _numeral)
 
 # blocks and places
 
