@@ -7,8 +7,9 @@ condition holds, or has balls as entries where coefficients are rounded.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from functools import cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -248,57 +249,30 @@ def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
 
     Of a rounded tableau a condition is met where rounding explains every entry of its defect.
     """
-    search = _Search(method, limit)
-    colours = range(search.tableau.size)
-    B = [search.r(l) for l in colours]
-    C = [tuple(search.eta(l, m) for m in colours) for l in colours]
-    D = [tuple(search.zeta(l, m) for m in colours) for l in colours]
-    return Simplifying(tuple(B), tuple(C), tuple(D), limit)
+    defects = defects_of(method)
+    tableau = defects.tableau
+    alike = _Alike.of(tableau)
+    colours = range(tableau.size)
 
-
-class _Search:
-    """The largest r, η and ζ of one tableau; colours that are alike are looked at once."""
-
-    def __init__(self, method: AnyTableau, limit: int) -> None:
-        self.defects = defects_of(method)
-        self.tableau = self.defects.tableau
-        self.limit = limit
-        self.alike = _Alike.of(self.tableau)
-        self._r: dict[int, int] = {}
-        self._eta: dict[Edge, int] = {}
-        self._zeta: dict[Edge, int] = {}
-
-    def r(self, l: int) -> int:
-        """The largest r for which B^{l}(r) holds."""
-        key = self.alike.weights[l]
-        if key not in self._r:
-            self._r[key] = self._largest(lambda k: self.defects.B(l, k))
-        return self._r[key]
-
-    def eta(self, l: int, m: int) -> int | None:
-        """The largest η for which C^{l,m}(η) holds."""
-        if self.tableau.block(l, m) is None:
-            return None
-        key = self.alike.nodes[l], m
-        if key not in self._eta:
-            self._eta[key] = self._largest(lambda k: self.defects.C(l, m, k))
-        return self._eta[key]
-
-    def zeta(self, l: int, m: int) -> int | None:
-        """The largest ζ for which D^{l,m}(ζ) holds."""
-        if self.tableau.block(l, m) is None:
-            return None
-        key = self.alike.weights[l], m
-        if key not in self._zeta:
-            self._zeta[key] = self._largest(lambda k: self.defects.D(l, m, k))
-        return self._zeta[key]
-
-    def _largest(self, defects: Callable[[int], Any]) -> int:
+    @cache
+    def largest(defect: Callable[..., Any], *block: int) -> int:
         """The largest k, up to the limit, before the first with a defect."""
-        for k in range(1, self.limit + 1):
-            if not self.defects.vanish(defects(k)):
-                return k - 1
-        return self.limit
+        vanishing = (defects.vanish(defect(*block, k)) for k in range(1, limit + 1))
+        return next((k for k, vanishes in enumerate(vanishing) if not vanishes), limit)
+
+    def of_blocks(defect: Callable[..., Any], first: Sequence[int]) -> Table:
+        """For each block that exists, the rows of ``first`` once."""
+        return tuple(
+            tuple(
+                None if tableau.block(l, m) is None else largest(defect, first[l], m)
+                for m in colours
+            )
+            for l in colours
+        )
+
+    B = tuple(largest(defects.B, l) for l in alike.weights)
+    C = of_blocks(defects.C, alike.nodes)
+    return Simplifying(B, C, of_blocks(defects.D, alike.weights), limit)
 
 
 class _Alike(Frozen):

@@ -8,7 +8,6 @@ one with a loop is implicit in itself, a larger one is a system of stages that a
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, fmpq
@@ -21,7 +20,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.tableau.pointwise import Block, Cell, Row
+    from garkcli.tableau.pointwise import Block, Cell
 
 
 Vertex: TypeAlias = tuple[int, int]
@@ -85,72 +84,38 @@ def stage_graph(
     """
     chosen = list(range(tableau.size) if colours is None else colours)
     matters = spaces_that_matter(tableau)
-    graph = _Graph(tableau, tolerance)
-    for l in chosen:
-        space = tableau.colours[l].space
-        if colours is None and space not in matters:
-            continue
-        graph.add_stages(space)
-        for m in chosen:
-            graph.add_block(l, m)
-    return graph.finished()
-
-
-class _Graph:
-    """A stage graph that grows; colours that share stages are looked at once."""
-
-    def __init__(self, tableau: Tableau, tolerance: fmpq) -> None:
-        self.tableau = tableau
-        self.tolerance = tolerance
-        self.successors: dict[Vertex, set[Vertex]] = {}
-        self.loops: dict[Vertex, list[Number | None]] = {}
-        self.is_certain = True
-        self.added: set[tuple[int, int]] = set()
-
-    def add_stages(self, space: int) -> None:
-        for i in range(self.tableau.spaces[space].stages):
-            self.successors.setdefault((space, i), set())
-
-    def add_block(self, l: int, m: int) -> None:
-        space, other = (self.tableau.colours[l].space, self.tableau.colours[m].space)
-        if (space, m) in self.added:
-            return
-        self.added.add((space, m))
-        for i, row in enumerate(self._entries(l, m)):
-            for j, entry in enumerate(row):
-                self._add_entry(entry, (space, i), (other, j), m)
-
-    def _entries(self, l: int, m: int) -> tuple[Row, ...]:
-        block = self.tableau.block(l, m)
-        if block is None or all(isinstance(x, PointSpace) for x in self.tableau.spaces):
-            return block or ()
-        return self._listed[l][m] or ()
-
-    @cached_property
-    def _listed(self) -> tuple[tuple[Block, ...], ...]:
+    blocks: Mapping[Vertex, Block] = tableau.blocks
+    if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         from garkcli.tableau.pointwise import entries  # for stages of families
 
-        return entries(self.tableau, DIGITS).A
+        listed = entries(tableau, DIGITS).A
+        blocks = {(tableau.colours[l].space, m): listed[l][m] for l, m in tableau.edges()}
+    successors: dict[Vertex, set[Vertex]] = {}
+    loops: dict[Vertex, list[Number | None]] = {}
+    is_certain = True
+    for space in dict.fromkeys(tableau.colours[l].space for l in chosen):
+        if colours is None and space not in matters:
+            continue
+        successors |= {(space, i): set() for i in range(tableau.spaces[space].stages)}
+        for m in chosen:
+            for i, row in enumerate(blocks.get((space, m)) or ()):
+                for j, entry in enumerate(row):
+                    nonzero = is_nonzero(entry, tolerance)
+                    if nonzero is None and isinstance(entry, arb):
+                        from garkcli.properties.family_entries import is_nonzero_at
 
-    def _add_entry(self, entry: Cell, seer: Vertex, seen: Vertex, m: int) -> None:
-        nonzero = is_nonzero(entry, self.tolerance)
-        if nonzero is None and isinstance(entry, arb):
-            from garkcli.properties.family_entries import is_nonzero_at
-
-            nonzero = is_nonzero_at(self.tableau, (seer[0], m), seer[1], seen[1])
-        if nonzero is None:
-            self.is_certain = False
-        if not nonzero:
-            return
-        self.successors[seer].add(seen)
-        if seer == seen:
-            exact = None if isinstance(entry, arb) else entry
-            self.loops.setdefault(seen, []).append(exact)
-
-    def finished(self) -> StageGraph:
-        successors = {x: frozenset(found) for x, found in self.successors.items()}
-        loops = {x: tuple(found) for x, found in self.loops.items()}
-        return StageGraph(successors, self.is_certain, loops)
+                        nonzero = is_nonzero_at(tableau, (space, m), i, j)
+                    is_certain = is_certain and nonzero is not None
+                    seer, seen = (space, i), (tableau.colours[m].space, j)
+                    if nonzero:
+                        successors[seer].add(seen)
+                    if nonzero and seer == seen:
+                        loops.setdefault(seen, []).append(None if isinstance(entry, arb) else entry)
+    return StageGraph(
+        {x: frozenset(found) for x, found in successors.items()},
+        is_certain,
+        {x: tuple(found) for x, found in loops.items()},
+    )
 
 
 def is_nonzero(entry: Cell, tolerance: fmpq = ZERO) -> bool | None:
