@@ -72,8 +72,14 @@ class Tableau(Frozen):
     def __post_init__(self) -> None:
         for number, colour in enumerate(self.colours, start=1):
             stages = self.spaces[colour.space].stages
-            _check_length(f"b^{{{number}}}", colour.b, stages)
-            _check_length(f"c^{{{number}}}", colour.c, stages)
+            for letter, row in (("b", colour.b), ("c", colour.c)):
+                if len(row) != stages:
+                    name = f"{letter}^{{{number}}}"
+                    given = counted(len(row), "entry", "entries")
+                    due = counted(stages, "entry", "entries")
+                    of_stages = counted(stages, "stage")
+                    message = f"{name} has {given} for {of_stages}"
+                    raise ShapeMismatch(message, f"give {due}")
         for (k, m), block in self.blocks.items():
             rows = self.spaces[k].stages
             columns = self.space(m).stages
@@ -161,16 +167,6 @@ class Tableau(Frozen):
     def degree(self) -> int:
         """The dimension over ℚ of the domain of the coefficients."""
         return self.field.degree if self.field else 1
-
-
-def _check_length(name: str, row: Vector, stages: int) -> None:
-    if len(row) == stages:
-        return
-    given = counted(len(row), "entry", "entries")
-    due = counted(stages, "entry", "entries")
-    of_stages = counted(stages, "stage")
-    message = f"{name} has {given} for {of_stages}"
-    raise ShapeMismatch(message, f"give {due}")
 
 
 class Method(Frozen):
