@@ -64,7 +64,6 @@ class Meant(Frozen):
         maker: the call that makes it; empty where names alone speak for it.
         signature: of that call, where it is known.
         is_sure: whether the source says that this is a method.
-        is_counted: whether the number of arguments is known.
         arguments: how many there are.
         bases: of the class that it is in.
         notes: what people should know of how it was read.
@@ -77,7 +76,6 @@ class Meant(Frozen):
     maker: str
     signature: Signature | None
     is_sure: bool = False
-    is_counted: bool = False
     arguments: int = 0
     bases: Sequence[str] = ()
     notes: Sequence[str] = field(default_factory=tuple)

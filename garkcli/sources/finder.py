@@ -172,7 +172,6 @@ class TableFinder:
                 record.kind or "record",
                 signature,
                 is_sure,
-                is_counted=bool(signature and signature.counts),
                 arguments=len(record.args),
             )
         )

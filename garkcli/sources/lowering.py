@@ -106,6 +106,16 @@ class Lowering:
         """The same, one level deeper."""
         raise NotImplementedError
 
+    def ends(self, node: Node) -> list[ir.Expr | None]:
+        """What stands between the colons of a slice."""
+        found: list[ir.Expr | None] = [None]
+        for part in node.children:
+            if part.type == ":":
+                found.append(None)
+            elif part.is_named:
+                found[-1] = self.expr(part)
+        return found
+
     def exprs(self, nodes: Iterable[Node]) -> tuple[ir.Expr, ...]:
         """Several expressions, without comments."""
         return tuple(self.expr(x) for x in nodes if x.type not in self.comments)

@@ -5,7 +5,7 @@ records, and what is unknown with the reason.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -149,7 +149,6 @@ class Function(Frozen, eq=False):
 
 
 Value: TypeAlias = Number | Unknown | Array | Record | Word | Null | Type | Function
-Names: TypeAlias = Mapping[str, Value]
 NULL = Null()
 
 

@@ -124,12 +124,7 @@ class FortranLowering(Lowering):
             case "call_expression" if len(inside) > 1:
                 return self._called(inside[0], inside[1])
             case "extent_specifier":
-                ends: list[ir.Expr | None] = [None]
-                for part in node.children:
-                    if part.type == ":":
-                        ends.append(None)
-                    elif part.is_named:
-                        ends[-1] = self.expr(part)
+                ends = self.ends(node)
                 return ir.Range(ends[0], ends[-1])
             case "string_literal":
                 return ir.Text(self.text(node).strip("'\""))
@@ -157,13 +152,11 @@ class FortranLowering(Lowering):
 _FUNCTIONS = frozenset({"real", "dble", "sqrt", "reshape", "transpose", "sum", "size", "spread"})
 
 
-def _lowered(text: str) -> ir.Body:
-    return FortranLowering(text).module()
-
-
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Fortran source."""
-    return tables_in(text, source, NAME, _lowered, base=1, has_whole_quotients=True)
+    return tables_in(
+        text, source, NAME, lambda x: FortranLowering(x).module(), base=1, has_whole_quotients=True
+    )
 
 
 SUFFIXES = (".f90", ".f95", ".f03", ".f08")

@@ -466,13 +466,9 @@ def _climbed(tokens: deque[Token], least: int = 0) -> ir.Expr:
     return value
 
 
-def _lowered(text: str) -> ir.Body:
-    return JuliaLowering(text).module()
-
-
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Julia source."""
-    return tables_in(text, source, NAME, _lowered, base=1)
+    return tables_in(text, source, NAME, lambda x: JuliaLowering(x).module(), base=1)
 
 
 READER = Reader(NAME, "Julia: matrices with //, tableaus, caches of solvers", (".jl",), find)

@@ -172,13 +172,11 @@ class MatlabLowering(Lowering):
         return ir.Call(callee, values)
 
 
-def _lowered(text: str) -> ir.Body:
-    return MatlabLowering(text).module()
-
-
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a MATLAB source."""
-    return tables_in(text, source, NAME, _lowered, base=1, is_growing=True)
+    return tables_in(
+        text, source, NAME, lambda x: MatlabLowering(x).module(), base=1, is_growing=True
+    )
 
 
 READER = Reader(NAME, "MATLAB and Octave: matrices, structures, RKLab's blocks", (".m",), find)

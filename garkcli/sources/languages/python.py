@@ -186,25 +186,16 @@ class PythonLowering(Lowering):
         """An index, or a slice: its end is not in it."""
         if node.type != "slice":
             return self.expr(node)
-        ends: list[ir.Expr | None] = [None]
-        for part in node.children:
-            if part.type == ":":
-                ends.append(None)
-            elif part.is_named:
-                ends[-1] = self.expr(part)
+        ends = self.ends(node)
         if len(ends) > 2 and ends[2] is not None:
             return ir.Opaque("a slice with steps")
         last = None if ends[1] is None else less_one(ends[1])
         return ir.Range(ends[0], last)
 
 
-def _lowered(text: str) -> ir.Body:
-    return PythonLowering(text).module()
-
-
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Python source."""
-    return tables_in(text, source, NAME, _lowered, base=0)
+    return tables_in(text, source, NAME, lambda x: PythonLowering(x).module(), base=0)
 
 
 READER = Reader(
