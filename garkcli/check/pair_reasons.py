@@ -143,11 +143,18 @@ def _on(places: Sequence[str], every: int, noun: str) -> str:
     return f"on {noun}{'s' if len(places) > 1 else ''} {shown}{tail}"
 
 
+MOST_RULES = 150
+"""Blocks by rules that are looked at, one by one."""
+
+
 def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
     """For each block that a rule made, whether it fits the least pair order of the diagonal
     methods; nothing where the theorem is about other methods.
     """
     tableau = found.tableau
+    if len(rules) > MOST_RULES:
+        yield f"whether {len(rules)} blocks keep the order is not looked at (limit {MOST_RULES})"
+        return
     if not rules or found.tolerance or tableau.is_partitioned or not _is_sharp(found)[0]:
         return
     if _no_statement(found, tableau):

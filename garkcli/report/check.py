@@ -840,11 +840,19 @@ OK = (
     Row("structure", kinds.choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
     METHOD,
 )
+
+
+def transfer(outcome: Any) -> Any:
+    """Which rules keep the order of the pair; told where the file takes a degree that may not."""
+    found = [*rule_reasons(outcome.analysis, outcome.rules)]
+    is_told = any("may lose" in x for x in found)
+    return Answer(found, level=USUAL if is_told else DETAIL) if found else None
+
+
 TRANSFER = Row(
     "transfer",
     replace(kinds.TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))),
-    lambda o: [*rule_reasons(o.analysis, o.rules)] or None,
-    DETAIL,
+    transfer,
     is_optional=True,
 )
 LEFT_BEHIND = Row(

@@ -12,11 +12,13 @@ from flint import fmpq
 
 from garkcli import loads
 from garkcli.check.analysis import Analysis
+from garkcli.check.check_file import check_method
 from garkcli.check.deciding import analyse
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.certificate import find_order
 from garkcli.order.pair_order import pair_criterion
+from garkcli.report.checked import REPORT
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.brute import brute_order
@@ -193,3 +195,23 @@ def test_weights_of_the_pair_that_are_rounded() -> None:
     assert pair_criterion(rounded.meant).order == 3
     assert pair_criterion(exact.meant).order == 0
     assert sum(exact.tableau.colours[0].b, fmpq(0)) != 1
+
+
+def test_a_degree_that_may_fail_is_told_without_being_asked_for() -> None:
+    """Legendre with K > r − k, in the usual report; what keeps the order is told with -v."""
+    methods = (LOBATTO, THREE_EIGHTHS)
+    text = render_check(of_file(methods, "{rule: legendre, degree: 4}"))
+    assert "legendre on (1,2), (2,1): K = 4 > r − k = 3, may lose" in " ".join(text.split())
+    assert "legendre on" not in render_check(of_file(methods, "{rule: legendre, degree: 3}"))
+
+
+def render_check(method: MethodFile) -> str:
+    """What gark check prints of it."""
+    return REPORT.render([check_method(method)], "text")
+
+
+def test_many_blocks_are_not_looked_at() -> None:
+    """Thirteen methods have 156 blocks: more than the limit, which is said."""
+    method = of_file((gauss(1),) * 13, "collocation")
+    found = list(rule_reasons(analysis(method), method.rules))
+    assert found == ["whether 156 blocks keep the order is not looked at (limit 150)"]
