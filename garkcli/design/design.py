@@ -302,9 +302,8 @@ class _Finding(Frozen):
         if ideal is None:
             return step
         try:
-            polynomials, nonzero = _described(ideal)
-            if self.criterion is not None:
-                polynomials = self.criterion.solved(ideal) or polynomials
+            solved = None if self.criterion is None else self.criterion.solved(ideal)
+            polynomials, nonzero = _described(ideal) if solved is None else (solved, [])
             step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
             if step.kind == "solutions":
                 step = replace(step, found=self._found(ideal))
