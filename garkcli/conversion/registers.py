@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from garkcli.errors import MethodError
+from garkcli.conversion.sheet import CannotConvert
 from garkcli.frozen import Frozen
 
 Numbers: TypeAlias = Sequence[Any]
@@ -66,11 +66,11 @@ def _whole(row: Numbers, stages: int, first: int) -> Numbers:
     """A row of so many numbers, where the first one is left out as all know it.
 
     Raises:
-        MethodError: it has another length.
+        CannotConvert: it has another length.
     """
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
-        raise MethodError(f"{len(row)} numbers for {stages} stages")
+        raise CannotConvert(f"a row of {len(row)} for {stages} stages")
     return full
 
 
@@ -144,18 +144,18 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
         beta: the same.
 
     Raises:
-        MethodError: a value needs a later one.
+        CannotConvert: a value needs a later one.
     """
     if alpha and beta and not any((*alpha[0], *beta[0])):
         alpha, beta = alpha[1:], beta[1:]
     stages = len(alpha)
     if len(beta) != stages:
-        raise MethodError(f"alpha has {stages} rows, beta has {len(beta)}")
+        raise CannotConvert(f"alpha has {stages} rows, beta has {len(beta)}")
     made = _Registers(stages)
     values, slopes = [made.y], [made.slope(made.y)]
     for i, rows in enumerate(zip(alpha, beta, strict=True), start=1):
         if any(x for row in rows for x in row[i:]):
-            raise MethodError("a value needs a later one: the method is implicit")
+            raise CannotConvert("a value needs a later one: the method is implicit")
         a, b = ([*row[:i], *[0] * (i - len(row))] for row in rows)
         terms = [*zip(a, values, strict=True), *zip(b, slopes, strict=True)]
         values.append(_sum((1 - sum(a), made.y), *terms))

@@ -22,7 +22,8 @@ from garkcli.conversion.registers import (
     three_registers,
     van_der_houwen,
 )
-from garkcli.errors import ExpressionError, MethodError
+from garkcli.conversion.sheet import CannotConvert
+from garkcli.errors import ExpressionError
 from garkcli.exact.display import to_ball, to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
@@ -79,7 +80,7 @@ class Printed:
         try:
             with ctx.workprec(BITS):
                 return scheme(*self.exact), scheme(*self.balls)
-        except MethodError as error:
+        except CannotConvert as error:
             raise Unreadable(error.message) from None
 
 

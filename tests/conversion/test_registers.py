@@ -21,7 +21,7 @@ from garkcli.conversion.registers import (
     two_registers,
     van_der_houwen,
 )
-from garkcli.errors import MethodError
+from garkcli.conversion.sheet import CannotConvert
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
 
@@ -151,11 +151,11 @@ def test_several_diagonals() -> None:
 
 def test_what_is_no_such_method() -> None:
     """Rows of other lengths, and values that need later ones."""
-    with pytest.raises(MethodError, match="1 numbers for 3 stages"):
+    with pytest.raises(CannotConvert, match="a row of 1 for 3 stages"):
         two_registers([fmpq(1)], exact(B2N))
-    with pytest.raises(MethodError, match="alpha has 3 rows, beta has 2"):
+    with pytest.raises(CannotConvert, match="alpha has 3 rows, beta has 2"):
         shu_osher(exact(ALPHA), exact(SHU[:2]))
-    with pytest.raises(MethodError, match="implicit"):
+    with pytest.raises(CannotConvert, match="implicit"):
         shu_osher([[fmpq(1), fmpq(1)]], [[fmpq(1), fmpq(0)]])
 
 
