@@ -27,7 +27,7 @@ from garkcli.tableau.tableau import Tableau
 Level: TypeAlias = Literal["error", "warning", "note"]
 """Errors fail an audit; warnings and notes are told."""
 HIGH = 10
-"""A declared order from which on no higher one is looked for."""
+"""No higher order is looked for: a wrong digit costs a lower one."""
 _BY_DIGITS = frozenset({"order", "weights", "nodes", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is looked for."""
@@ -157,8 +157,8 @@ def audit(table: FoundTable) -> Audited | None:
     if not is_plausible(table, method):
         return None
     declared = table.order or 0
-    # of high orders it takes long to see that a method has not one more than it declares
-    order, embedded_order = orders_of(method, table, declared if declared >= HIGH else None)
+    is_high = declared == 0 or declared >= HIGH
+    order, embedded_order = orders_of(method, table, HIGH if is_high else None)
     subject = Subject(table, method, order, embedded_order)
     if table.is_assembled and order.order < 2 and not subject.is_slightly_off:
         message = "numbers with the names of coefficients whose roles are not recognised"
@@ -190,7 +190,7 @@ def _is_explained(code: str, subject: Subject) -> bool:
     if code == "nodes":
         return not subject.misprinted_rows
     tableau, method, table = subject.tableau, subject.method, subject.table
-    wanted = table.order or 1
+    wanted = min(table.order or 1, HIGH)
     if code.startswith("embedded"):
         tableau = with_weights(tableau, method.embedded or ())
         wanted = table.embedded_order or 1 if code == "embedded-order" else 1
@@ -207,7 +207,7 @@ def _of_trouble(table: FoundTable) -> AuditFinding:
 def _order(subject: Subject) -> Iterator[AuditFinding]:
     """The declared order against the true one."""
     declared, found = subject.table.order, subject.order
-    if declared is None:
+    if declared is None or found.is_limited:
         return
     if subject.misses_order:
         if _is_transposed(subject):
@@ -286,7 +286,7 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
         message = f"the embedded weights have the sum {total}"
         yield AuditFinding("embedded-weights", message)
         return
-    if declared is None or _explains(subject, found):
+    if declared is None or found.is_limited or _explains(subject, found):
         return
     if found.order < declared and found.is_open:
         yield _open(found, declared, "embedded order")

@@ -83,6 +83,8 @@ def judged(
     if not rounded.tolerance:
         return Judged(exact.order, witness=exact.witness)
     found = find_order_within(rounded, reach)
+    if found.order == reach and found.sizes[-1] <= unnatural(reach):
+        return replace(_judged(found, exact, tableau), is_open=False, is_limited=True)
     order = exact.order
     while order < found.order and found.sizes[order] <= unnatural(order + 1):
         order += 1

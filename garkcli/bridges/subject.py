@@ -102,13 +102,13 @@ class Subject(Frozen):
             return None
         if not self.wrong_rows:
             return self.order
-        return judged(self.method, timed, self.table.order)
+        return judged(self.method, timed, self.table.order, max(self.order.order, 1))
 
     @property
     def misses_order(self) -> bool:
         """Whether the order is lower than declared, and known to be."""
         declared = self.table.order
-        if declared is None or self.order.order >= declared:
+        if declared is None or self.order.is_limited or self.order.order >= declared:
             return False
         return not self.order.is_open
 

@@ -49,11 +49,15 @@ def _is_doubtful(found: Audited) -> bool:
 
 def _title(found: Audited, d: Plain) -> str:
     """Where a table is, and its orders."""
-    words = [] if found.order is None else [f"order {found.order.order}"]
+    words = [] if found.order is None else [f"order {_least(found.order)}"]
     if words and found.embedded_order is not None:
-        words.append(f"embedded order {found.embedded_order.order}")
+        words.append(f"embedded order {_least(found.embedded_order)}")
     name = ": ".join(filter(None, [found.table.name or "a table", ", ".join(words)]))
     return d.prose(f"{found.table.source}:{found.table.line} {name}")
+
+
+def _least(order: Judged) -> str:
+    return f"at least {order.order}" if order.is_limited else str(order.order)
 
 
 def _finding_rows(findings: Sequence[AuditFinding], d: Plain) -> list[tuple[str, str]]:
