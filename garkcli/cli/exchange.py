@@ -89,6 +89,18 @@ def import_(given: Given, output: Output) -> None:
         output.write(yaml_text(results))
     else:
         output.tell(REPORT, all_found(results, files))
+    _tell_unread([x for x in results if x.method is None], output)
+
+
+def _tell_unread(unread: Sequence[Result], output: Output) -> None:
+    """What looks like a table and was not read: how many, or with -v each with the reason."""
+    if output.verbosity > 0:
+        for result in unread:
+            place = f"{printable(result.table.source)}:{result.table.line}"
+            output.note(f"{place}: {result.table.name or 'a table'} is not read: {result.trouble}")
+    elif unread:
+        verbs = "looks like a table and was" if len(unread) == 1 else "look like tables and were"
+        output.note(f"{len(unread)} more {verbs} not read: -v lists them")
 
 
 def _other(table: FoundTable) -> tuple[str, str]:

@@ -97,3 +97,15 @@ def test_arrays_that_may_be_no_method_are_told(tmp_path: Path) -> None:
     assert both.code == 0
     assert both.err.startswith("gauss.jl:1: A and b without nodes")
     assert gark("import", str(tmp_path)).err == ""
+
+
+def test_what_was_not_read_is_named(tmp_path: Path) -> None:
+    """One line on standard error; -v has each table with its reason."""
+    path = tmp_path / "two.py"
+    table = "class {0}:\n    A = [[0, 0], [{1}, 0]]\n    b = [0.5, 0.5]\n    c = [0, 1]\n"
+    path.write_text(table.format("Heun", 1) + table.format("Other", "x"), encoding="utf-8")
+    run = gark("import", str(path), "--format", "yaml")
+    assert run.code == 0
+    assert run.err == "1 more looks like a table and was not read: -v lists them\n"
+    run = gark("import", str(path), "-v")
+    assert run.err == f"{path}:6: Other is not read: the name x, line 6, is not known\n"
