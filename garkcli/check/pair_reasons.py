@@ -253,8 +253,8 @@ def _interpolation(l: Method, m: Method, p: int) -> Fit | None:
     of_power = _degree(tuple((x,) for x in apply(lifted, m.space.power(m.c, k))))
     rho = _agreement(l, m)
     if rho is None:
-        return Fit(True, f"δ = {delta}, the same weights")
-    numbers = f"δ = {delta}, ρ − k = {rho - k}"
+        return Fit(True, f"degree {delta}, the same weights")
+    numbers = f"degree {delta}, ρ − k = {rho - k}"
     if delta <= rho - k and (p % 2 or of_power <= rho - k - 1):
         return Fit(True, numbers)
     if delta > rho and _is_singular(m.A):

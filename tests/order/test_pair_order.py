@@ -181,8 +181,8 @@ def test_rules_that_keep_and_lose_the_order() -> None:
         "collocation on (2,1): s = 3 ≤ r − k = 3, keeps pair order 4",
     ]
     assert said((THREE_EIGHTHS, LOBATTO), "interpolation") == [
-        "interpolation on (1,2): δ = 2, ρ − k = 3, keeps pair order 4",
-        "interpolation on (2,1): δ = 3, ρ − k = 3, loses pair order 4",
+        "interpolation on (1,2): degree 2, ρ − k = 3, keeps pair order 4",
+        "interpolation on (2,1): degree 3, ρ − k = 3, loses pair order 4",
     ]
     assert said(both, "{collocation: 1/2, interpolation: 1/2}") == []
 
