@@ -35,6 +35,8 @@ BITS = 1_000
 """Of balls around printed numbers."""
 DIGITS = 300
 """Of balls around irrational ones."""
+COARSE = fmpq(1, 10**16)
+"""A fraction that would approximate a number no better than that is exact."""
 NEAR = 1e-4
 """Nodes and sums of rows that differ by less are meant to be the same."""
 Nested: TypeAlias = "str | Sequence[Nested]"
@@ -53,7 +55,8 @@ class Printed:
 
     def __init__(self, *rows: Nested) -> None:
         self._rows = rows
-        expressions = [parse(x) for x in _flat(rows)]
+        printed = _flat(rows)
+        expressions = [parse(x) for x in printed]
         try:
             domain = Domain(expressions)
             values = [domain.evaluate(x) for x in expressions]
@@ -62,6 +65,9 @@ class Printed:
         self._values = iter(values)
         self.exact = [self._nested(row, lambda x: x) for row in rows]
         units = approximant_units(list(zip(expressions, values, strict=True)))
+        for text, value in zip(printed, values, strict=True):
+            if "." not in text and units.get(value, 0) > COARSE:
+                units[value] = fmpq(0)
         self._values = iter(values)
         with ctx.workprec(BITS):
             self.balls = [self._nested(row, lambda x: _ball(x, units.get(x))) for row in rows]
