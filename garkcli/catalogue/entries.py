@@ -46,7 +46,8 @@ def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
         entry = _of_index(shelf.entries[method.name])
     else:
         entry, facts = _of_file(method, judges)
-    entry.pop("digest", None)
+    for key in ("digest", "fingerprint"):
+        entry.pop(key, None)
     return {**entry, "folder": method.folder, "catalogue": shelf.label, "facts": facts}
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from garkcli.catalogue.known import fingerprint
 from garkcli.check.check_file import check_file
 from garkcli.comparison.comparison import form_of
 from garkcli.errors import GarkError
@@ -105,7 +106,9 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
     outcome = check_file(path)
     if outcome.analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
-    return {**found_of(loads(text, path), outcome.analysis, name, file), "digest": digest(text)}
+    found = found_of(loads(text, path), outcome.analysis, name, file)
+    number = fingerprint(outcome.analysis.tableau)
+    return {**found, "digest": digest(text), "fingerprint": number}
 
 
 def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> Entry:
@@ -276,7 +279,7 @@ def _known(before: str) -> dict[tuple[str, str], Entry]:
     index: dict[str, Any] = json.loads(before) if before else {}
     if index.get("facts") != VERSION:
         return {}
-    fields = blank().keys()
+    fields = {*blank(), "fingerprint"}
     return {(x["file"], x["digest"]): x for x in index["methods"] if x.keys() >= fields}
 
 

@@ -30,6 +30,7 @@ LABELS = {
     "pair_criterion": "why this pair order",
     "phase_order": "phase lag",
     "real_interval": "real axis",
+    "same_as": "the same as",
     "sdirk": "SDIRK",
     "sigma": "σ",
     "springs": "two springs",

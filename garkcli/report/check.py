@@ -855,6 +855,27 @@ TRANSFER = Row(
     transfer,
     is_optional=True,
 )
+SAME_AS = Section(
+    Row("method", kinds.TEXT),
+    Row("within", kinds.TOLERANCE, has_null=True),
+    Row("step_only", kinds.TRUTH),
+)
+
+
+def _same_as(o: Any) -> Any:
+    # most files are in no catalogue, and quiet reports do not ask
+    from garkcli.catalogue.known import find_known
+
+    return find_known(o.analysis, o.text)
+
+
+def _same_as_words(known: Any, d: Plain) -> str:
+    within = f" within {kinds.TOLERANCE.words(known.within, d)}" if known.within else ""  # type: ignore[misc]
+    return (
+        f"{d.prose(known.method)}{within}{', but for embedded weights' if known.step_only else ''}"
+    )
+
+
 LEFT_BEHIND = Row(
     "left_behind",
     Kind(S.array(S.TEXT), lambda x, _: list(x), lambda x, d: f"{' and '.join(x)} of its parts"),
@@ -881,6 +902,7 @@ CHECKED = Section(
         is_optional=True,
     ),
     Row("suggestion", part(SUGGESTION), lambda o: o.analysis.suggestion, DATA, is_optional=True),
+    Row("same_as", part(SAME_AS, _same_as_words), _same_as, is_optional=True),
     *CLAIMS,
     HINTS,
     Row("properties_in_words", rows_of(_property_rows), every_property),

@@ -1,0 +1,143 @@
+"""Which method of the catalogue a tableau is: looked up by one number, then held against it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from flint import arb, fmpq
+
+from garkcli.frozen import Frozen
+from garkcli.tableau.pointwise import in_points, numeric_entries
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from garkcli.check.analysis import Analysis
+    from garkcli.tableau.garkmethod import GarkMethod
+    from garkcli.tableau.pointwise import Row
+    from garkcli.tableau.tableau import Tableau
+
+WINDOW = 1e-5
+"""How far apart the fingerprints of a method and of its rounded copy may be."""
+ROUNDINGS = tuple(fmpq(1, 10**digits) for digits in (15, 14, 13, 12, 11, 10, 9, 8, 7, 6))
+"""Within which of these entries are compared that are not the same exactly."""
+MOST_STAGES = 100
+"""Tableaus with more stages are not looked up."""
+_DIGITS = 9
+_ROUNDS = 2
+
+
+class Known(Frozen):
+    """A method of the catalogue that a tableau is, up to the numbers of its stages.
+
+    Attributes:
+        method: its name.
+        within: the rounding within which entries are the same; None where they are exactly.
+        step_only: whether embedded weights differ, or one of the two has none.
+    """
+
+    method: str
+    within: fmpq | None = None
+    step_only: bool = False
+
+
+def fingerprint(tableau: Tableau) -> float:
+    """A number that renumbering stages or colours and leaving out superfluous stages do not change.
+
+    It is Σ b·u of stage vectors u = φ(A u), made twice from 𝟙. With a smooth φ all methods of high
+    order would give nearly one number, so that φ has a peak.
+
+    >>> from garkcli.methodfile.load import loads
+    >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}").tableau
+    >>> turned = loads("{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}").tableau
+    >>> fingerprint(heun) == fingerprint(turned)
+    True
+    """
+    printed = numeric_entries(tableau, 2 * _DIGITS)
+    weights = [_floats(row) for row in printed.b]
+    blocks = [[list(map(_floats, block or ())) for block in row] for row in printed.A]
+    vectors = [[1.0] * len(row) for row in weights]
+    for _ in range(_ROUNDS):
+        vectors = [
+            [_peak(_seen(row, i, vectors)) for i in range(len(old))]
+            for row, old in zip(blocks, vectors, strict=True)
+        ]
+    sums = [sum(map(_product, *pair)) for pair in zip(weights, vectors, strict=True)]
+    return round(sum(sums), _DIGITS)
+
+
+def _floats(row: Row) -> list[float]:
+    return [float(x.mid()) for x in row if isinstance(x, arb)]
+
+
+def _seen(
+    row: Sequence[Sequence[Sequence[float]]], i: int, vectors: Sequence[Sequence[float]]
+) -> float:
+    """What stage i of a colour sees of all stages."""
+    pairs = zip(row, vectors, strict=True)
+    return sum(sum(map(_product, block[i], u)) for block, u in pairs if block)
+
+
+def _peak(x: float) -> float:
+    return 1 / (1 + (25 * x - 8) ** 2)
+
+
+def _product(x: float, y: float) -> float:
+    return x * y
+
+
+def find_known(analysis: Analysis, text: str) -> Known | None:
+    """The method of the catalogue that was checked; None where there is none.
+
+    Args:
+        analysis: what was found of it.
+        text: of its file; a file of the catalogue is not told that it is itself.
+    """
+    from garkcli.methodfile.shelves import package
+
+    tableau = analysis.tableau
+    if sum(space.stages for space in tableau.spaces) > MOST_STAGES:
+        return None
+    number, shelf = fingerprint(tableau), package()
+    away = {name: abs(x["fingerprint"] - number) for name, x in shelf.entries.items()}
+    near = sorted((distance, name) for name, distance in away.items() if distance <= WINDOW)
+    texts = {name: shelf.methods[name][0].read() for _, name in near}
+    if not texts or text in texts.values():
+        return None
+    return _first_same(_of_analysis(analysis), texts)
+
+
+def _of_analysis(analysis: Analysis) -> GarkMethod:
+    """The method that was checked, without its dense output."""
+    from garkcli.tableau.garkmethod import GarkMethod
+
+    embedded = None
+    if analysis.embedded is not None:
+        points = in_points(analysis.embedded.tableau)
+        embedded = None if points is None else tuple(colour.b for colour in points.colours)
+    return GarkMethod(tableau=analysis.tableau, tolerance=analysis.tolerance, embedded=embedded)
+
+
+def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
+    """The first of some methods, given by their files, that a method is."""
+    from garkcli.comparison.sameness import find_sameness, views_of
+    from garkcli.exact.field import ZERO
+    from garkcli.methodfile.load import loads
+    from garkcli.tableau.garkmethod import GarkMethod
+
+    others = []
+    for name, text in texts.items():
+        read = loads(text, name)
+        other = GarkMethod(tableau=read.tableau, tolerance=read.tolerance, embedded=read.embedded)
+        others.append((name, other, views_of(method, other)))
+    for least in (ZERO, *ROUNDINGS):
+        found = []
+        for name, other, views in others:
+            admitted = (method.tolerance or ZERO) + (other.tolerance or ZERO)
+            same = find_sameness(method, other, views, max(least, admitted)).sameness
+            if same is not None:
+                found.append((same.step_only, same.is_reduced, name, same.allowed or None))
+        if found:
+            step_only, _, name, within = min(found, key=lambda x: x[:3])
+            return Known(name, within, step_only)
+    return None
