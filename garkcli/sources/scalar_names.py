@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from garkcli.frozen import Mutable, field
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.values import ONE, ZERO, Array, Number, Unknown, Value, computed
+from garkcli.sources.values import ONE, ZERO, Array, Number, Unknown, Value, computed, exact
 
 _NAME = re.compile(r"(?P<stem>[^\W\d_]+[̂̃]?)_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}))?")
 _MATRICES = ("a", "A", "aa", "b")
@@ -164,7 +164,7 @@ def _fitted(
             if all(x is None or _is_near(x, y) for x, y in pairs):
                 if note:
                     found.notes.append(note)
-                full = [y if x is None else x for x, y in zip(given, sums, strict=True)]
+                full = [_sum(y) if x is None else x for x, y in zip(given, sums, strict=True)]
                 return matrix, full
     return None
 
@@ -201,6 +201,12 @@ def _total(row: Sequence[Value]) -> Value:
     for x in row:
         found = computed("+", found, x, 0)
     return found
+
+
+def _sum(value: Value) -> Value:
+    """A sum that stands for a node, with all its digits."""
+    is_rational = isinstance(value, Number) and value.value is not None
+    return exact(value.value) if is_rational else value  # type: ignore[union-attr, arg-type]
 
 
 def _is_zero(value: Value) -> bool:

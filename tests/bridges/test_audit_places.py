@@ -307,6 +307,22 @@ def test_single_numbers_are_read_or_named(tmp_path: Path) -> None:
     assert told("steps.f90", SCALARS, tmp_path) == {"named": [], "scaled": ["unread"]}
 
 
+def test_a_node_that_is_not_written_is_the_whole_sum(tmp_path: Path) -> None:
+    """The sum of long and short numbers is not cut to the digits of the short ones."""
+    long = "0.00000" + "12345" * 14
+    text = (
+        "submodule (rk) steps\ncontains\nmodule procedure named\n"
+        f"    real(wp), parameter :: a2 = 0.5_wp, b21 = 0.5_wp, b31 = {long}_wp\n"
+        f"    real(wp), parameter :: b32 = 0.9876543_wp, b41 = {long}_wp, b42 = 0.25_wp\n"
+        "    real(wp), parameter :: b43 = 0.5_wp, a3 = 0.98766664_wp\n"
+        "    real(wp), parameter :: c1 = 0.0_wp, c2 = 1.0_wp\nend procedure named\nend submodule\n"
+    )
+    (tmp_path / "steps.f90").write_text(text, encoding="utf-8")
+    run = gark("audit", str(tmp_path), "--format", "json")
+    (table,) = json.loads(run.out)["tables"]
+    assert not any("row 4" in x["message"] for x in table["findings"])
+
+
 def test_rows_of_signed_fractions_in_lists(tmp_path: Path) -> None:
     """Rows in brackets of their own, with blanks between their entries."""
     text = """
