@@ -112,7 +112,7 @@ def simplifying(
         rows; ``bound`` and ``sharp_bound`` are what they say of the order.
 
     >>> simplifying("gauss-2")
-    Simplifying(B=(4,), C=((2,),), D=((2,),))
+    Simplifying(B=(4,), C=((2,),), D=((2,),), limit=60)
     """
     limit = whole(limit, "limit", 1)
     _, known_as = meant_of(method, tolerance)

@@ -403,8 +403,8 @@ class Output:
             return
         from garkcli.page.writing import write_whole
 
-        write_whole(self.path, safe_pieces(pieces, format, coloured))
-        self.note(f"wrote {self.path}")
+        if write_whole(self.path, safe_pieces(pieces, format, coloured)):
+            self.note(f"wrote {self.path}")
 
     def tell(self, report: Report[Any], *wholes: Any) -> None:
         """Write results in the format that is asked for."""

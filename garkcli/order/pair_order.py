@@ -70,7 +70,7 @@ def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriter
         limit: the order at which to stop.
 
     >>> from garkcli import loads
-    >>> ssprk3 = loads("A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]\\nb: [1/6, 1/6, 2/3]").tableau
+    >>> ssprk3 = loads("A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]\nb: [1/6, 1/6, 2/3]").tableau
     >>> pair_criterion(ssprk3).order
     2
     """

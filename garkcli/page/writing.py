@@ -17,7 +17,7 @@ _MOST_LINKS = 40
 """As many links in a row as Linux follows."""
 
 
-def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> None:
+def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> bool:
     """Write a file beside its place, then rename it into place.
 
     A link stays a link, and what it leads to is written; a file that exists keeps its permissions.
@@ -28,6 +28,9 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
         path: where to.
         pieces: text, which is written as UTF-8, or bytes.
         is_renewed: whether it is meant to be a file that the command has read.
+
+    Returns:
+        Whether there is a file now: false of a device, a pipe or a stream of this process.
 
     Raises:
         UsageProblem: the file cannot be written, or is an input; nothing is left behind.
@@ -49,6 +52,7 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
             _replace(target, _encoded(pieces), stat.S_IMODE(before.st_mode))
         else:
             _write_through(target, pieces, stat.S_ISREG(before.st_mode))
+    return stream is None and (before is None or stat.S_ISREG(before.st_mode))
 
 
 def refuse_unwritable(path: str) -> None:

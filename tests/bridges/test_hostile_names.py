@@ -10,7 +10,6 @@ import re
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -23,6 +22,7 @@ from garkcli.bridges.names import LONGEST, RESERVED, class_name, identifier
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import Bridge, bridges
+from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 from tests.cli.harness import ROOT, gark
 

@@ -95,9 +95,10 @@ def test_a_command_runs(command: str, project: Path) -> None:
     """
     arguments = shlex.split(command)[1:]
     run = gark(*arguments, cwd=project)
-    assert (run.code, run.err) == (0, ""), command
-    if "-o" in arguments:
-        text = (project / arguments[arguments.index("-o") + 1]).read_text(encoding="utf-8")
+    wrote = arguments[arguments.index("-o") + 1] if "-o" in arguments else ""
+    assert (run.code, run.err) == (0, f"wrote {wrote}\n" if wrote else ""), command
+    if wrote:
+        text = (project / wrote).read_text(encoding="utf-8")
         assert (
             ET.fromstring(text).tag == "testsuites"
             if text.startswith("<?xml")
