@@ -50,3 +50,16 @@ def test_fields_besides_do_not_count() -> None:
     assert Marked(1) != Marked(2)
     assert len({Marked(1, "a"), Marked(1, "b")}) == 1
     assert Name("x", start=1) == Name("x", start=5) != Literal(1)
+
+
+class Positive(Frozen):
+    x: int
+
+    def __post_init__(self) -> None:
+        if self.x <= 0:
+            raise ValueError("not positive")
+
+
+def test_a_replaced_value_is_checked_again() -> None:
+    with pytest.raises(ValueError, match="not positive"):
+        replace(Positive(1), x=0)
