@@ -67,8 +67,10 @@ def mutant_file(text: str, rng: random.Random, count: int) -> str:
     ):
         checks.append(f"order_is_proved {name} {order} {label}_trees {label}_branches")
     whole = " && ".join(f"({check})" for check in checks)
-    # numbers in lists; the pivots, which are of nat, and names are not among them
-    places = [m.span() for m in re.finditer(r"(?<=[\[ (])-?\d+(?=[];)#])", data)]
+    # numbers in lists; the pivots, which are of nat, and names are not among them, nor is a
+    # polynomial of degree one, whose root is a rational number whatever it is
+    numbers = re.finditer(r"(?<!field := \[)(?<=[\[ (])-?\d+(?=[];)#])", data)
+    places = [m.span() for m in numbers]
     parts = [head.replace("List.", "List Bool.") + "Open Scope Q_scope.\n"]
     chosen = [None, *rng.sample(places, min(count, len(places)))]
     for number, place in enumerate(chosen):
