@@ -2,37 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-from garkcli.glossary.faults import TOPICS, FaultKind, faults_of, findings_of
+from garkcli.glossary.faults import TOPICS, FaultKind, FindingKind, faults_of, findings_of
 from garkcli.glossary.key import Key, keys_of
 from garkcli.report.field_texts import fields_of, text_of
 from garkcli.report.schemas import REPORTS, report_schema
 
 
 def codes_page() -> str:
-    """Every code of an error in Markdown: what it means, an example, the cure."""
+    """Every code of an error in Markdown, a table a topic: what it means, and the cure."""
     parts = []
     for topic, title in TOPICS.items():
-        parts += [f"### {title}", ""]
-        for kind in faults_of(topic):
-            parts += _code(kind)
-    return "\n".join(parts).rstrip() + "\n"
+        parts.append(f"### {title}\n\n{_codes_table(faults_of(topic))}")
+    return "\n".join(parts)
 
 
-def _code(kind: FaultKind) -> Iterator[str]:
-    yield f"#### {kind.code}"
-    yield ""
-    yield f"{kind.text} {kind.cure}"
-    yield ""
-    if kind.example.startswith("$ "):
-        command = kind.example.removeprefix("$ ")
-        yield f"For instance `{command}`."
-        yield ""
-    elif kind.example:
-        yield from (f"    {line}" for line in kind.example.splitlines())
-        yield ""
+def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
+    rows = [(f"`{x.code}`", _cell(x.text), _cell(x.cure)) for x in kinds]
+    return _table(("code", "what it means", "what to do"), rows)
 
 
 def keys_table(kind: str) -> str:
@@ -56,11 +45,7 @@ def _said(key: Key) -> str:
 
 def findings_table(command: str) -> str:
     """The findings of a command as a table in Markdown."""
-    rows = [
-        (f"`{found.code}`", _cell(found.text), _cell(found.cure))
-        for found in findings_of(command).values()
-    ]
-    return _table(("code", "what it means", "what to do"), rows)
+    return _codes_table(findings_of(command).values())
 
 
 def fields_table() -> str:
@@ -84,8 +69,7 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def _row(cells: Sequence[str]) -> str:
-    joined = " | ".join(cells)
-    return f"| {joined} |"
+    return f"|{'|'.join(cells)}|"
 
 
 def _one_of(schema: Any) -> str:
