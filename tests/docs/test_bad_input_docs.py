@@ -10,7 +10,7 @@ import re
 from pathlib import Path
 
 from garkcli.glossary.faults import by_code, findings_of
-from garkcli.report.reference import codes_page, findings_table
+from tests.docs.tables import codes_page, findings_table
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "bad-input.md"
 MARK = "<!-- codes -->\n\n"

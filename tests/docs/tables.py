@@ -1,0 +1,179 @@
+"""The parts of pages that are made from the entries of the glossary."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from garkcli.glossary import read
+from garkcli.glossary.faults import TOPICS, FaultKind, FindingKind, faults_of, findings_of
+from garkcli.glossary.fields import field_text
+from garkcli.glossary.key import Key, keys_of
+from garkcli.report.field_texts import REFERENCES, fields_of
+from garkcli.report.schemas import REPORTS, report_schema
+
+
+def codes_page() -> str:
+    """Every code of an error in Markdown, a table a topic: what it means, and the cure."""
+    parts = []
+    for topic, title in TOPICS.items():
+        parts.append(f"### {title}\n\n{_codes_table(faults_of(topic))}")
+    return "\n".join(parts)
+
+
+def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
+    rows = [(f"`{x.code}`", _cell(x.text), _cell(x.cure)) for x in kinds]
+    return _table(("code", "what it means", "what to do"), rows)
+
+
+def keys_table(kind: str) -> str:
+    """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
+    rows = []
+    for key in keys_of(kind).values():
+        example = key.example.replace("|", "\\|")
+        rows.append((f"`{key.path}`", _cell(_said(key)), f"`{example}`"))
+    return _table(("key", "what it is", "example"), rows)
+
+
+def _said(key: Key) -> str:
+    """What a key is, and what holds without it."""
+    if key.default is None:
+        return key.text
+    default = str(key.default)
+    if isinstance(key.default, bool):
+        default = default.lower()
+    return f"{key.text} By default {default}."
+
+
+def findings_table(command: str) -> str:
+    """The findings of a command as a table in Markdown."""
+    return _codes_table(findings_of(command).values())
+
+
+def fields_page() -> str:
+    """The fields of JSON reports in Markdown: how they are nested, and what each holds."""
+    return f"## Reports\n\n{_outlines()}\n## Fields\n\n{_fields_table()}"
+
+
+def _outlines() -> str:
+    """The fields of each report as they are nested; what has the same fields is written once."""
+    alike: dict[str, list[str]] = {}
+    for report in REPORTS:
+        alike.setdefault(_nested(report_schema(report), {}), []).append(report)
+    written: dict[str, str] = {}
+    parts = [
+        f"### {', '.join(reports)}\n\n{_nested(report_schema(reports[0]), written)}\n"
+        for reports in alike.values()
+    ]
+    return "\n".join(parts)
+
+
+def _nested(schema: Any, written: dict[str, str], indent: str = "") -> str:
+    """The names in a schema as a list; those below a name in brackets, many of them as a list."""
+    names, long = [], []
+    for name, below in _below(schema).items():
+        if name.endswith((*_ENDINGS,)):
+            continue
+        inner = _nested(below, {})
+        is_list = any("items" in x for x in _choices(below))
+        brackets = "[]" if is_list else "{}"
+        if inner in written:
+            same = "…" if written[inner] == name else f"as {written[inner]}"
+            names.append(f"{name} {brackets[0]}{same}{brackets[1]}")
+            continue
+        if inner and name not in written.values():
+            written[inner] = name
+        if "\n" in inner or len(inner) > _LONG:
+            long.append(f"{name} {brackets}\n{_nested(below, written, f'{indent}  ')}")
+        elif inner:
+            names.append(f"{name} {brackets[0]}{inner.removeprefix('* ')}{brackets[1]}")
+        else:
+            names.append(name)
+    entries = [", ".join(names)] if names else []
+    return "\n".join(f"{indent}* {entry}" for entry in [*entries, *long])
+
+
+_LONG = 60
+
+
+def _below(schema: Any) -> dict[str, list[Any]]:
+    """The fields next below in a schema: by their names what each may be."""
+    found: dict[str, list[Any]] = {}
+    for choice in _choices(schema):
+        for name, value in choice.get("properties", {}).items():
+            found.setdefault(name, []).append(value)
+        for word in ("items", "additionalProperties", "patternProperties"):
+            for name, value in _below(choice.get(word)).items():
+                found.setdefault(name, []).extend(value)
+    return found
+
+
+def _choices(schema: Any) -> Iterator[dict[str, Any]]:
+    """A schema and those of which it is a choice."""
+    if isinstance(schema, list):
+        for part in schema:
+            yield from _choices(part)
+    elif isinstance(schema, dict):
+        yield schema
+        for word in ("anyOf", "oneOf", "allOf"):
+            yield from _choices(schema.get(word))
+
+
+_ENDINGS = {x: text for x, text in read("fields").items() if x.startswith("_")}
+
+
+def _fields_table() -> str:
+    """What fields hold, without those that other pages define: claims, and parts of references."""
+    meanings: dict[str, dict[tuple[str, str], dict[str, None]]] = {}
+    for report in REPORTS:
+        for path, schema in fields_of(report_schema(report), (report,)):
+            text = field_text(path)
+            if text and path[-2:-1] not in REFERENCES and not path[-1].endswith((*_ENDINGS,)):
+                meaning = (_phrase(text), _one_of(schema, text))
+                meanings.setdefault(path[-1], {}).setdefault(meaning, {})[report] = None
+    rows = [(f"`…{ending}`", _phrase(text)) for ending, text in _ENDINGS.items()]
+    for name, found in sorted(meanings.items()):
+        (first, words), *others = sorted(found, key=lambda x: -len(found[x]))
+        parts = [f"{first}: {words}" if words else first]
+        for text, words in others:
+            said = ": ".join(x for x in (text, words) if x not in ("", first))
+            if said:
+                parts.append(f"{', '.join(found[text, words])}: {said}")
+        rows.append((f"`{name}`", _cell("; ".join(parts))))
+    return _table(("field", "what it holds"), rows)
+
+
+def _phrase(text: str) -> str:
+    """The first sentence or its first part, without article and stop."""
+    phrase = re.split(r"(?<=[.;]) ", text)[0].rstrip(".;").removeprefix("The ")
+    return phrase[0].upper() + phrase[1:]
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [_row(heads), "|" + "---|" * len(heads)]
+    lines += map(_row, rows)
+    return "\n".join(lines) + "\n"
+
+
+def _row(cells: Sequence[str]) -> str:
+    return f"|{'|'.join(cells)}|"
+
+
+def _one_of(schema: Any, text: str) -> str:
+    """The words that the values of a field are; nothing where they are others, or told."""
+    words = schema.get("enum", []) if isinstance(schema, dict) else []
+    named = [x for x in words if isinstance(x, str) and x]
+    is_told = all(x in text for x in named)
+    return "" if is_told or not 1 < len(named) <= _MOST_WORDS else ", ".join(named)
+
+
+_MOST_WORDS = 13
+
+
+def _cell(text: str) -> str:
+    """A text in a cell of a table: its signs are no signs of Markdown."""
+    for sign in "\\*_|":
+        text = text.replace(sign, f"\\{sign}")
+    return text
