@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 
 from garkcli.bridges.elsewhere import declared_orders, order_of
 from garkcli.bridges.importing import orders_of, read
-from garkcli.bridges.judging import Judged, careless_digits, judged
+from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
 from garkcli.bridges.sources import source_text
@@ -194,7 +194,7 @@ def _is_explained(code: str, subject: Subject) -> bool:
     if code.startswith("embedded"):
         tableau = with_weights(tableau, method.embedded or ())
         wanted = table.embedded_order or 1 if code == "embedded-order" else 1
-    rounded = careless_digits(method, tableau)
+    rounded = subject.digits.careless(tableau)
     return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
 
 
@@ -247,7 +247,7 @@ def _is_transposed(subject: Subject) -> bool:
     if turned == block:
         return False
     other = replace(tableau, blocks={(0, 0): turned})
-    return judged(subject.method, other, declared).order >= declared
+    return judged(subject.digits, other, declared).order >= declared
 
 
 def _culprit(subject: Subject, declared: int) -> str:

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from flint import fmpq
 
-from garkcli.bridges.judging import Judged, judged
+from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.errors import ExpressionError, printable
 from garkcli.exact.display import decimal
 from garkcli.exact.domain import Domain
@@ -17,7 +17,9 @@ from garkcli.exact.nodes import Literal
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.printed import FEWEST_DIGITS
 from garkcli.methodfile.writer import quoted
+from garkcli.order.certificate import StageSpans
 from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Row, Rows
 from garkcli.tableau.embedded import with_weights
@@ -88,12 +90,25 @@ def orders_of(
     ``limit``.
     """
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
-    order = judged(method, method.tableau, table.order, limit, admitted)
+    digits, spans = digits_of(method, table), StageSpans(method.tableau)
+    order = judged(digits, method.tableau, table.order, limit, admitted, spans)
     if method.embedded is None:
         return order, None
     other = with_weights(method.tableau, method.embedded)
-    embedded = judged(method, other, table.embedded_order, limit, admitted)
+    embedded = judged(digits, other, table.embedded_order, limit, admitted, spans)
     return order, embedded
+
+
+def digits_of(method: MethodFile, table: FoundTable) -> Digits:
+    """How exactly the coefficients of a table are written: also those that its method file has as
+    fractions.
+    """
+    rows = [row for blocks in table.A for block in blocks for row in block or ()]
+    rows += [*table.b, *(row for row in table.c if row), *(table.embedded or ())]
+    texts = {x for row in rows for x in row if len(x) > FEWEST_DIGITS and "." in x}
+    short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if _fraction(x)]
+    units = {fmpq_of(text): unit for text, unit in table.units}
+    return Digits((*method.printed, *short), units)
 
 
 def place_of(table: FoundTable) -> str:

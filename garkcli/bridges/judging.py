@@ -7,9 +7,8 @@ from functools import cached_property
 from flint import arb, fmpq
 
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.printed import approximant_units, careless_units
-from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
+from garkcli.methodfile.printed import Printed, Units, approximant_units, careless_units
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, Witness, find_order
 from garkcli.order.rounded import RoundedOrder, find_order_within
 from garkcli.order.suggestion import SLACK, enough
 from garkcli.order.tolerance import unnatural
@@ -51,12 +50,37 @@ class Judged(Frozen, eq=False):
         return f'">= {self.order}"' if self.is_limited else str(self.order)
 
 
+class Digits(Frozen):
+    """How exactly the coefficients of a source are written.
+
+    Attributes:
+        printed: the coefficients as they are written.
+        units: by how much those may be off that were made of printed ones.
+    """
+
+    printed: Printed
+    units: Units
+
+    def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:
+        """A tableau with what the digits leave open: ten units of the last place of each decimal,
+        or ``slack`` of them.
+        """
+        units = approximant_units(self.printed, self.units)
+        wide = {value: slack * unit for value, unit in units.items()}
+        return RoundedTableau.printed(tableau, wide)
+
+    def careless(self, tableau: Tableau) -> RoundedTableau:
+        """A tableau with what careless rounding may have left."""
+        return RoundedTableau.printed(tableau, careless_units(self.printed, self.units))
+
+
 def judged(
-    method: MethodFile,
+    digits: Digits,
     tableau: Tableau,
     declared: int | None = None,
     limit: int | None = None,
     tolerance: fmpq | None = None,
+    spans: StageSpans | None = None,
 ) -> Judged:
     """The order of a tableau that is made of the numbers of a file.
 
@@ -65,24 +89,24 @@ def judged(
     not explained away: there the order is left open.
 
     Args:
-        method: the file, for how its numbers are written.
+        digits: how exactly its numbers are written.
         tableau: the method, or the same with embedded weights.
         declared: the order that its source declares; the search goes one further at least.
         limit: where the search stops; None for one order beyond the declared one at least.
         tolerance: the rounding that the source admits; None where it says none.
+        spans: of the stage vectors, where some are known.
     """
     reach = limit or max(DEFAULT_LIMIT, (declared or 0) + 1)
-    exact = find_order(tableau, reach)
+    exact = find_order(tableau, reach, spans)
     if exact.is_lower_bound:
         return Judged(exact.order, is_limited=True)
     if tolerance:
-        return _judged(
-            find_order_within(RoundedTableau.within(tableau, tolerance), reach), exact, tableau
-        )
-    rounded = digits_of(method, tableau)
+        within = RoundedTableau.within(tableau, tolerance)
+        return _judged(find_order_within(within, reach, exact), exact, tableau)
+    rounded = digits.of(tableau)
     if not rounded.tolerance:
         return Judged(exact.order, witness=exact.witness)
-    found = find_order_within(rounded, reach)
+    found = find_order_within(rounded, reach, exact)
     if found.order == reach and found.sizes[-1] <= unnatural(reach):
         return replace(_judged(found, exact, tableau), is_open=False, is_limited=True)
     order = exact.order
@@ -93,20 +117,6 @@ def judged(
         met = replace(found, order=order, witness=None, sizes=found.sizes[:order])
         return replace(_judged(met, exact, tableau), witness=exact.witness)
     return _judged(found, exact, tableau)
-
-
-def digits_of(method: MethodFile, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:
-    """A tableau with what the digits of a file leave open: ten units of the last place of each
-    decimal, or ``slack`` of them.
-    """
-    units = approximant_units(method.printed)
-    wide = {value: slack * unit for value, unit in units.items()}
-    return RoundedTableau.printed(tableau, wide)
-
-
-def careless_digits(method: MethodFile, tableau: Tableau) -> RoundedTableau:
-    """A tableau with what careless rounding may have left."""
-    return RoundedTableau.printed(tableau, careless_units(method.printed))
 
 
 def _judged(found: RoundedOrder, exact: Order, tableau: Tableau) -> Judged:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
-from garkcli.bridges.judging import Judged, careless_digits, digits_of, judged
+from garkcli.bridges.importing import digits_of
+from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.exact.display import to_ball, to_decimal, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
@@ -41,9 +42,14 @@ class Subject(Frozen):
         return self.method.tableau
 
     @cached_property
+    def digits(self) -> Digits:
+        """How exactly the coefficients are written."""
+        return digits_of(self.method, self.table)
+
+    @cached_property
     def rounded(self) -> RoundedTableau:
         """The method with what its digits leave open."""
-        return digits_of(self.method, self.tableau)
+        return self.digits.of(self.tableau)
 
     @cached_property
     def wrong_rows(self) -> tuple[str, ...]:
@@ -53,12 +59,12 @@ class Subject(Frozen):
     @property
     def careless_rows(self) -> tuple[str, ...]:
         """The nodes that are no sums of numbers which are off by one unit of their last place."""
-        return tuple(self._off(digits_of(self.method, self.tableau, slack=1)))
+        return tuple(self._off(self.digits.of(self.tableau, slack=1)))
 
     @cached_property
     def misprinted_rows(self) -> Mapping[str, Number]:
         """Those that no careless rounding explains either, with by how much they are off."""
-        return self._off(careless_digits(self.method, self.tableau))
+        return self._off(self.digits.careless(self.tableau))
 
     @property
     def is_misprinted(self) -> bool:
@@ -102,7 +108,7 @@ class Subject(Frozen):
             return None
         if not self.wrong_rows:
             return self.order
-        return judged(self.method, timed, self.table.order, max(self.order.order, 1))
+        return judged(self.digits, timed, self.table.order, max(self.order.order, 1))
 
     @property
     def misses_order(self) -> bool:

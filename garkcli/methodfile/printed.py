@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -15,6 +15,8 @@ from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
 """Coefficients as they are written, with their values."""
+Units: TypeAlias = Mapping[Number, fmpq]
+"""By how much values may be off."""
 FEWEST_DIGITS = 6
 """A number with fewer digits is meant exactly."""
 SHORTENED = 4
@@ -65,8 +67,10 @@ def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmp
     return units
 
 
-def approximant_units(printed: Printed) -> dict[Number, fmpq]:
+def approximant_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
     """The same for the source of a solver, where whole numbers are what they are.
+
+    Of numbers that were made of printed ones it is ``given`` by how much they may be off.
 
     A fraction with a long denominator q may be an approximant of an irrational number, as those of
     Kennedy and Carpenter are: good ones are off by 1/q^2, and a hundred times that is admitted.
@@ -84,15 +88,17 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
     for expression, value in printed:
         if _is_whole(expression):
             units.setdefault(value, _approximation(value))
+    for value, unit in (given or {}).items():
+        units[value] = max(unit, units.get(value, unit))
     return units
 
 
-def careless_units(printed: Printed) -> dict[Number, fmpq]:
+def careless_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
     """The same where decimals are rounded carelessly: ``CARELESS`` units of their last place. What
     may have been computed in floats before it was printed, fractions and decimals that are no
     longer than floats, may be off by so many units of these.
     """
-    units = approximant_units(printed)
+    units = approximant_units(printed, given)
     fractions = {value for expression, value in printed if _is_whole(expression)}
     for value, unit in units.items():
         of_float = rounded_up(abs(to_ball(value))) * FLOAT

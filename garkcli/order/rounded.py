@@ -21,7 +21,7 @@ from garkcli.exact.display import decimal, to_ball
 from garkcli.exact.enclosing import times
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.order.approximate_spans import ApproximateSpans
-from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.conditions import coupling_graph, elementary_weight, twin_roots
 from garkcli.order.effects import Effects
 from garkcli.order.tolerance import within
@@ -195,14 +195,17 @@ class RoundedOrder(Shown, FrozenBut):
 
 
 @doing("order within the tolerance")
-def find_order_within(rounded: RoundedTableau, limit: int = DEFAULT_LIMIT) -> RoundedOrder:
+def find_order_within(
+    rounded: RoundedTableau, limit: int = DEFAULT_LIMIT, exact: Order | None = None
+) -> RoundedOrder:
     """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within the rounding.
 
     Args:
         rounded: a tableau with its radii; its coupling graph decides which trees count.
         limit: the order at which to stop.
+        exact: what ``find_order`` gives for this tableau and limit, where that is known.
     """
-    exact = find_order(rounded.tableau, limit)
+    exact = exact or find_order(rounded.tableau, limit)
     verdicts = [Verdict(arb(0), "exact")] * exact.order
     if exact.witness is None or rounded.obstacle:
         return _outcome(rounded, verdicts, rounded.obstacle)

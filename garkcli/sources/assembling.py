@@ -9,6 +9,7 @@ from garkcli.frozen import Frozen, field, replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
 from garkcli.sources.registers import (
+    Converted,
     low_storage,
     of_nystrom,
     of_shu_osher,
@@ -341,10 +342,17 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
             raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
         A = square(plain(_with_rows(roles.get("A"))), len(b))
     else:
-        form, A, b = found
+        form, made = found
+        A, b = made.A, made.b
         note = f"the coefficients are those of the form {form}"
         is_sure = bool(meant.signature) or "c" in roles
-        empty = replace(empty, notes=(*empty.notes, note), is_assembled=not is_sure, is_sure=True)
+        empty = replace(
+            empty,
+            notes=(*empty.notes, note),
+            is_assembled=not is_sure,
+            is_sure=True,
+            units=made.units,
+        )
         roles = {role: x for role, x in roles.items() if form != "Shu–Osher" or role != "c"}
     c = _nodes(roles, len(b))
     A, b, c, embedded = _embedded(roles, A, b, c, meant)
@@ -370,31 +378,28 @@ def _with_ends(roles: Roles) -> Roles:
     return found
 
 
-def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Rows, Row] | None:
-    """The form, the matrix and the weights of low-storage and Shu–Osher coefficients; None of
-    others.
-    """
+def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
+    """The form of low-storage and Shu–Osher coefficients, and what they are; None of others."""
     form = meant.signature.form if meant.signature else "rk"
     A = roles.get("A")
     if "gamma1" in roles:
         names = ("gamma1", "gamma2", "gamma3", "delta", "A")
         rows = [weights(plain(roles[x])) if x in roles else () for x in names]
         rows[2] = rows[2] or (ZERO,) * len(rows[-1])
-        return ("3S*", *of_three_registers(*rows))
+        return "3S*", of_three_registers(*rows)
     if "b" not in roles and _is_matrix(roles.get("c")) and _is_matrix(A):
         alpha, beta = (rows_of(plain(roles[x])) for x in ("c", "A"))
-        return ("Shu–Osher", *of_shu_osher(alpha, beta))
+        return "Shu–Osher", of_shu_osher(alpha, beta)
     if form not in {"rk", "lists"}:
         rows = [weights(plain(x)) for role, x in roles.items() if role in _DIAGONALS]
-        return (form, *low_storage(form, rows, weights(plain(roles.get("b")))))
+        return form, low_storage(form, rows, weights(plain(roles.get("b"))))
     if not isinstance(A, Array) or _is_matrix(A) or not isinstance(roles.get("b"), Array):
         return None
     row, b = plain(A), weights(plain(roles["b"]))
     if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b)):
         return None
     c = roles.get("c")
-    A_, b, form = recognised(row_of(row), b, weights(plain(c)) if c is not None else None)
-    return form, A_, b
+    return recognised(row_of(row), b, weights(plain(c)) if c is not None else None)
 
 
 _DIAGONALS = ("A", "A_2", "A_3", "A_4")
@@ -415,22 +420,23 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     if c is None:
         raise Unreadable("the nodes of a Nyström method are not written out")
     A = square(plain(_with_rows(roles["A_q"])), stages)
-    seen, of_q = of_nystrom(A, b_q, c)
+    made = of_nystrom(A, b_q, c)
     units = [tuple("1" if i == j else ZERO for j in range(stages)) for i in range(stages)]
     embedded = None
     errors = [roles.get(x) for x in ("error_q", "error")]
     if all(isinstance(x, Array) and len(x.items) == stages for x in errors):
         of_error = [weights(plain(x)) for x in errors]
-        _, low = of_nystrom(A, changed("-", b_q, of_error[0]), c)
+        low = of_nystrom(A, changed("-", b_q, of_error[0]), c).b
         embedded = (low, changed("-", b, of_error[1]))
     return replace(
         empty,
-        A=((None, ((ZERO,) * stages, *units)), (seen, None)),
-        b=(of_q, b),
+        A=((None, ((ZERO,) * stages, *units)), (made.A, None)),
+        b=(made.b, b),
         c=(None, None),
         embedded=embedded,
         parts=("q", "p"),
         structure="nystrom",
+        units=made.units,
     )
 
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
+from flint import fmpq
+
 from garkcli.errors import GarkError
 from garkcli.frozen import Frozen, field
 
 Row: TypeAlias = tuple[str, ...]
 """Numbers as texts of ``garkcli.exact.expression``."""
 Rows: TypeAlias = tuple[Row, ...]
+Units: TypeAlias = tuple[tuple[str, fmpq], ...]
+"""By how much texts of numbers may be off."""
 Grid: TypeAlias = tuple[tuple[Rows | None, ...], ...]
 
 MAX_STAGES = 200
@@ -70,6 +74,7 @@ class FoundTable(Frozen):
         is_misshapen: whether the trouble is that it has too many or too few numbers.
         kind: of another method, such as Rosenbrock; empty for Runge–Kutta.
         is_assembled: whether it was put together from single numbers, by their names.
+        units: by how much coefficients may be off that were made of printed ones.
     """
 
     source: str
@@ -94,6 +99,7 @@ class FoundTable(Frozen):
     is_misshapen: bool = False
     kind: str = ""
     is_assembled: bool = False
+    units: Units = ()
 
     @property
     def colours(self) -> int:

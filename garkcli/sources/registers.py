@@ -28,8 +28,10 @@ from garkcli.exact.display import to_ball, to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
+from garkcli.frozen import Frozen
 from garkcli.methodfile.printed import approximant_units
-from garkcli.sources.found import Row, Rows, Unreadable
+from garkcli.order.tolerance import rounded_up
+from garkcli.sources.found import Row, Rows, Units, Unreadable
 
 BITS = 1_000
 """Of balls around printed numbers."""
@@ -99,27 +101,52 @@ def _ball(x: Number, unit: fmpq | None) -> arb:
     return middle + arb(0, arb(unit or 0).abs_upper())
 
 
-def texts(exact: Numbers, balls: Numbers) -> Row:
-    """Numbers with the digits that rounding leaves of them."""
-    return tuple(_text(x, ball) for x, ball in zip(exact, balls, strict=True))
+class Converted(Frozen):
+    """Coefficients made of printed ones.
+
+    Attributes:
+        A: the matrix.
+        b: the weights.
+        units: by how much each of their texts may be off.
+    """
+
+    A: Rows
+    b: Row
+    units: Units
 
 
-def _text(x: Number | int, ball: arb | int) -> str:
-    if not isinstance(x, fmpq) or isinstance(ball, int):
-        return str(x)
-    radius = float(ball.rad())
-    if radius < 1e-200 or not x:
-        return str(x)
-    first, last = (math.floor(math.log10(size)) for size in (abs(float(ball.mid())), radius))
-    return to_decimal(x, max(1, 1 + first - last))
+class Writing:
+    """Writes numbers with the digits that rounding leaves of them.
+
+    Attributes:
+        units: by how much each text may be off.
+    """
+
+    def __init__(self) -> None:
+        self.units: dict[str, fmpq] = {}
+
+    def row(self, exact: Numbers, balls: Numbers) -> Row:
+        """A row of numbers with the balls around them."""
+        return tuple(self._text(x, ball) for x, ball in zip(exact, balls, strict=True))
+
+    def rows(self, exact: Sequence[Numbers], balls: Sequence[Numbers]) -> Rows:
+        """The same of a matrix."""
+        return tuple(self.row(*pair) for pair in zip(exact, balls, strict=True))
+
+    def _text(self, x: Number | int, ball: arb | int) -> str:
+        if not isinstance(x, fmpq) or isinstance(ball, int):
+            return str(x)
+        radius = float(ball.rad())
+        if radius < 1e-200 or not x:
+            return str(x)
+        first, last = (math.floor(math.log10(size)) for size in (abs(float(ball.mid())), radius))
+        text = to_decimal(x, max(1, 1 + first - last))
+        unit = rounded_up(arb(ball.rad()) + arb(10) ** min(last, first))
+        self.units[text] = max(unit, self.units.get(text, unit))
+        return text
 
 
-def rows(exact: Sequence[Numbers], balls: Sequence[Numbers]) -> Rows:
-    """The same of a matrix."""
-    return tuple(texts(*pair) for pair in zip(exact, balls, strict=True))
-
-
-def _butcher(found: tuple[Steps, Steps]) -> tuple[Rows, Row]:
+def _butcher(found: tuple[Steps, Steps]) -> Converted:
     """The matrix and the weights.
 
     Raises:
@@ -132,17 +159,19 @@ def _butcher(found: tuple[Steps, Steps]) -> tuple[Rows, Row]:
             if not arb(abs(to_ball(start - 1 + fmpq(0)))) <= radius:
                 told = to_decimal(start + fmpq(0), 8)
                 raise Unreadable(f"stage {i} begins at {told} y, not at y")
-        return rows(exact.A, balls.A), texts(exact.b, balls.b)
+        writing = Writing()
+        A, b = writing.rows(exact.A, balls.A), writing.row(exact.b, balls.b)
+        return Converted(A, b, tuple(writing.units.items()))
 
 
-def low_storage(form: str, A: Sequence[Row], b: Row) -> tuple[Rows, Row]:
+def low_storage(form: str, A: Sequence[Row], b: Row) -> Converted:
     """The matrix and the weights of a scheme that is named: 2N, 2C, 2R and its like."""
     scheme = FORMS.get(form, van_der_houwen)
     numbers = (*A, b) if form in FORMS else (b, *A)
     return _butcher(Printed(*numbers).steps(scheme))
 
 
-def recognised(A: Row, b: Row, c: Row | None) -> tuple[Rows, Row, str]:
+def recognised(A: Row, b: Row, c: Row | None) -> tuple[str, Converted]:
     """The scheme of two rows whose sums are the nodes, and whose weights have the sum 1.
 
     Raises:
@@ -158,7 +187,7 @@ def recognised(A: Row, b: Row, c: Row | None) -> tuple[Rows, Row, str]:
     if len(alike) != 1:
         kind = "no low-storage method" if not alike else "more than one low-storage method"
         raise Unreadable(f"A and b are {kind} with these nodes" if c else f"A and b are {kind}")
-    return (*alike.pop(), fitting[0][0])
+    return fitting[0][0], alike.pop()
 
 
 def _agree(steps: Steps, c: Row) -> bool:
@@ -174,19 +203,21 @@ def _is_near(row: Numbers, total: Number) -> bool:
     return bool(abs(to_ball(sum(row, start=fmpq(0)) - total)) < NEAR)
 
 
-def of_three_registers(*given: Row) -> tuple[Rows, Row]:
+def of_three_registers(*given: Row) -> Converted:
     """The matrix and the weights of 3S*: γ₁, γ₂, γ₃, δ and β."""
     return _butcher(Printed(*given).steps(three_registers))
 
 
-def of_shu_osher(alpha: Rows, beta: Rows) -> tuple[Rows, Row]:
+def of_shu_osher(alpha: Rows, beta: Rows) -> Converted:
     """The matrix and the weights of the form of Shu and Osher."""
     return _butcher(Printed(alpha, beta).steps(shu_osher))
 
 
-def of_nystrom(A: Rows, b: Row, c: Row) -> tuple[Rows, Row]:
+def of_nystrom(A: Rows, b: Row, c: Row) -> Converted:
     """The velocities that positions see, and the weights of these."""
     printed = Printed(A, b, c)
     with ctx.workprec(BITS):
         (exact, weights), (balls, ball) = nystrom(*printed.exact), nystrom(*printed.balls)
-    return rows(exact, balls), texts(weights, ball)
+        writing = Writing()
+        A, b = writing.rows(exact, balls), writing.row(weights, ball)
+    return Converted(A, b, tuple(writing.units.items()))

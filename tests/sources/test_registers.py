@@ -6,11 +6,13 @@ from pathlib import Path
 
 import pytest
 
+from garkcli.bridges.audit import audit
 from garkcli.bridges.importing import imported
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load
 from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c, fortran, julia, matlab, python
-from garkcli.sources.registers import Printed, texts
+from garkcli.sources.registers import Printed, Writing
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).parents[2]
@@ -160,7 +162,55 @@ def test_a_wrong_start_is_told(tmp_path: Path) -> None:
 def test_fractions_that_are_exact_stay_so() -> None:
     """A fraction of eight digits is no approximant; one of thirteen is, to 23 digits and more."""
     given = Printed(("7987313/109941300", "1767732205903/4055673282236", "0.5", "0.7886751345948"))
-    first, second, third, last = texts(given.exact[0], given.balls[0])
+    first, second, third, last = Writing().row(given.exact[0], given.balls[0])
     assert (first, third, last) == ("7987313/109941300", "1/2", "0.7886751345948")
     assert second.startswith("0.435866521508458999416019")  # 1767732205903/4055673282236
     assert len(second) <= 28
+
+
+def findings(table: FoundTable) -> list[tuple[str, str]]:
+    """What an audit says of a table: the codes and how bad they are."""
+    found = audit(table)
+    assert found is not None
+    return [(x.code, x.level) for x in found.findings]
+
+
+SHORT = """
+function ORK256ConstantCache(T, T2)
+    alg_order = 2
+    A2 = convert(T, -1.0); A3 = convert(T, -1.55798); A4 = convert(T, -1.0)
+    A5 = convert(T, -0.45031)
+    A2end = SVector(A2, A3, A4, A5)
+    B1 = convert(T, 0.2)
+    B2end = SVector(convert(T, 0.83204), convert(T, 0.6), convert(T, 0.35394), convert(T, 0.2))
+    c2end = SVector(convert(T2, 0.2), convert(T2, 0.2), convert(T2, 0.8), convert(T2, 0.8))
+    return LowStorageRK2NConstantCache(A2end, B1, B2end, c2end)
+end
+"""
+
+
+def test_numbers_of_few_digits_stay_rounded() -> None:
+    """Order 2 is met within what the six digits of A3 leave open, however few digits the entries
+    have that are made of it; a digit of it that is wrong is not explained.
+    """
+    (table,) = julia.find(SHORT, "x")
+    assert imported(table, "x").order.order == 2
+    assert findings(replace(table, order=2)) == []
+    (wrong,) = julia.find(SHORT.replace("1.55798", "1.45798"), "x")
+    assert findings(replace(wrong, order=2)) == [("order", "error")]
+
+
+DECIMALS = """
+static const double m_A[3][3] = {{0, 0, 0}, {0.333333, 0, 0}, {0, 0.666667, 0}};
+static const double m_b[3] = {0.25, 0.0, 0.75};
+static const double m_c[3] = {0, 0.333333, 0.666667};
+static const int m_order = 3;
+"""
+
+
+def test_decimals_of_six_digits_are_rounded() -> None:
+    """A method file has them as fractions, and still they may be off by their last digits."""
+    (table,) = c.find(DECIMALS, "x")
+    assert findings(table) == []
+    (wrong,) = c.find(DECIMALS.replace("0.666667, 0}", "0.663667, 0}"), "x")
+    assert findings(wrong) == [("order", "error")]
