@@ -23,6 +23,8 @@ project = "gark"
 author = "The gark authors"
 release = version = __version__
 extensions = ["myst_parser"]
+myst_enable_extensions = ["dollarmath"]  # formulas as code hosts read them too
+html_math_renderer = "mathml"
 exclude_patterns = ["package-page.md"]  # the page of the package index
 html_theme = "furo"
 html_title = f"gark {__version__}"
@@ -116,11 +118,24 @@ def _make_readable(*event: Any) -> None:
         context["body"] = scrollable(breakable(context["body"]))
 
 
+def _write_formula(writer: Any, node: Any) -> None:
+    """A formula as MathML, which a browser draws without a script or a font of ours."""
+    from docutils.nodes import SkipNode
+    from latex2mathml.converter import convert
+
+    is_block = node.tagname == "math_block"
+    formula = convert(node.astext(), display="block" if is_block else "inline")
+    writer.body.append(f'<div class="math" tabindex="0">{formula}</div>' if is_block else formula)
+    raise SkipNode
+
+
 def setup(app: Sphinx) -> None:
-    """Complete pages when they are read, and show the cells of a notebook as code."""
+    """Complete pages when they are read, draw formulas, and show cells of a notebook as code."""
     # imported here: who reads the contents alone has no Sphinx
     from sphinx.directives.code import CodeBlock
 
+    formulas = (_write_formula, None)
+    app.add_html_math_renderer("mathml", inline_renderers=formulas, block_renderers=formulas)
     app.add_directive("code-cell", CodeBlock)
     app.connect("source-read", _complete)
     app.connect("html-page-context", _make_readable)
