@@ -34,6 +34,7 @@ from tests.cli.harness import ROOT
 
 TEXTS = Path(__file__).parent / "texts"
 EXPORTS = (ROOT / "docs/export.md").read_text(encoding="utf-8")
+TARGETS = EXPORTS.partition("\n\n##")[0]
 OF_MIDPOINTS = (
     *("c", "csv", "dedalus", "diffrax", "fortran", "json", "julia", "latex", "mathematica"),
     *("matlab", "numpy", "petsc", "rootedtrees", "sundials", "tempus"),
@@ -105,14 +106,14 @@ def test_a_target_is_recorded_documented_and_read_back(target: str) -> None:
     assert target in {x for x, _, _ in RECORDED}
     if bridge.program is not None:
         assert target in {x for x, _, _ in PROGRAMS}
-    rows = re.findall(r"^\| (`[^|]+) \|", EXPORTS, re.MULTILINE)
+    rows = re.findall(r"^\| (`[^|]+) \|", TARGETS, re.MULTILINE)
     assert sum(f"`{target}`" in row for row in rows) == 1
     assert bridge.reads_back == (target in READERS)
 
 
 def test_the_page_names_no_other_target() -> None:
     """The first column of the table of docs/export.md is the list of targets."""
-    rows = re.findall(r"^\| (`[^|]+) \|", EXPORTS.partition("\n\n##")[0], re.MULTILINE)
+    rows = re.findall(r"^\| (`[^|]+) \|", TARGETS, re.MULTILINE)
     assert sorted(re.findall("`([^`]+)`", " ".join(rows))) == sorted(bridges())
 
 
