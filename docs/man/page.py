@@ -16,7 +16,8 @@ from textwrap import dedent
 import click
 
 from garkcli import __version__
-from garkcli.cli.main import COMMANDS, gark
+from garkcli.cli.main import gark
+from garkcli.cli.table import SHOWN
 
 FILE = Path(__file__).parent / "gark.1"
 COMMAND_LINE = FILE.parents[1] / "command-line.md"
@@ -60,7 +61,7 @@ def page() -> str:
         *options(context),
         ".SH COMMANDS",
     ]
-    for name in COMMANDS:
+    for name in SHOWN:
         lines += command(name, context)
     lines += [".SH EXIT STATUS", *listed(exit_codes())]
     lines += [".SH ENVIRONMENT", *listed(ENVIRONMENT)]

@@ -216,7 +216,7 @@ def stable_values(
 def found_methods(
     found: Design | Minimum | Result, family: AnyFamily | None = None, whose: Whose | None = None
 ) -> list[MethodFile]:
-    r"""The methods that were found, each with the text of its file: ``gark design --emit-all``.
+    r"""The methods that were found, each with the text of its file: ``gark design --output-dir``.
 
     Args:
         found: what ``find_parameters``, ``minimise`` or ``search_methods`` returned. Of a design

@@ -158,7 +158,7 @@ def _found(name: object) -> Shelved:
     Raises:
         NoSuchMethod: there is none, or the name may mean several.
     """
-    from garkcli.methodfile.naming import PREFIX, find_named
+    from garkcli.methodfile.naming import FAMILY, PREFIX, find_named
 
     if not isinstance(name, str):
         raise NoSuchMethod(f"a name is text, not {type(name).__name__}", code="arrays")
@@ -170,6 +170,8 @@ def _found(name: object) -> Shelved:
         if fault.message.startswith("no such file"):
             raise NoSuchMethod(message, fault.help, code="unknown-word") from None
         raise NoSuchMethod(fault.message, fault.help, code=fault.code) from None
+    if method is not None and method.shelf == FAMILY:
+        raise NoSuchMethod(message, f"load({method.name!r}) makes it", code="unknown-word")
     if method is None:
         raise NoSuchMethod(message, "load(path) reads a file", code="unknown-word")
     return method

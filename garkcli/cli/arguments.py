@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 _NOTES = "garkcli.notes"
 """Where a context keeps what is to be said once it is known how much the user wants to hear."""
 _VARIABLE = "GARK_PATH"
+SPELLINGS = {"color": "colour", "minimiz": "minimis", "recogniz": "recognis"}
+"""American spellings in options, and the ones that the help shows."""
+OLD_NAMES = {"emit-all": "output-dir"}
+"""Options that had another name."""
 DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
 
@@ -203,6 +207,25 @@ def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | No
 
         check_suffix(Path(path))
     return path
+
+
+def spelled(word: str) -> str:
+    """An option or one of its words, however the reader spells: ``--minimize`` is ``--minimise``,
+    ``--colors`` is ``--colours``. ``--color`` is about text and stays.
+
+    >>> spelled("minimize"), spelled("colors-used"), spelled("color"), spelled("emit-all")
+    ('minimise', 'colours-used', 'color', 'output-dir')
+    """
+    if word == "color":
+        return word
+    for american, british in SPELLINGS.items():
+        word = word.replace(american, british)
+    return OLD_NAMES.get(word, word)
+
+
+def workers(_: click.Context, __: click.Parameter, jobs: int | None) -> int | None:
+    """How many processes: 0 is one for each processor."""
+    return (os.cpu_count() or 1) if jobs == 0 else jobs
 
 
 def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:

@@ -119,8 +119,8 @@ def _check(given: Given) -> None:
     if given.search is not None and given.minimise is not None:
         message = "--minimise compares all methods, --search finds some"
         raise UsageProblem(message, "leave one of them out", code="options-clash")
-    if given.emit_all is not None and given.minimise is not None:
-        message = "--minimise finds one method, --emit-all writes several"
+    if given.folder is not None and given.minimise is not None:
+        message = "--minimise finds one method, --output-dir writes several"
         raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
 
 
@@ -130,7 +130,7 @@ def _check_stability(given: Given) -> None:
     Raises:
         UsageProblem: a file or a search is asked for too.
     """
-    others = (given.emit, given.emit_all, given.search, given.minimise)
+    others = (given.emit, given.folder, given.search, given.minimise)
     if all(option is None for option in others):
         return
     message = f"--{given.stability} gives a set of values, --emit, --search, --minimise do not"
@@ -197,8 +197,8 @@ def _prepare_places(given: Given) -> None:
         from garkcli.page.writing import refuse_unwritable
 
         refuse_unwritable(given.emit)
-    if given.emit_all is not None:
-        make_folder(given.emit_all)
+    if given.folder is not None:
+        make_folder(given.folder)
 
 
 def make_folder(path: str) -> None:
@@ -375,7 +375,7 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
         UsageProblem: there is none.
         MethodError: the values of the first cannot be written in a method file.
     """
-    if given.emit is None and given.emit_all is None:
+    if given.emit is None and given.folder is None:
         return
     from garkcli.api.design import found_files
     from garkcli.design.minimise.result import Minimum
@@ -394,8 +394,9 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
         raise UsageProblem(message, cure, code="not-found")
     if given.emit is not None:
         write_whole(given.emit, [files[0].text])
-    if given.emit_all is not None:
-        names = file_names(given.emit_all, family.source)
+        output.note(f"wrote {given.emit}")
+    if given.folder is not None:
+        names = file_names(given.folder, family.source)
         for number, file in enumerate(files, start=1):
             path = next(names)
             try:
@@ -433,7 +434,7 @@ def _search(family: FamilyFile, given: Given, output: Output) -> int:
         raise UsageProblem("a search is for an order", cure, code="option-alone")
     asked = FileSearch.of(family, given.order, given.whose)
     result, ended = _searched(asked, given)
-    files = _written(family, result, given)
+    files = _written(family, result, given, output)
     output.tell(REPORT, SearchReport(family.source, asked.search, result, files))
     if ended is not None:
         return ended
@@ -475,7 +476,9 @@ def _lost(_task: Task, why: str) -> Timed:
     )
 
 
-def _written(family: FamilyFile, result: Result, given: Given) -> Sequence[str | None]:
+def _written(
+    family: FamilyFile, result: Result, given: Given, output: Output
+) -> Sequence[str | None]:
     """Write the files that are asked for, of one the first method of which most is proved; where
     each method is.
     """
@@ -484,13 +487,14 @@ def _written(family: FamilyFile, result: Result, given: Given) -> Sequence[str |
 
     found = list(found_files(result, family))
     files: list[str | None] = [None] * len(found)
-    if given.emit_all is not None:
-        files = list(islice(file_names(given.emit_all, family.source), len(found)))
+    if given.folder is not None:
+        files = list(islice(file_names(given.folder, family.source), len(found)))
     best = min(found, key=_proof, default=None)
     for place, method in enumerate(found):
         for path in (files[place], given.emit if method is best else None):
             if path is not None:
                 write_whole(path, [method.text])
+                output.note(f"wrote {path}")
                 files[place] = files[place] or path
     return files
 
@@ -532,11 +536,11 @@ def sweep(given: Given, output: Output) -> None:
         output.tell(REPORT, report)
     if given.parquet is not None:
         write_parquet(report, given.parquet)
+        output.note(f"wrote {given.parquet}")
     if given.plot is not None:
-        from garkcli.plots.saving import save_scene
         from garkcli.plots.sweep import sweep_scene
 
-        save_scene(sweep_scene(report, *plan.pareto[:2]), Path(given.plot))
+        output.save_plot(sweep_scene(report, *plan.pareto[:2]), given.plot)
 
 
 def _refuse_plot(plan: Plan) -> None:

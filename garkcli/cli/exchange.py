@@ -85,6 +85,8 @@ def import_(given: Given, output: Output) -> None:
         if table.source in given.sources:
             output.note("; ".join(_other(table)))
     files = {} if given.folder is None else _written(results, given.folder)
+    if files:
+        output.note(f"wrote {counted(len(files), 'method file')} into {given.folder}")
     if output.format == "yaml":
         output.write(yaml_text(results))
     else:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,7 @@ from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import say_faults
 from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem
+from garkcli.files import is_stream
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
@@ -209,10 +211,10 @@ def show(given: Given, output: Output) -> None:
 def _entry(given: Given, method: MethodFile) -> Entry:
     """What is known of the method."""
     from garkcli.catalogue.entries import entry_of_method, entry_on
-    from garkcli.methodfile.naming import find_named, shelf_of
+    from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
 
     named = find_named(given.file)
-    if named is not None and not given.settings:
+    if named is not None and named.shelf != FAMILY and not given.settings:
         return entry_on(shelf_of(named), named, judges=True)
     return entry_of_method(method, given.file)
 
@@ -244,7 +246,8 @@ def report(given: Given, output: Output) -> int:
     """All about methods as one HTML page, to be looked at, printed and passed on.
 
     FILE is a method file, a directory, a pattern or a name of the catalogue, as for gark check.
-    The page needs no network: tableau, conjugate and pair typeset, the orders with the tree at
+    gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to standard output. The page
+    needs no network: tableau, conjugate and pair typeset, the orders with the tree at
     which each ends, B, C and D, the order conditions to be filtered, pictures, properties, claims,
     references. Of several methods it has a table that compares them, and a part each. The claims of
     a file are about its method: with --pair or --conjugate the page has none.
@@ -256,6 +259,9 @@ def report(given: Given, output: Output) -> int:
     from garkcli.webpage.reported import reported
 
     paths = given.files_meant(output)
+    if output.path is None and not output.is_streamed:
+        output.path = _page_name(paths, given.which)
+        output.check_place()
     asked = given.order, given.pictures is not False, given.settings
     found = (reported(_meant(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
@@ -264,6 +270,20 @@ def report(given: Given, output: Output) -> int:
         if not method.outcome.is_read:
             say_faults(method.outcome)
     return max(method.outcome.exit_code for method in methods)
+
+
+def _page_name(paths: list[str], which: str | None) -> str:
+    """The file of a page that no option names: METHOD.html, or report.html of several methods."""
+    if len(paths) > 1 or is_stream(paths[0]):
+        return "report.html"
+    from garkcli.methodfile.naming import called
+
+    path = called(paths[0])
+    name = path if path.startswith("{") else path.replace("\\", "/").rpartition("/")[2]
+    for suffix in (".yml", ".yaml", ".gark"):
+        name = name.removesuffix(suffix)
+    name = re.sub(r"[^\w.()+-]+", "-", name).strip("-")
+    return f"{name}-{which}.html" if which else f"{name}.html"
 
 
 def _meant(path: str, given: Given) -> str | GarkMethod:

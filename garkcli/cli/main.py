@@ -7,6 +7,7 @@ import gc
 import os
 import sys
 from collections.abc import Sequence
+from itertools import groupby
 from typing import NoReturn
 
 import click
@@ -27,7 +28,7 @@ from garkcli.cli.streams import (
     put,
     say,
 )
-from garkcli.cli.table import COMMANDS
+from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import GarkError, UsageProblem, counted
 from garkcli.files import noting_inputs
@@ -45,7 +46,7 @@ class _LazyGroup(click.Group):
     """A group that imports a command only to run it or to show its help."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(COMMANDS)
+        return list(SHOWN)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         return command_of(cmd_name) if cmd_name in COMMANDS else None
@@ -56,7 +57,7 @@ class _LazyGroup(click.Group):
         # a shell that asks what may follow is told no mistakes
         is_run = not ctx.resilient_parsing
         if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
-            ctx.fail(no_such_command(args[0], COMMANDS))
+            ctx.fail(no_such_command(args[0], SHOWN))
         return super().resolve_command(ctx, args)
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
@@ -67,8 +68,10 @@ class _LazyGroup(click.Group):
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        with formatter.section("Commands"):
-            formatter.write_dl([(name, row.summary) for name, row in COMMANDS.items()])
+        width = max(map(len, SHOWN))
+        for group, names in groupby(SHOWN, key=lambda name: SHOWN[name].group):
+            with formatter.section(group):
+                formatter.write_dl([(f"{x:{width}}", SHOWN[x].summary) for x in names])
 
 
 def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -98,10 +101,10 @@ def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> N
 @click.option("--debug", is_flag=True, help="Show the traceback of a fault of the program.")
 @click.pass_context
 def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read where faults are shown
-    """Order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
+    """The order of a Runge-Kutta method, proved exactly, and which coefficient is wrong.
 
-    A method file (YAML) is a Butcher tableau, or diagonal methods and how the blocks between them
-    are made:
+    METHOD is a name (gark list methods), a family such as gauss-2, or a file: a Butcher tableau, or
+    several methods and the rule that couples them.
 
     \b
         A: [[0, 0], [1/2, 0]]

@@ -52,7 +52,7 @@ def new(given: Given, output: Output) -> None:
     from garkcli.page.writing import write_whole
 
     write_whole(place, [text])
-    output.note(f"{place}: written; gark check {place} proves its claims")
+    output.note(f"wrote {place}; gark check {place} proves its claims")
 
 
 def _place(given: Given, output: Output) -> str | None:
@@ -77,7 +77,7 @@ def _place(given: Given, output: Output) -> str | None:
 
 
 def of_tableau_text(name: str, text: str) -> str:
-    """A method file of a pasted tableau; ``-`` is standard input.
+    """A method file of a pasted tableau; ``-`` is standard input, ``@FILE`` a file.
 
     Raises:
         MethodError: it is no tableau, or no text.
@@ -87,8 +87,8 @@ def of_tableau_text(name: str, text: str) -> str:
     from garkcli.methodfile.source import METHOD_FILE
     from garkcli.methodfile.template import of_tableau
 
-    if text == "-":
-        text, _ = read_text("-", METHOD_FILE)
+    if text == "-" or text.startswith("@"):
+        text, _ = read_text(text.removeprefix("@"), METHOD_FILE)
     if "\n" not in text.strip():
         text = text.replace(";", "\n")
     return of_tableau(name, read_pasted(text))
@@ -100,17 +100,17 @@ def _member(text: str) -> Member:
     Raises:
         UsageProblem: it is not written so.
     """
+    from garkcli.families.registry import member_named
     from garkcli.methodfile.template import Member
 
-    family, sign, stages = text.partition(":")
-    is_count = stages.isascii() and stages.isdigit() and len(stages) < 4
-    if not sign or not is_count:
+    found = member_named(text, is_known=False)
+    if found is None:
         raise UsageProblem(
             f"--family {text}: a name and stages are expected",
-            "for instance --family gauss:2; gark list has the names",
+            "for instance --family gauss-2; gark list families has the names",
             code="option-value",
         )
-    return Member(family.strip(), int(stages))
+    return Member(*found)
 
 
 def _ask(given: Given) -> None:

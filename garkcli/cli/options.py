@@ -18,10 +18,10 @@ import click
 from garkcli.cli import arguments
 from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
 from garkcli.cli.streams import complain, put, safe_pieces, say, wants_colour
-from garkcli.cli.table import COMMANDS, Option, option_of, options_of
+from garkcli.cli.table import COMMANDS, HIDDEN, Option, option_of, options_of
 from garkcli.doing import hush
 from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
-from garkcli.files import note_input
+from garkcli.files import STDIN, note_input
 from garkcli.page.paint import Paint
 
 if TYPE_CHECKING:
@@ -29,13 +29,18 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tell.report import Report
 
-CONTEXT = {"help_option_names": [], "max_content_width": 100}
+CONTEXT = {
+    "help_option_names": [],
+    "max_content_width": 100,
+    "token_normalize_func": arguments.spelled,
+}
 """Settings of every command; ``-h`` and ``--help`` are an option of each."""
 _FILE = {"type": arguments.MethodType(), "callback": arguments.with_notes}
 ARGUMENTS: dict[str, dict[str, Any]] = {
     "FILE": _FILE,
     "FIRST": _FILE,
     "SECOND": _FILE,
+    "ORDER": {"type": click.IntRange(1, 10_000), "name": "order_asked"},
     "PLACE": {"type": PATH, "name": "file", "metavar": "[FILE]"},
     "SPEC": {"type": INPUT},
     "SOURCE": {"type": INPUT},
@@ -60,6 +65,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "positive": {"callback": read_by(arguments.positive)},
     "positives": {"callback": read_by(arguments.positives)},
     "ratios": {"callback": read_by(arguments.ratio)},
+    "jobs": {"callback": arguments.workers},
     "square": {"callback": read_by(arguments.square)},
     "seconds": {"type": click.FloatRange(min=0, min_open=True), "callback": arguments.finite},
     "target": {"required": True, "shell_complete": completed("bridges.registry:bridges")},
@@ -67,11 +73,22 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 """What values of options are, by the words of the table."""
 WORDS = {
-    "forms": "conversion.targets:TARGETS",
+    "forms": "cli.options:forms",
     "kinds": "trees.symplectic:KINDS",
     "objectives": "design.minimise.objectives:OBJECTIVES",
 }
 """Where the words are that an option takes one of."""
+
+
+REDUCED = "reduced"
+"""What ``--to`` takes besides the forms: the smallest method that does the same."""
+
+
+def forms() -> list[str]:
+    """What ``gark convert --to`` takes."""
+    from garkcli.conversion.targets import TARGETS
+
+    return [*TARGETS, REDUCED]
 
 
 def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -200,6 +217,7 @@ def _made(
         ],
         help=inspect.getdoc(function),
         context_settings=CONTEXT,
+        hidden=row.group == HIDDEN,
     )
 
 
@@ -328,6 +346,7 @@ class Output:
         format: the chosen format.
         path: the file of ``-o``, or None.
         verbosity: −1, 0 or 1.
+        is_streamed: whether ``-o -`` asks for standard output.
 
     Raises:
         UsageProblem: the report will have no place; said before any work is done.
@@ -343,6 +362,7 @@ class Output:
         self.format = format
         self.path = path
         self.verbosity = verbosity
+        self.is_streamed = False
         self._color = color
         if verbosity < 0:
             hush()
@@ -355,7 +375,10 @@ class Output:
         """
         verbosity = values.pop("verbose", False) - values.pop("quiet", False)
         format, path = values.pop("format", "text"), values.pop("output", None)
+        is_streamed = path == STDIN
+        path = None if is_streamed else path
         output = cls(format, path, verbosity, values.pop("color", "never"))
+        output.is_streamed = is_streamed
         for note in arguments.notes():
             output.note(note)
         return output

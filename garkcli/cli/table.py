@@ -50,6 +50,7 @@ class Command(NamedTuple):
     """A command.
 
     Attributes:
+        group: the heading that the help lists it under; ``HIDDEN`` for a name that is not listed.
         file: of this room that has it.
         arguments: what it takes; FILE is a method file or a name of the catalogue.
         summary: its line in the help.
@@ -59,6 +60,7 @@ class Command(NamedTuple):
         common: the options that commands share, in the order of the help.
     """
 
+    group: str
     file: str
     arguments: str
     summary: str
@@ -67,6 +69,8 @@ class Command(NamedTuple):
     common: str
 
 
+HIDDEN = "hidden"
+"""The group of old names: they work, and no list has them."""
 SECONDS = 60.0
 """The time of ``gark design`` where none is given."""
 _COMMON = "--format --output --quiet --verbose --color --help"
@@ -74,9 +78,11 @@ _OPTIONS = f"""
 --format formats
 import --format formats | The report, or the method files themselves.
 cite --format formats = cite.format
--o --output FILE written | Write the report to FILE.
+-o --output FILE written | Write the result to FILE; - is standard output.
 export -o --output FILE written | Write to FILE.
-import -o --output DIR written name=folder | Write a method file for each method into DIR.
+--output-dir DIR written name=folder | Write a method file for each method into DIR.
+report -o --output FILE written
+    | Write the page to FILE; by default to METHOD.html, of several methods to report.html.
 -q --quiet | Say less.
 -v --verbose | Say more.
 import -v --verbose | Show the method files.
@@ -91,7 +97,7 @@ import -v --verbose | Show the method files.
 --digits N 1..1000
     | Numbers in decimals of N digits; by default exact, where they have simple radicals.
 --document | With --format latex: a document that compiles as it stands.
--j --jobs N 0..256 default=1
+-j --jobs N 0..256 jobs default=1
     | Processes side by side; 0 for as many as there are processors.
 --scheduler ADDRESS = run_sweep.scheduler
 --plot FILE picture | Draw what is found into FILE: .png, .svg or .pdf.
@@ -104,8 +110,9 @@ import -v --verbose | Show the method files.
 --require-claims | A file that makes no claim under `expect` fails.
 
 --tableau TEXT
-    | A Butcher tableau, its lines parted by ; or line ends; - reads it from standard input.
---family NAME:STAGES many name=families | A member of a family, one a colour; repeatable.
+    | A Butcher tableau, its lines parted by ; or line ends; @FILE reads it from a file, - from
+      standard input.
+--family NAME-STAGES many name=families | A member of a family, one a colour; repeatable.
 --transfer RULE default= = gark.transfer
     | How the blocks between families are made; collocation where none is named.
 --name TEXT = from_arrays.name | What the method is called.
@@ -184,7 +191,6 @@ design --digits N 1..1000 default=12 | Digits of numbers without simple radicals
     | After so many what is not decided is left open, or a search ends; {SECONDS:.0f} by default, of
       a search none.
 --emit FILE written | Write the first method found as a method file with its claim.
---emit-all DIR written | Write every method found into a folder.
 --minimise WHAT words=objectives = minimise.objective
 --p-stable value=p-stable name=stability = stable_values.wanted
     | The exact set of values of one parameter for which the method is P-stable.
@@ -199,7 +205,8 @@ design --slow A square = stable_values.slow
     | Search from N random starts instead, and prove what is found.
 --most K 1..100000 default= = search_methods.most
     | With --search: methods to find at most; 5 by default.
-design -j --jobs N 1..1000 | With --search: processes side by side.
+design -j --jobs N 0..1000 jobs
+    | With --search: processes side by side; 0 for as many as there are processors.
 design --scheduler ADDRESS
     | With --search: work on the Dask cluster there; needs garkcli[cluster].
 --choose pairs | As --set, and say what each choice leaves; repeatable.
@@ -207,7 +214,8 @@ design --scheduler ADDRESS
 --rows FILE written = run_sweep.rows
     | Where the rows go, a line of JSON each; by default SPEC with .jsonl.
 --resume = run_sweep.is_resumed | Do what is missing in the rows.
-sweep -j --jobs N 1..60 = run_sweep.jobs
+sweep -j --jobs N 0..60 jobs = run_sweep.jobs
+    | Processes side by side; 0 for as many as there are processors.
 --top N 1.. default=10 | How many of the best are shown; CSV and JSON lines have all.
 --parquet FILE written
     | Write the methods that are kept as Parquet too; needs garkcli[parquet].
@@ -238,92 +246,99 @@ docstring and its signature. ``alone=`` is the value of a flag without one, ``va
 is a word of several, ``default=`` without a word shows none.
 """
 _COMMANDS = """
-checking: check [FILE...] | orders, B/C/D, symplecticity and the claims of method files
+[Inspect]
+checking: check [FILE...] | order and properties of methods; are their claims true?
     = check_file analyse find_order find_orders is_symplectic find_property simplifying
     --max-order --error-constants --properties --explain --baseline --require-claims --jobs
     --digits --set
-new: new [PLACE] | a method file, from a tableau or from families
-    = from_arrays loads with_claims
-    --tableau --family --transfer --name --force
-checking: claims FILE... | what is true of a method, as its file claims it
-    = claims_of with_claims
-    --write --all --key
-trees: trees | enumerate or count the N-trees of an order
-    = all_trees count_trees parse_tree format_tree
-    --colours --order --upto --root --colours-used --count --yes --tree --svg --document
-    --symplectic --kind --members
-trees: conditions [FILE] | the order-condition table, of any method or of a file
-    = all_conditions conditions elementary_weight
-    --colours --order --only --coloured --conjugate --pair --failing --sort --digits --document
-    --symplectic --kind --members --set
-tableaux: tableau FILE | the assembled tableau, all blocks
-    = load
-    --conjugate --pair --digits --document --set
-tableaux: conjugate FILE | the symplectic conjugate tableau, or the pair
-    = conjugate pair symplectic_pair
-    --pair --digits --document --set
-tableaux: reduce FILE | the smallest method that does the same, as a method file
-    = reduced
+looking_up: show FILE | one method: tableau, orders, properties, reference
+    = load analyse catalogue
     --set
-tableaux: convert FILE | the same method in another form, as a method file
-    = convert
-    --to --stages --set
-tableaux: diff FIRST SECOND | how two methods differ, and whether they are the same one
-    = compare
-    --strict --set
+looking_up: report FILE... | methods as one HTML page
+    = report_page
+    --conjugate --pair --order --pictures --set
+looking_up: list [WHAT] [WORD...] | families, transfer rules, problems, methods of the catalogue
+    = names catalogue
+    --catalogue
+looking_up: explain [WORD...] | the meaning of a word in a report or a file
+    = explain
+looking_up: cite FILE... | the publication of a method, as BibTeX
+    = cite
+[Analyse]
 stability: stability FILE... | A-, L-, P-stability, intervals, SSP coefficient, exactly
     = find_stability two_springs
     --conjugate --pair --slow --fast --ratio --digits --plot --order-star --set
-running: modified FILE | the modified equation or Hamiltonian, effective order
+trees: conditions [FILE] | the order conditions, in general or of one method
+    = all_conditions conditions elementary_weight
+    --colours --order --only --coloured --conjugate --pair --failing --sort --digits --document
+    --symplectic --kind --members --set
+trees: trees [ORDER] | the trees of an order: list, count or draw them
+    = all_trees count_trees parse_tree format_tree
+    --colours --order --upto --root --colours-used --count --yes --tree --svg --document
+    --symplectic --kind --members
+running: modified FILE | the modified equation or Hamiltonian, and the effective order
     = backward_analysis modified_formula modified_run
     --order --conjugate --pair --equation --problem --seed --digits --document --set
-running: converge FILE... | the convergence test on a problem
+running: converge FILE... | errors over step sizes: does the method show its order?
     = converge problem hamiltonian load_problem bind integrate
     --conjugate --pair --problem --omega --split --seed --stiffness --t-end --steps --work
     --against --plot --set
-running: energy FILE | energy and other invariants over a long time: do they drift?
+running: energy FILE | does the energy drift over a long time?
     = long_run symplecticity_defects trajectory
     --conjugate --pair --problem --omega --split --seed --stiffness --t-end --step --digits
     --points --symplecticity --bounded --max-error --modified --plot --set
-designing: design FILE | for which values of its parameters a method has an order
+[Build]
+new: new [PLACE] | a new method file, from a tableau or from families
+    = from_arrays loads with_claims
+    --tableau --family --transfer --name --force
+tableaux: tableau FILE | the whole tableau, block by block
+    = load
+    --conjugate --pair --digits --document --set
+tableaux: conjugate FILE | the symplectic conjugate, or the symplectic pair
+    = conjugate pair symplectic_pair
+    --pair --digits --document --set
+tableaux: convert FILE | the same method in another form, or with fewer stages
+    = convert
+    --to --stages --set
+tableaux: diff FIRST SECOND | how two methods differ, or that they are the same
+    = compare
+    --strict --set
+[Search]
+designing: design FILE | the parameter values that give a method an order
     = load_family find_parameters minimise search_methods found_methods stable_values
     --order --conjugate --pair --seconds --digits --emit --minimise --p-stable --a-stable
     --l-stable --colour --slow --fast --up-to --search --seed --most --jobs --scheduler
-    --emit-all --set --choose
-designing: sweep SPEC | many methods side by side: which are best
+    --output-dir --set --choose
+designing: sweep SPEC | many methods compared: which are best?
     = run_sweep
     --rows --resume --jobs --scheduler --top --parquet --plot --catalogue
+[Exchange and CI]
+exchange: import SOURCE... | methods from C, Python, MATLAB, Julia, LaTeX, JSON and others
+    = import_methods
+    --from --recognise --output-dir
 exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
     = export
     --conjugate --pair --to --digits --test --set
     only --output --help
-exchange: import SOURCE... | methods out of C, Python, MATLAB, Julia, LaTeX, JSON and others
-    = import_methods
-    --from --recognise
-exchange: audit PATH... | the tables of a source tree against what they declare
+exchange: audit PATH... | the tables in a source tree: are their declared orders true?
     = audit
     --strict
-looking_up: certificate FILE | what proves the orders, to be checked without gark
+checking: claims FILE... | what is true of a method, as claims for its file
+    = claims_of with_claims
+    --write --all --key
+looking_up: certificate FILE | a proof of the orders, which a separate short script checks
     = certificate prove_method
     --set
-looking_up: explain [WORD...] | what a word of a report or of a file means
-    = explain
-looking_up: list [WHAT] [WORD...] | families, transfer rules, problems, methods of the catalogue
-    = names catalogue
-    --catalogue
-looking_up: show FILE | all about one method: tableau, properties, reference
-    = load analyse catalogue
-    --set
-looking_up: cite FILE... | where methods were published, for a bibliography
-    = cite
-looking_up: report FILE... | all about methods as one HTML page
-    = report_page
-    --conjugate --pair --order --pictures --set
-looking_up: schema | the JSON Schemas of method files, problem files and reports
+looking_up: schema | JSON Schemas of method files, problem files and reports
     = method_file_schema problem_file_schema sweep_schema report_schema
     --problem --sweep --report
+[hidden]
+tableaux: reduce FILE | the smallest method that does the same: convert --to reduced
+    = reduced
+    --set
 """
-"""A paragraph a command: the file that has it, its name, what it takes, ``|`` its summary, ``=``
+"""A group, in brackets, before its commands; those of ``HIDDEN`` are old names that still work. A
+paragraph a command: the file that has it, its name, what it takes, ``|`` its summary, ``=``
 the calls of Python that do the same, its options; ``only`` the common options where it has not all.
 """
 
@@ -343,7 +358,17 @@ def _option(row: str) -> Option:
     return Option(" ".join(words[:written]), tuple(words[written:]), of, " ".join(help.split()))
 
 
-def _command(row: str) -> tuple[str, Command]:
+def _commands(table: str) -> Iterator[tuple[str, Command]]:
+    """Every command, by its name, in the group whose heading stands above it."""
+    group = ""
+    for row in _paragraphs(table):
+        if row.startswith("["):
+            group = row.strip("[]")
+        else:
+            yield _command(group, row)
+
+
+def _command(group: str, row: str) -> tuple[str, Command]:
     row, _, common = row.partition(" only ")
     head, _, rest = row.partition(" | ")
     summary, _, rest = rest.partition(" = ")
@@ -351,14 +376,16 @@ def _command(row: str) -> tuple[str, Command]:
     file, _, usage = head.partition(": ")
     name, _, arguments = usage.partition(" ")
     return name, Command(
-        file, arguments, summary, calls.strip(), sign.strip() + options, common or _COMMON
+        group, file, arguments, summary, calls.strip(), sign.strip() + options, common or _COMMON
     )
 
 
 OPTIONS = {row.key: row for row in map(_option, _paragraphs(_OPTIONS))}
 """Every option, by its longest flag, and by the command where it is another one there."""
-COMMANDS = dict(map(_command, _paragraphs(_COMMANDS)))
-"""Every command."""
+COMMANDS = dict(_commands(_COMMANDS))
+"""Every command, also those under an old name."""
+SHOWN = {name: row for name, row in COMMANDS.items() if row.group != HIDDEN}
+"""The commands that the help lists, group by group."""
 
 
 def option_of(command: str, flag: str) -> Option:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from garkcli.cli.options import Given, Output, check_document, declared
+from garkcli.cli.options import REDUCED, Given, Output, check_document, declared
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem, did_you_mean
 from garkcli.tell.report import FORMATS
 
@@ -232,11 +232,11 @@ def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
 
 @declared("reduce", ("yaml", *FORMATS))
 def reduce(given: Given, output: Output) -> None:
-    """The smallest method that does the same, as a method file.
+    """The smallest method that does the same: gark convert FILE --to reduced.
 
-    Stages that have no influence on the step are left out, and stages that are equal on every
-    problem become one. Where nothing is to be reduced the file is written as it is, and a note
-    says so. Claims are left behind: the orders stay, B, C and D may not.
+    It leaves out the stages that do not influence the step, and joins those that are equal on every
+    problem. A method with no such stage is written as it is, and a note says so. Claims are left
+    out: the orders stay, B, C and D may change.
     """
     from garkcli.api.methods import reduced
     from garkcli.methodfile.load import load
@@ -279,10 +279,17 @@ def _stages(tableau: Tableau) -> str:
 def convert(given: Given, output: Output) -> None:
     """The same method in another form, as a method file.
 
-    Name, reference, tolerance, embedded weights and dense output stay; so do the claims that hold
-    of the result, and a note names those that do not. The pair is another method: its file claims
-    of it what FILE claims of the pair.
+    Name, reference, tolerance, embedded weights and dense output stay. So do the claims that hold
+    of the result; a note names the others. The pair is another method: its file claims of it what
+    FILE claims of the pair. --to reduced writes the smallest method that does the same, without
+    claims: it leaves out stages that do not influence the step, and joins equal ones.
     """
+    if given.to == REDUCED:
+        if given.stages is not None:
+            message = "--stages adds stages, --to reduced leaves some out"
+            raise UsageProblem(message, "use one of them", code="options-clash")
+        reduce(given, output)
+        return
     from garkcli.conversion.convert import convert
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called

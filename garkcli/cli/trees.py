@@ -40,6 +40,9 @@ def trees(given: Given, output: Output) -> None:
     With --symplectic the rooted trees that differ in the place of their root are one row: their
     conditions are equivalent for symplectic methods.
     """
+    if given.order_asked is not None and given.order is not None:
+        raise UsageProblem("the order is given twice", "give it once", code="options-clash")
+    given.order = given.order or given.order_asked
     kind = _kind_asked(given, output.format)
     if kind is not None:
         _free_trees(kind, given, output)
@@ -100,7 +103,7 @@ def _orders(given: Given) -> range:
     """
     if given.order is None:
         raise UsageProblem(
-            "which order?", "give --order n, or --tree for one tree", code="option-alone"
+            "which order?", "gark trees 4 lists order 4; --tree shows one tree", code="option-alone"
         )
     return range(1 if given.upto else given.order, given.order + 1)
 

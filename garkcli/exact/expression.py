@@ -7,7 +7,7 @@ The grammar, with ``^`` meaning ``**``::
     factor   = ("+" | "-") factor | power
     power    = atom [ "**" ["+" | "-"] integer ]
     atom     = number | name | function "(" sum [ "," integer ] ")" | "(" sum ")"
-             | "root_of" "(" sum "," sum ")"
+             | "√" atom | "root_of" "(" sum "," sum ")"
     function = "sqrt" | "cbrt" | "root"
 
 Numbers are read as written: ``0.1`` is one tenth. ``garkcli.exact.formula`` extends the grammar for
@@ -39,8 +39,9 @@ MAX_ROOT = 12
 
 _TOKEN = re.compile(
     r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),])|(?P<end>$))"
+    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),√])|(?P<end>$))"
 )
+ROOT_SIGN = "√"
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
 """The roots that have a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
@@ -48,7 +49,6 @@ _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     "\N{VULGAR FRACTION ONE THIRD}": "write 1/3",
     "\N{VULGAR FRACTION ONE QUARTER}": "write 1/4",
     "³": "write x**3",
-    "√": "write sqrt(x)",
     "½": "write 1/2",
     "²": "write x**2",
     "·": "use the sign *",
@@ -149,7 +149,7 @@ class Parser:
             self._fail(f"no {self.value_noun} here", self.example)
         result = self._sum()
         if self.kind != "end":
-            is_factor = self.kind in {"name", "number"} or self.value == "("
+            is_factor = self.kind in {"name", "number"} or self.value in {"(", ROOT_SIGN}
             cure = "write products with *" if is_factor else ""
             if self.value == ",":
                 cure = "write decimals with a point: 0.5"
@@ -244,9 +244,24 @@ class Parser:
             inner = self._sum()
             self._expect(")", start)
             return inner
+        if self.value == ROOT_SIGN:
+            return self._root_sign(start)
         if self.kind == "end":
             self._fail(f"the text ends where a {self.value_noun} is due")
         return self._fail(f"a {self.value_noun} is expected here")
+
+    def _root_sign(self, start: int) -> Expression:
+        """The square root of what follows the sign: √3, √(3/5)."""
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            message = f"nested more than {MAX_DEPTH} deep"
+            raise LimitExceeded(
+                message, "write it flatter", start, start + 1, code="file-too-large"
+            )
+        self._advance()
+        radicand = self._atom()
+        self.depth -= 1
+        return Root(radicand, 2, start=start, end=self.last_end)
 
     def _function(self, name: str, start: int) -> Expression:
         if name not in FUNCTIONS:

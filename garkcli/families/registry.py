@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pkgutil
+import re
 from collections.abc import Iterator, Mapping
 from importlib import import_module
 
@@ -63,6 +64,29 @@ OTHER_NAMES: Mapping[str, str] = {
     "deferred-corrections": "sdc",
 }
 """What people call members of the families, and how the program does."""
+
+
+_MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,3})")
+"""A member of a family in one word."""
+
+
+def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | None:
+    """The family and the size that a word names: ``gauss-2``, ``gauss:2``, or a single method.
+
+    Args:
+        text: the word.
+        is_known: whether there has to be such a family.
+
+    >>> member_named("gauss-2"), member_named("lobatto-iiia:3"), member_named("rk4")
+    (('gauss', 2), ('lobatto-iiia', 3), ('rk4', None))
+    """
+    word = text.strip().lower()
+    if word in FAMILIES:
+        return (word, None) if FAMILIES[word].is_single else None
+    found = _MEMBER.fullmatch(word)
+    if found is None or (is_known and found["family"] not in FAMILIES):
+        return None
+    return found["family"], int(found["size"])
 
 
 def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS) -> Recipe:
@@ -146,7 +170,7 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
     """The member of a family.
 
     Args:
-        name: a key of ``FAMILIES``.
+        name: a key of ``FAMILIES``, or a member such as ``gauss-2``.
         stages: how many, or whatever else the family is counted by; may be left out for a family
             of one method.
         options: what the member is chosen by besides; coefficients as text or numbers.
@@ -159,6 +183,8 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
     >>> diagonal_method("sdirk2", gamma="1/4").A
     ((1/4, 0), (1/2, 1/4))
     """
+    if stages is None and (member := member_named(name)) is not None:
+        name, stages = member
     family = FAMILIES.get(name)
     known = {} if family is None else {x.name: x for x in family.options}
     given: dict[str, Given] = {}

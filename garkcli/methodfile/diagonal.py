@@ -8,7 +8,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import UnknownFamily, nearest
 from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
-from garkcli.families.registry import FAMILIES, recipe_of
+from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
 from garkcli.methodfile.description import (
     MAX_ENTRIES,
@@ -36,6 +36,7 @@ from garkcli.methodfile.spelled_out import (
 
 _FORM = "write a list: [{family: gauss, stages: 2}, …]"
 _FORM_OF_MEMBER = "write for instance {family: gauss, stages: 2}"
+_TAG = "tag:yaml.org,2002:"
 _BESIDE = [key for key in BUTCHER.inside() if key.name not in {"A", "b", "c"}]
 
 
@@ -83,7 +84,7 @@ def methods(
     at: Reading, node: Node, structure: Structure, transfer: Node | None
 ) -> MethodsText | None:
     """The form ``methods``; None where it does not make a method."""
-    if keys_of(node) & {"A", "b", "family", "stages"}:
+    if keys_of(node) & {"A", "b", "family", "stages"} or _in_a_word(node) is not None:
         items = [node]  # one method needs no brackets around it
     else:
         items = at.source.items(node, "methods", _FORM)
@@ -120,6 +121,7 @@ def _is_too_large(at: Reading, found: Sequence[FamilyText | ButcherText], node: 
 
 def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
     """The method of colour ``l``, counted from 1."""
+    node = _in_a_word(node) or node
     keys, where = keys_of(node), f"method {l}"
     if isinstance(node, ScalarNode):
         message = f"{where}: a mapping is expected here"
@@ -138,6 +140,23 @@ def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
         return None
     family, entries = found
     return replace(family, further=further_of_method(at, entries, family.stages, names_beside(b)))
+
+
+def _in_a_word(node: Node) -> MappingNode | None:
+    """``gauss-2`` as ``{family: gauss, stages: 2}``; None for any other node."""
+    found = member_named(node.value) if isinstance(node, ScalarNode) else None
+    if found is None:
+        return None
+    name, size = found
+    marks = node.start_mark, node.end_mark
+    written = [("family", name, "str")]
+    if size is not None:
+        written.append((FAMILIES[name].size, str(size), "int"))
+    made = [
+        (ScalarNode(f"{_TAG}str", key, *marks), ScalarNode(f"{_TAG}{kind}", value, *marks))
+        for key, value, kind in written
+    ]
+    return MappingNode(f"{_TAG}map", made, *marks)
 
 
 def _written_out(node: ScalarNode) -> str:

@@ -53,7 +53,8 @@ def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
 
 
 def _methods() -> g.Schema:
-    method = g.defined("method").schema()
+    member = {"type": "string", "pattern": "^[a-zA-Z]"}
+    method = {"anyOf": [g.defined("method").schema(), member]}
     return {"anyOf": [rows_of(method), method]}
 
 

@@ -417,7 +417,13 @@ def word(words: Callable[[], Iterable[str]]) -> Kind:
     return Kind(schema, lambda at, node, where: at.source.choice(node, where, words()))
 
 
+YES_AND_NO = {"yes": True, "no": False, "true": True, "false": False}
+"""What people write for a truth, besides ``true`` and ``false``."""
+
+
 def _flag(at: Any, node: Node, where: str) -> bool | None:
+    if isinstance(node, ScalarNode) and node.value.lower() in YES_AND_NO:
+        return YES_AND_NO[node.value.lower()]
     found = at.source.choice(node, where, ("true", "false"))
     return None if found is None else found == "true"
 

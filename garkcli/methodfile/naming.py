@@ -28,6 +28,8 @@ from garkcli.methodfile.shelves import (
 )
 from garkcli.methodfile.source import METHOD_FILE
 
+FAMILY = "the families"
+"""The shelf of methods that are made when they are named."""
 PREFIX = "catalogue:"
 """What is before a name that is never a file; alone, or before a folder, it means all methods."""
 _OF_FILES = (".yaml", ".yml", ".json")
@@ -80,6 +82,8 @@ def can_be_name(argument: object) -> bool:
     """Whether it looks like a name, whatever exists: no file is looked for, no catalogue."""
     if not isinstance(argument, str) or argument in {STDIN, "", ".", ".."}:
         return False
+    if argument.startswith("{"):
+        return True
     if not {"/", os.sep, os.altsep, "\0"}.isdisjoint(argument):
         return False
     return len(argument) <= len(PREFIX) + MAX_WORD and not argument.endswith(_OF_FILES)
@@ -117,7 +121,26 @@ def look_up(name: str) -> Shelved | None:
         found = found or _called(letters_of(name), (shelf.spellings for shelf in shelves))
         if found:
             return _only(name, found)
-    return None
+    return _of_family(name)
+
+
+def _of_family(name: str) -> Shelved | None:
+    """A member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
+    from garkcli.families.registry import member_named
+
+    text = name.strip()
+    if text.startswith("{") and text.endswith("}") and "family" in text:
+        return _made(text)
+    member = member_named(text)
+    if member is None:
+        return None
+    family, size = member
+    called = family if size is None else f"{family}-{size}"
+    return _made(called)
+
+
+def _made(name: str) -> Shelved:
+    return Shelved(name, "", name, FAMILY, lambda: f"methods: {name}\n")
 
 
 def _in_turn() -> Iterator[Sequence[Shelf]]:

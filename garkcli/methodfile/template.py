@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
+from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.pasted import Pasted
@@ -23,7 +24,14 @@ class Member(Frozen):
     """A member of a family."""
 
     family: str
-    stages: int
+    size: int | None
+
+    def __str__(self) -> str:
+        """Its line in a file."""
+        if self.size is None:
+            return f"{{family: {self.family}}}"
+        known = FAMILIES.get(self.family)
+        return f"{{family: {self.family}, {known.size if known else 'stages'}: {self.size}}}"
 
 
 Values: TypeAlias = Mapping[str, str | Sequence[str]]
@@ -60,9 +68,8 @@ def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
         members: one a colour.
         transfer: the rule for the blocks between them.
     """
-    methods = [f"{{family: {x.family}, stages: {x.stages}}}" for x in members]
     between = {"transfer": transfer} if len(members) > 1 else {}
-    return new_file({"name": quoted(name), "methods": methods, **between})
+    return new_file({"name": quoted(name), "methods": [*map(str, members)], **between})
 
 
 def _row(numbers: Sequence[str]) -> str:

@@ -13,7 +13,7 @@ from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen, replace
-from garkcli.problems import stiff
+from garkcli.problems import stiff, textbook
 from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import (
@@ -178,6 +178,29 @@ _ALTERNATING = "alternating trees in which velocities do not branch"
 _TENTHS = (fmpq(1, 10), fmpq(1000))  # a step size and a time
 
 _ENTRIES = (
+    stiff_one(
+        "dahlquist",
+        "ẏ = λy, λ = −1 or minus the stiffness; the solution is known",
+        "ẏ = λ y, −λ the stiffness",
+        "the unbranched trees",
+        textbook.dahlquist,
+    ),
+    BuiltIn(
+        "logistic",
+        "ẏ = y (1 − y): growth and its limit; the solution is known",
+        "ẏ = y − y²: y and the rest",
+        "all, with at most 2 branches at a vertex of the rest, 1 at the first",
+        textbook.logistic,
+        is_hamiltonian=False,
+    ),
+    BuiltIn(
+        "lotka-volterra",
+        "predator and prey; with an invariant",
+        "u̇ = u (1 − v), v̇ = v (u − 1): u̇ and the rest",
+        "all, with at most 2 branches at a vertex",
+        textbook.lotka_volterra,
+        is_hamiltonian=False,
+    ),
     mechanical(
         "oscillator",
         "½p² and parts of ½ω²q²; sees the unbranched trees only",
@@ -256,6 +279,13 @@ _ENTRIES = (
         "ẏ = z, ż = σ ((1 − y²) z − y), σ the stiffness: z and the rest",
         "all, with at most 3 branches at a vertex of the stiff part",
         stiff.van_der_pol,
+    ),
+    stiff_one(
+        "robertson",
+        "three chemical reactions, one slow and two fast; mass is conserved",
+        "ȧ = −a/25 + 10⁴σbc, ċ = 3·10⁷σb², a + b + c constant, σ the stiffness: slow and fast",
+        "all, with at most 2 branches at a fast reaction, one at the slow one",
+        stiff.robertson,
     ),
     stiff_one(
         "reaction-diffusion",

@@ -120,6 +120,30 @@ def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
     return tuple(level + (x - middle) / stiffness for x in w)
 
 
+def robertson(terms: int, stiffness: fmpq) -> RightHandSide:
+    """Three reactions of very different speeds, the fast ones times the stiffness.
+
+    Source: Robertson 1966; Hairer and Wanner, Solving Ordinary Differential Equations II,
+    equation (IV.1.4).
+    """
+    variables = ("y1", "y2", "y3")
+    a, b, c = symbols(variables, "y")
+    k = rational(stiffness)
+    slow = rational(fmpq(1, 25)) * a
+    fast, faster = k * 10_000 * b * c, k * 30_000_000 * b**2
+    parts = [(-slow, slow, 0 * c), (fast, -fast - faster, faster)]
+    start = (fmpq(1), fmpq(0), fmpq(0))
+    return RightHandSide(
+        "robertson",
+        variables,
+        shared(parts, terms),
+        start,
+        fmpq(1, 1000),
+        invariants=(("mass", a + b + c),),
+        stiffness=stiffness,
+    )
+
+
 def _mean(numbers: Sequence[fmpq]) -> fmpq:
     return sum(numbers, fmpq(0)) / len(numbers)
 

@@ -19,7 +19,7 @@ KUTTA = (
 def test_files_and_their_claims(tmp_path: Path) -> None:
     """Every table becomes a method file whose claims hold, named after it."""
     folder = tmp_path / "out"
-    run = gark("import", str(SOURCES), "-o", str(folder), "--format", "json")
+    run = gark("import", str(SOURCES), "--output-dir", str(folder), "--format", "json")
     assert run.code == 0
     report = json.loads(run.out)
     jsonschema.validate(report, report_schema("import"))
@@ -50,7 +50,7 @@ def test_a_folder_for_the_files_that_cannot_be(tmp_path: Path) -> None:
     """It is told before anything is read."""
     path = tmp_path / "file"
     path.write_text("")
-    run = gark("import", "-", "-o", str(path / "x"), stdin=KUTTA)
+    run = gark("import", "-", "--output-dir", str(path / "x"), stdin=KUTTA)
     assert run.code == 2
     assert "cannot make the folder" in run.err
 

@@ -25,7 +25,6 @@ from tests.cli.harness import ROOT, gark
         ("check rk4 -format json", "several letters begin with --"),
         ("check rk4 --max-order five", "'five' is no whole number"),
         ("check rk4 --format jsn", "did you mean 'json'?"),
-        ("trees 4", "an order is --order 4"),
         ("conditions rk4 3", "an order is --order 3"),
         ("export rk4", "gark list exports shows"),
         ("list rk4", "gark list methods rk4"),

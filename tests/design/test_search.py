@@ -183,7 +183,7 @@ def test_finds_are_methods(text: str, order: int, starts: int, tmp_path: Path) -
     (tmp_path / "family.yaml").write_text(text, encoding="utf-8")
     source, folder = str(tmp_path / "family.yaml"), tmp_path / "found"
     arguments = ["design", source, "--order", str(order), "--search", str(starts)]
-    run = gark(*arguments, "--emit-all", str(folder), "--format", "json")
+    run = gark(*arguments, "--output-dir", str(folder), "--format", "json")
     report = json.loads(run.out)
     jsonschema.validate(report, report_schema("design-search"))
     assert (run.code, report["starts"]) == (0, starts)
@@ -460,7 +460,7 @@ def test_an_end_in_the_middle_keeps_what_is_found(
         return work(self, tasks)
 
     monkeypatch.setattr(Alone, "as_they_come", until)
-    arguments = ["--order", "3", "--search", "9", "--emit-all", str(tmp_path / "out")]
+    arguments = ["--order", "3", "--search", "9", "--output-dir", str(tmp_path / "out")]
     run = gark("design", str(path), *arguments)
     assert run.code == code
     assert f"then {said}" in " ".join(run.out.split())

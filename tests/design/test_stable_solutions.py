@@ -109,14 +109,14 @@ def test_all_solutions_are_written(tmp_path: Path) -> None:
     """Each of several solutions has a file of its own, whose claim gark check proves."""
     path, folder = tmp_path / "two.gark.yaml", tmp_path / "all"
     path.write_text(SDIRK, encoding="utf-8")
-    run = gark("design", str(path), "--order", "3", "--emit-all", str(folder))
+    run = gark("design", str(path), "--order", "3", "--output-dir", str(folder))
     assert run.code == 0
     files = sorted(folder.iterdir())
     assert [x.name for x in files] == ["two-1.gark.yaml", "two-2.gark.yaml"]
     texts = [x.read_text(encoding="utf-8") for x in files]
     assert texts[0] != texts[1]
     assert gark("check", *map(str, files), "--require-claims").code == 0
-    none = gark("design", str(path), "--order", "2", "--emit-all", str(folder))
+    none = gark("design", str(path), "--order", "2", "--output-dir", str(folder))
     assert (none.code, "no order has finitely many" in none.err) == (2, True)
 
 

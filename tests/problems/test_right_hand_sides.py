@@ -100,7 +100,7 @@ def test_stiffness_is_for_those_that_have_one() -> None:
         if entry.takes_stiffness:
             assert rhs(entry.name, 2, 7).stiffness == 7
         else:
-            with pytest.raises(UsageProblem, match="for the problems prothero-robinson"):
+            with pytest.raises(UsageProblem, match="for the problems dahlquist"):
                 problem(entry.name, 2, stiffness=fmpq(7))
 
 

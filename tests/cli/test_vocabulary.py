@@ -1,0 +1,110 @@
+"""One vocabulary: groups of commands, names of families, spellings, places of results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli import diagonal_method, load
+from garkcli.cli.table import COMMANDS, HIDDEN, SHOWN
+from garkcli.exact.expression import parse
+from tests.cli.harness import gark
+
+
+def test_the_help_has_groups() -> None:
+    """Each group is a heading, each command is below it once; old names are not listed."""
+    lines = gark("--help").out.splitlines()
+    groups = list(dict.fromkeys(row.group for row in SHOWN.values()))
+    assert [x[:-1] for x in lines if x.endswith(":") and x[:-1] in groups] == groups
+    assert HIDDEN not in groups
+    for name, row in SHOWN.items():
+        (place,) = [i for i, x in enumerate(lines) if x.startswith(f"  {name} ")]
+        heading = next(x for x in reversed(lines[:place]) if x.endswith(":"))
+        assert heading == f"{row.group}:"
+
+
+def test_an_old_name_is_another_command() -> None:
+    """``gark reduce`` is ``gark convert --to reduced``."""
+    assert set(COMMANDS) - set(SHOWN) == {"reduce"}
+    twice = "{A: [[1/2, 0], [1/4, 1/4]], b: [1/2, 1/2]}"
+    old = gark("reduce", "-", stdin=twice)
+    assert gark("convert", "-", "--to", "reduced", stdin=twice) == old
+    assert "1/2" in old.out
+    assert gark("convert", "rk4", "--to", "reduced", "--stages", "5").code == 2
+
+
+@pytest.mark.parametrize("name", ["gauss-7", "gauss:7", "{family: gauss, stages: 7}"])
+def test_a_family_by_any_name(name: str) -> None:
+    """In place of a file, in Python, and as a method of a file."""
+    assert "order 14, proved; order 15 fails" in " ".join(gark("check", name).out.split())
+    assert load(name).stages == (7,)
+    assert gark("check", "-", stdin=f"methods: [{name}]").out.startswith("<stdin>: order 14")
+    assert gark("show", name).code == 0
+
+
+def test_a_family_of_the_catalogue_or_not() -> None:
+    """A size that no file of the catalogue has; single methods; what is no member."""
+    assert diagonal_method("gauss-7") == diagonal_method("gauss:7") == diagonal_method("gauss", 7)
+    assert "order: 2" in gark("new", "--family", "gauss-2", "--family", "heun").out
+    assert "did you mean" in gark("check", "gaus-7").out
+    assert gark("check", "gauss-7000").code == 2
+    assert "needs --tableau" not in gark("new", "--family", "gauss").err
+
+
+@pytest.mark.parametrize(
+    ("written", "shown"),
+    [
+        ("design --minimize nothing rk4", "'--minimise'"),
+        ("trees 3 --colors 2 --colors-used 1,2", "[[]_1,[]_2]_1"),
+        ("conditions --colored -N 2", "b{1}"),
+        ("trees 4 --count", "order 4  4"),
+        ("trees --order 4 --count", "order 4  4"),
+        ("trees 4 --order 4", "the order is given twice"),
+        ("check rk4 gauss-2 -j 0", "gauss-2"),
+        ("check rk4 --color never", "rk4"),
+    ],
+)
+def test_spellings(written: str, shown: str) -> None:
+    """American and British ones, an order without its option, all processors."""
+    run = gark(*written.split())
+    assert shown in run.out + run.err
+
+
+def test_places_of_results(tmp_path: Path) -> None:
+    """A page has a name by default; ``-o -`` is standard output; ``--output-dir`` is a folder; all
+    say what they wrote.
+    """
+    page = gark("report", "rk4", "--no-pictures", "-n", "2", cwd=tmp_path)
+    assert (page.out, page.err) == ("", "wrote rk4.html\n")
+    assert (tmp_path / "rk4.html").stat().st_size > 0
+    two = gark("report", "rk4", "heun", "--no-pictures", "-n", "1", cwd=tmp_path)
+    assert two.err == "wrote report.html\n"
+    pair = gark("report", "{family: gauss, stages: 1}", "--pair", "--no-pictures", cwd=tmp_path)
+    assert pair.err == "wrote family-gauss-stages-1-pair.html\n"
+    assert gark("tableau", "rk4", "-o", "-", cwd=tmp_path).out == gark("tableau", "rk4").out
+    (tmp_path / "t.csv").write_text(gark("export", "rk4", "--to", "csv").out)
+    made = gark("import", "t.csv", "--output-dir", "made", cwd=tmp_path)
+    assert made.err == "wrote 1 method file into made\n"
+    assert len(list((tmp_path / "made").iterdir())) == 1
+
+
+def test_a_tableau_from_a_file(tmp_path: Path) -> None:
+    """``--tableau @FILE``."""
+    (tmp_path / "t.txt").write_text("0 |\n1/2 | 1/2\n | 0 1\n")
+    made = gark("new", "--tableau", "@t.txt", cwd=tmp_path)
+    assert "[1/2, 0]" in made.out
+    assert gark("new", "--tableau", "@no.txt", cwd=tmp_path).code == 2
+
+
+def test_what_people_write_in_files() -> None:
+    """``√3`` for ``sqrt(3)``, ``yes`` for ``true``."""
+    text = "{A: [[1/4, 1/4-√3/6], [1/4+√3/6, 1/4]], b: [1/2, 1/2], expect: {symplectic: yes}}"
+    run = gark("check", "-", stdin=text)
+    assert run.code == 0
+    assert "order 4, proved" in run.out
+    assert "the same as  gauss-2" in run.out
+    assert parse("√(3/4)").radicand == parse("3/4")  # type: ignore[attr-defined]
+    for wrong in ("√", "2√3", "√√", "√-3"):
+        assert gark("check", "-", stdin=f"{{A: [['{wrong}']], b: [1]}}").code == 2
+    assert gark("check", "-", stdin="{A: [['" + "√" * 10000 + "2']], b: [1]}").code == 2
