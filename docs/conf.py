@@ -79,13 +79,45 @@ def titled(text: str, folder: Path) -> str:
     return re.sub(r"\[(?:docs/)?[\w-]+\.md\]\((?P<page>[\w./-]+\.md)", with_title, text)
 
 
+_AS_IT_IS = re.compile(
+    r"(^```.*?^```$|`[^`\n]*`|\$\$.*?\$\$|\$[^$\n]+\$|^ {4}.*?$|^#.*?$|\]\([^)]*\)|<!--.*?-->)",
+    re.DOTALL | re.MULTILINE,
+)
+"""Code, formulas, headings, targets of links and comments."""
+_INDEXED = re.compile(
+    r"(?<![\w`$\\/.-])"
+    r"[^\W\d_](?:\^\{[^}]*\}|\^\([^()]*\)|\^\[\w+\]|\^\w(?!\w)|_\{[^}]*\}|_[^\W_]{1,2}(?![^\W_²]))+²?"
+    r"(?![\w{])"
+)
+"""A letter with indices or powers, such as A^{l,m}, b_i or h^(p+1)."""
+
+
+def typeset(text: str) -> str:
+    """Letters with indices, as pages have them in plain text, become formulas.
+
+    Args:
+        text: a page.
+    """
+
+    def formula(plain: re.Match[str]) -> str:
+        latex = plain[0].replace("Â", r"\hat A").replace("𝒜", r"\mathcal{A}").replace("²", "^2")
+        latex = re.sub(r"\^(?:\((.*?)\)|(\[\w+\]))", r"^{\1\2}", latex)
+        latex = re.sub(r"\^\{(\w)\}", r"^{\\{\1\\}}", latex)  # colours have braces in the paper
+        latex = re.sub(r"_(\w{2})", r"_{\1}", latex)
+        return plain[0] if latex.count("^") > 1 else f"${latex}$"
+
+    parts = _AS_IT_IS.split(text)
+    parts[::2] = [_INDEXED.sub(formula, part) for part in parts[::2]]
+    return "".join(parts)
+
+
 def _complete(_: Sphinx, page: str, source: list[str]) -> None:
     if page == "index":
         source[0] += "\n" + contents(source[0])
     elif page == "contributing/index":
         source[0] = contributing()
     folder = (Path(__file__).parent / page).parent
-    source[0] = titled(source[0], folder)
+    source[0] = typeset(titled(source[0], folder))
 
 
 def scrollable(html: str) -> str:
@@ -125,7 +157,8 @@ def _write_formula(writer: Any, node: Any) -> None:
 
     is_block = node.tagname == "math_block"
     formula = convert(node.astext(), display="block" if is_block else "inline")
-    writer.body.append(f'<div class="math" tabindex="0">{formula}</div>' if is_block else formula)
+    scrolls = '<div tabindex="0" style="overflow-x: auto; overflow-y: hidden">'
+    writer.body.append(f"{scrolls}{formula}</div>" if is_block else formula)
     raise SkipNode
 
 

@@ -71,6 +71,16 @@ def test_links_have_titles_on_the_site() -> None:
     assert above == "[A tour](../tour.md)"
 
 
+def test_indices_are_typeset_on_the_site() -> None:
+    """Letters with indices or powers; code, names, links and formulas stay."""
+    made = runpy.run_path(str(DOCS / "conf.py"))["typeset"]
+    text = "A^{l,m}, H^{l} and b_ij, ω_s², h^(p+1)"
+    shown = r"$A^{l,m}$, $H^{\{l\}}$ and $b_{ij}$, $ω_s^2$, $h^{p+1}$"
+    assert made(text) == shown
+    kept = "from_arrays, 1_000, `b_i`, $b_i$, [x](a_b.md)\n\n```text\nb_i\n```\n\n# b_i\n"
+    assert made(kept) == kept
+
+
 def test_long_names_have_places_to_break() -> None:
     """After a slash and a low line within code, and nowhere else."""
     made = runpy.run_path(str(DOCS / "conf.py"))["breakable"]
