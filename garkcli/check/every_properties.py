@@ -41,6 +41,7 @@ COMPARING = (
     "symmetric",
     "reducible",
     "stage-order",
+    "weak-stage-order",
 )
 """Those that ask which coefficients are zero or equal."""
 STABLE: dict[str, Wanted] = {"a-stable": "a-stable", "l-stable": "l-stable", "p-stable": "p-stable"}

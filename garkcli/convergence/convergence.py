@@ -26,7 +26,9 @@ from garkcli.convergence.result import (
 from garkcli.convergence.solver import Solver
 from garkcli.errors import UsageProblem
 from garkcli.order import deciding
+from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.simplifying import simplifying
+from garkcli.order.weak_stages import weak_stage_order
 from garkcli.problems.builtin import GENERIC, GENERIC_RHS, hamiltonian
 from garkcli.problems.generic import generic_rhs
 from garkcli.problems.oscillator import Oscillator, terms_of
@@ -195,8 +197,14 @@ def _stiffness(
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
-    stage_order = simplifying(meant(tableau, tolerance)).stage_order
-    return Stiffness(resolution, stage_order, ladder.is_part(rows[-1], solver.size()))
+    method = meant(tableau, tolerance)
+    weak = weak_stage_order(method, range(tableau.size), DEFAULT_LIMIT)
+    return Stiffness(
+        resolution,
+        simplifying(method).stage_order,
+        None if weak == DEFAULT_LIMIT else weak,
+        ladder.is_part(rows[-1], solver.size()),
+    )
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:

@@ -12,11 +12,15 @@ from garkcli.design.conditions import FamilyConditions
 from garkcli.design.stability_functions import characteristic_coefficients
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
+from garkcli.exact.matrix import dot
 from garkcli.exact.parametric import fraction
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.family import Stability
 from garkcli.tableau.forms import pair
+
+MOST_PRODUCTS = 200
+"""Most products of blocks that weak stage order asks about."""
 
 
 def _pair_order(asked: Asked) -> Meaning:
@@ -115,6 +119,47 @@ def _stage_order(asked: Asked) -> Meaning:
     return Meaning(tuple(zeros))
 
 
+def _weak_stage_order(asked: Asked) -> Meaning:
+    """b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^{k−1} − (c^{p})^k / k) = 0 for k = 1, …, q and all
+    products of blocks between the colours.
+
+    Products of as many blocks as there are stages are enough: those of at most n blocks span, for
+    growing n, spaces of functionals that stop growing with the first that does not. By the node
+    powers c^k and k c^k a product that vanishes for k ≤ 2s + 1 and stages s of two colours does so
+    for every k.
+    """
+    tableau = asked.tableau
+    defects = Defects(tableau)
+    spaces = {tableau.colours[l].space for l in asked.colours}
+    stages = sum(tableau.spaces[k].stages for k in spaces)
+    edges = set(tableau.edges())
+    most = 3 * max(space.stages for space in tableau.spaces) + 1
+    orders = range(1, min(cast("int", asked.value), most) + 1)
+    for l in asked.colours:
+        asked.diagonal(l, "weak-stage-order")
+    rows = [(l, defects.weights(l)) for l in asked.colours]
+    zeros: list[object] = []
+    products = 0
+    for _ in range(stages + 1):
+        following = []
+        for l, w in rows:
+            if not any(w):
+                continue
+            products += 1
+            if products > MOST_PRODUCTS:
+                raise MethodError(
+                    f"design: weak-stage-order has more than {MOST_PRODUCTS} products of blocks",
+                    "name the colour that is stiff: weak-stage-order: {2: …}",
+                    code="wanted-without-meaning",
+                )
+            for m in range(tableau.size):
+                if (l, m) in edges:
+                    zeros += [dot(w, defects.C(l, m, k)) for k in orders]
+            following += [(m, defects.before(l, m, w)) for m in asked.colours if (l, m) in edges]
+        rows = following
+    return Meaning(tuple(zeros))
+
+
 def _consistent(asked: Asked) -> Meaning:
     """A^{l,m} 𝟙 = c^l for every block of the colours l.
 
@@ -150,6 +195,12 @@ WANTS = {
         Want("stiffly-accurate", "flag", "the last row of A is b", _stiffly_accurate),
         Want("R-infinity", "number", "the stability function at infinity", _r_infinity),
         Want("stage-order", "count", "B(q) and C(q)", _stage_order),
+        Want(
+            "weak-stage-order",
+            "count",
+            "what the stages miss up to order q never reaches the new value",
+            _weak_stage_order,
+        ),
         Want("consistent", "flag", "the nodes are the row sums of every block", _consistent),
         Want(
             "positive-weights",

@@ -10,8 +10,8 @@ from garkcli.glossary import read
 ORDERS = (
     *("order", "conjugate_order", "pair_order", "nonautonomous_order"),
     *("embedded_order", "embedded_nonautonomous_order", "dense_order"),
-    *("stage_order", "symplectic_order", "energy_order", "effective_order"),
-    "exact_order",
+    *("stage_order", "weak_stage_order", "symplectic_order", "energy_order"),
+    *("effective_order", "exact_order"),
 )
 """The fields with an order, beside which others say how sure it is."""
 

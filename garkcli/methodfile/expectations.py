@@ -190,7 +190,11 @@ EXPECT = Kind(mapping(more=claims).schema, _read, claims)
 """What a file claims."""
 
 
-OF_ORDERS = {*(key for key, x in ORDERS.items() if x.kind != "truth"), "stage-order"}
+OF_ORDERS = {
+    *(key for key, x in ORDERS.items() if x.kind != "truth"),
+    "stage-order",
+    "weak-stage-order",
+}
 """Claims for which orders must be looked for as far as their numbers, and one further."""
 
 

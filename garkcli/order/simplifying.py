@@ -54,6 +54,16 @@ class Defects:
         """That of the arithmetic inside."""
         return nullcontext()
 
+    def weights(self, l: int) -> Vector:
+        """b_l, a functional on the space of l."""
+        return self.entries.colours[l].b
+
+    def before(self, l: int, m: int, w: Vector) -> Vector:
+        """wᵀ A^{l,m}, a functional on the space of m."""
+        with self.precision():
+            (found,) = self._map(l, m).pullbacks([w])
+        return found
+
     def vanish(self, defects: Iterable[Any]) -> bool:
         """Whether they are all zero."""
         return not any(defects)

@@ -11,8 +11,8 @@ _FILES = (
     ("solving", "explicit diagonally-implicit sdirk esdirk gamma fully-implicit implicit-stages"),
     (
         "stages",
-        "stiffly-accurate fsal symmetric reducible stage-order nodes-in-unit-interval "
-        "positive-weights",
+        "stiffly-accurate fsal symmetric reducible stage-order weak-stage-order "
+        "nodes-in-unit-interval positive-weights",
     ),
     ("stability", "a-stable l-stable p-stable"),
     ("stages", "algebraically-stable"),

@@ -399,10 +399,29 @@ COLOUR = Section(
 )
 
 
-def stage_order(a: Any) -> Answer:
-    """The stage order of all colours."""
-    is_open = a.subject.verdict("stage-order").is_at_least
-    return Answer(min(a.subject.stage_orders), Status(at_least=is_open))
+def whole_number(key: str) -> Callable[[Any], Answer]:
+    """A property that is a whole number, and may be a lower bound."""
+
+    def get(a: Any) -> Answer:
+        found = a.subject.verdict(key)
+        return Answer(found.value, Status(at_least=found.is_at_least))
+
+    return get
+
+
+def count_rows(key: str) -> tuple[Row, ...]:
+    """Its number, and in JSON whether that is a lower bound."""
+    field, get = find(key).field, whole_number(key)
+    return (
+        Row(field, kinds.COUNT, get, DETAIL),
+        Row(
+            f"{field}_is_lower_bound",
+            kinds.TRUE,
+            lambda a: get(a).status.at_least or None,
+            DATA,
+            is_optional=True,
+        ),
+    )
 
 
 def colours_apart(a: Any) -> list[Any] | None:
@@ -453,16 +472,8 @@ OWN_ROWS = {
         ),
         Row("symplectic", kinds.TRUTH, lambda a: a.symplectic, DATA),
     ),
-    "stage-order": (
-        Row("stage_order", kinds.COUNT, stage_order, DETAIL),
-        Row(
-            "stage_order_is_lower_bound",
-            kinds.TRUE,
-            lambda a: stage_order(a).status.at_least or None,
-            DATA,
-            is_optional=True,
-        ),
-    ),
+    "stage-order": count_rows("stage-order"),
+    "weak-stage-order": count_rows("weak-stage-order"),
 }
 """Properties that are no truths, or that are told with more than their truth."""
 
@@ -686,7 +697,13 @@ ANALYSIS = [
     Row("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA, has_null=True),
     Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
     order("order", lambda a: a.order, HEADLINE),
-    Row("stage_order", told(lambda x, d: str(x)), stage_order, line="method", is_short=True),
+    Row(
+        "stage_order",
+        told(lambda x, d: str(x)),
+        whole_number("stage-order"),
+        line="method",
+        is_short=True,
+    ),
     Row(
         "simplifying",
         replace(part(SIMPLIFYING), phrase=_simplifying_phrase),

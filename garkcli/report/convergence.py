@@ -213,9 +213,11 @@ def remarks(result: Convergence) -> list[str]:
         )
     if result.stiff is not None:
         size = scientific(arb(result.stiff.resolution), 1)
+        weak = result.stiff.weak_stage_order or 0
+        weak_order = f", weak stage order {weak}" if weak > result.stiff.stage_order else ""
         said.append(
             f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {result.predicted_order}, "
-            f"stage order {result.stiff.stage_order}"
+            f"stage order {result.stiff.stage_order}{weak_order}"
             if result.stiff.is_stable
             else f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
         )
@@ -279,6 +281,7 @@ STIFF = Section(
     Row("least_h_times_norm", Kind(S.SIZE), _resolution, has_null=True),
     Row("classical_order", COUNT, lambda x: x.predicted_order),
     Row("stage_order", COUNT, lambda x: x.stiff.stage_order, has_null=True),
+    Row("weak_stage_order", COUNT, lambda x: x.stiff.weak_stage_order, has_null=True),
     Row("slope", SLOPE, lambda x: x.observed_order, has_null=True),
 )
 _RESULT = [

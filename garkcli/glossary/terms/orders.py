@@ -163,7 +163,17 @@ TERMS = (
         "B(q) and C(q)",
         "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.15",
         ("stage orders",),
-        ("C(η)", "stiffness"),
+        ("C(η)", "weak stage order", "stiffness"),
+    ),
+    Term(
+        "weak stage order",
+        "The largest q up to which what the stages miss never reaches the new value. Stiff linear"
+        " problems then show order q also where the stage order is smaller.",
+        "bᵀ A^j (A c^(k−1) − c^k/k) = 0 for k = 1, …, q and all j",
+        "D. I. Ketcheson, B. Seibold, D. Shirokoff, D. Zhou, DIRK schemes with high weak stage"
+        " order (2020)",
+        ("WSO",),
+        ("stage order", "stiffness"),
     ),
     Term(
         "consistent",

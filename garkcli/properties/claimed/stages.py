@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import chain, combinations
 
 from flint import arb, ctx, fmpq, fmpq_poly
@@ -10,6 +11,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.roots import roots_below, sign
 from garkcli.frozen import replace
+from garkcli.order.weak_stages import weak_stage_order as weak_order
 from garkcli.properties.last_stage import (
     first_same_as_last,
     is_stiffly_accurate,
@@ -24,6 +26,7 @@ from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import contractivity, form_within, negative_pivot
+from garkcli.tableau.meant import meant
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -245,14 +248,41 @@ def stage_order(subject: Subject) -> Verdict:
     nodes are those that the file gives.
     """
     found = subject.stage_orders
-    least = min(found)
+    return Verdict(min(found), _by_colour(subject, found), is_at_least=min(found) >= subject.limit)
+
+
+def _by_colour(subject: Subject, found: Sequence[int]) -> Reason:
+    """A number for each colour; empty where there is one."""
+    if len(found) == 1:
+        return NO_REASON
     names = [colour.name for colour in subject.tableau.colours]
     by_colour = [
         f"{'at least ' if q >= subject.limit else ''}{q} of {name}"
         for q, name in zip(found, names, strict=True)
     ]
-    why = Reason("by colour: {}", ", ".join(by_colour)) if len(found) > 1 else NO_REASON
-    return Verdict(least, why, is_at_least=least >= subject.limit)
+    return Reason("by colour: {}", ", ".join(by_colour))
+
+
+@claimed(
+    "D. I. Ketcheson, B. Seibold, D. Shirokoff, D. Zhou, DIRK schemes with high weak stage order "
+    "(2020), definition 2; for several colours: docs/stiff-problems.md",
+    kind="count",
+)
+def weak_stage_order(subject: Subject) -> Verdict:
+    """The largest q for which b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) − (c^{p})^k / k) = 0
+    for k = 1, …, q and all products of blocks that exist, also of none: what the stages miss up to
+    order q never reaches the new value. Stiff linear problems with terms that depend on time lose
+    no order up to q. For one method that is bᵀ A^j (A c^(k−1) − c^k / k) = 0 for all j. Of one
+    colour l: with products of A^{l,l} alone, where f^{l} is stiff and the other terms are functions
+    of time.
+    """
+    colours = range(subject.tableau.size)
+    method = meant(subject.tableau, subject.tolerance)
+    least = weak_order(method, colours, subject.limit)
+    found = (
+        [least] if len(colours) == 1 else [weak_order(method, [l], subject.limit) for l in colours]
+    )
+    return Verdict(least, _by_colour(subject, found), is_at_least=least >= subject.limit)
 
 
 @claimed("J. C. Butcher, Numerical Methods for ODEs, section 23")
