@@ -37,15 +37,18 @@ def declared() -> Iterator[tuple[str, Option]]:
 
 
 def arguments() -> str:
-    """The table of options that are arguments."""
-    found: dict[tuple[str, str], list[str]] = {}
-    for command, option in declared():
+    """The table of options that are arguments: a function a row."""
+    found: dict[str, dict[str, None]] = {}
+    for _, option in declared():
         if option.of:
-            found.setdefault((option.key.split()[-1], option.of), []).append(command)
-    lines = ["| option | of | argument |", "|---|---|---|"]
-    for (flag, of), commands in sorted(found.items()):
-        function, _, name = of.partition(".")
-        lines.append(f"| `{flag}` | {', '.join(commands)} | `{name}=` of `{function}` |")
+            flag = option.key.split()[-1]
+            function, _, name = option.of.partition(".")
+            is_same = flag.removeprefix("--").replace("-", "_") == name
+            written = f"`{flag}`" if is_same else f"`{flag}` (`{name}=`)"
+            found.setdefault(function, {})[written] = None
+    lines = ["| function | options |", "|---|---|"]
+    for function, options in sorted(found.items()):
+        lines.append(f"| `{function}` | {', '.join(sorted(options))} |")
     return "\n".join(lines)
 
 
