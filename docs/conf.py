@@ -3,7 +3,7 @@
 The pages are plain Markdown that reads well where the code is hosted, so
 they have no directives, but for the cells of the notebook. What the site has
 besides is made here: the contents in the margin, from the headings and lists
-of `index.md`; `CONTRIBUTING.md`, which stands outside of this folder, as the
+of `all-pages.md`; `CONTRIBUTING.md`, which stands outside of this folder, as the
 first page for contributors; and titles in place of the names of files, in
 links that show these.
 """
@@ -39,12 +39,13 @@ suppress_warnings = ["misc.highlighting_failure"]
 
 
 def contents(index: str) -> str:
-    """Hidden tables of contents, one for each part of the index.
+    """Hidden tables of contents, one for each part of the list of pages, which is the last entry.
 
     Args:
-        index: the text of index.md.
+        index: the text of all-pages.md.
     """
     parts = re.split(r"^## ", index, flags=re.MULTILINE)[1:]
+    parts[-1] += "\n* [All pages](all-pages.md)\n"
     return "\n".join(_contents_of_part(part) for part in parts)
 
 
@@ -113,7 +114,8 @@ def typeset(text: str) -> str:
 
 def _complete(_: Sphinx, page: str, source: list[str]) -> None:
     if page == "index":
-        source[0] += "\n" + contents(source[0])
+        pages = Path(__file__).with_name("all-pages.md").read_text(encoding="utf-8")
+        source[0] += "\n" + contents(pages)
     elif page == "contributing/index":
         source[0] = contributing()
     folder = (Path(__file__).parent / page).parent

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from garkcli.cli.options import command_of
+from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -26,7 +27,7 @@ def size(path: Path) -> tuple[int, int]:
 
 
 def test_the_figure_is_drawn_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The script beside it makes the figure that the README shows."""
+    """The script beside it makes the figure of the paper."""
     folder = ROOT / "docs" / "figures"
     made = tmp_path / "rectangular.png"
     script = str(folder / "rectangular.py")
@@ -35,10 +36,20 @@ def test_the_figure_is_drawn_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert size(made) == size(folder / "rectangular.png")
 
 
+def test_the_picture_of_the_readme_is_what_gark_finds() -> None:
+    """Entry, tree and numbers are those that the check of its method names."""
+    folder = ROOT / "docs" / "figures"
+    made = runpy.run_path(str(folder / "wrong_entry.py"))
+    assert made["picture"]() == (folder / "wrong-entry.svg").read_text(encoding="utf-8")
+    found = gark("check", "-", stdin=made["RK4"] + "expect: {order: 4}\n").out
+    assert "fails at [[]] by -1/18" in found
+    assert "with a[3,2] = 1/2 instead of 1/3" in " ".join(found.split())
+
+
 def test_figures_of_the_readme_exist() -> None:
     """Every picture it shows is there."""
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)
-    assert "docs/figures/rectangular.png" in pictures
+    assert "docs/figures/wrong-entry.svg" in pictures
     assert all((ROOT / x).is_file() for x in pictures)
 
 

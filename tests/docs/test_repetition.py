@@ -23,8 +23,10 @@ TITLES = (
 )
 """Works that several pages cite."""
 
-ELSEWHERE = {"package-page.md", "glossary.md"}
-"""The page of a package index, where links lead nowhere, and a page that is made."""
+ELSEWHERE = {"index.md", "package-page.md", "glossary.md"}
+"""The landing page, which begins as the README does; the page of a package index; a page that is
+made.
+"""
 
 
 def words(text: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""docs/index.md and docs/conf.py: the pages of the documentation, in their order."""
+"""docs/all-pages.md and docs/conf.py: the pages of the documentation, in their order."""
 
 from __future__ import annotations
 
@@ -9,30 +9,31 @@ from pathlib import Path
 from tests.docs.test_links import links, links_of
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
-ELSEWHERE = {"index.md", "package-page.md"}
-"""The index itself, and the page of the package index, which has no links."""
+LIST = DOCS / "all-pages.md"
+INDEX = LIST.read_text(encoding="utf-8")
+ELSEWHERE = {"index.md", "all-pages.md", "package-page.md"}
+"""The landing page, the list itself, and the page of the package index, which has no links."""
 
 
 def pages() -> list[str]:
-    """What the index has to name."""
+    """What the list has to name."""
     found = {x.relative_to(DOCS).as_posix() for x in DOCS.rglob("*.md")}
     return sorted(found - ELSEWHERE)
 
 
-def test_the_index_has_every_page_once() -> None:
+def test_the_list_has_every_page_once() -> None:
     """A page is in one of its parts, and in no other."""
-    assert sorted(links(DOCS / "index.md")) == pages()
+    assert sorted(links(LIST)) == pages()
 
 
-def test_the_margin_has_what_the_index_has() -> None:
+def test_the_margin_has_what_the_list_has() -> None:
     """The contents made for Sphinx: each part with its pages, in order; conf.py needs no Sphinx."""
     made = runpy.run_path(str(DOCS / "conf.py"))["contents"](INDEX)
     captions = re.findall(r"^:caption: (.+)$", made, re.MULTILINE)
     assert captions == re.findall(r"^## (.+)$", INDEX, re.MULTILINE)
     assert made.count("```{toctree}") == len(captions) >= 5
     named = re.findall(r"^([\w/-]+)$", made, re.MULTILINE)
-    assert [f"{name}.md" for name in named] == links(DOCS / "index.md")
+    assert [f"{name}.md" for name in named] == [*links(LIST), "all-pages.md"]
 
 
 def test_contributing_is_on_the_site() -> None:

@@ -12,6 +12,7 @@ from tests.docs.transcripts import ROOT, agrees, brought_up_to_date, prepare, ru
 
 EMPTY = (
     "README",
+    "index",
     "tutorial-student",
     "tutorial-maintainer",
     "tutorial-designer",
@@ -64,8 +65,9 @@ def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
 
 
 def test_the_readme_is_short() -> None:
-    """It is read in a few minutes: 8 KB at most."""
-    assert len((ROOT / "README.md").read_bytes()) <= 8 * 1024
+    """It is read in a few minutes: 500 words at most, the landing page of the site 250."""
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").split()) <= 500
+    assert len((ROOT / "docs" / "index.md").read_text(encoding="utf-8").split()) <= 250
 
 
 def test_the_comparison_can_fail() -> None:
