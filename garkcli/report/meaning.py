@@ -1,15 +1,14 @@
-"""``gark explain``: what words mean, for people and for programs; docs/glossary.md."""
+"""``gark explain``: what words mean, for people and for programs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.frozen import replace
-from garkcli.glossary.term import TOPICS, Term, terms_of
+from garkcli.glossary.term import TOPICS, terms_of
 from garkcli.page.paint import folded, indented
-from garkcli.properties.definitions import Definition
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.report import Report
@@ -81,38 +80,4 @@ def list_text(width: int) -> str:
     for topic, title in TOPICS.items():
         names = "; ".join(term.name for term in terms_of(topic))
         lines += [title, *indented(folded(names, width - 2, ""))]
-    return "\n".join(lines) + "\n"
-
-
-def glossary() -> str:
-    """The terms as a page in Markdown, without its head."""
-    paragraphs: list[str] = []
-    for topic, title in TOPICS.items():
-        paragraphs.append(f"## {title}")
-        for term in terms_of(topic):
-            paragraphs += _entry(term)
-    return "\n\n".join(paragraphs) + "\n"
-
-
-def _entry(term: Term) -> Iterator[str]:
-    """The paragraphs of a term."""
-    yield f"### {term.name}"
-    yield term.text
-    if term.formula:
-        yield f"    {term.formula}"
-    if term.labels:
-        labels = ", ".join(term.labels)
-        yield f"Also: {labels}."
-    if term.see:
-        see = ", ".join(term.see)
-        yield f"See {see}."
-    yield f"Source: {term.source}."
-
-
-def as_markdown(found: Definition) -> str:
-    """What a claim means, as a section of docs/properties.md."""
-    lines = [f"### {found.key}", "", found.text, "", f"Claim: {found.values}."]
-    if found.meaning:
-        lines[-1] += f" For {found.meaning}."
-    lines += ["", f"Source: {found.source}."]
     return "\n".join(lines) + "\n"

@@ -7,9 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from garkcli.glossary import read
+from garkcli.glossary import term as glossary
 from garkcli.glossary.faults import TOPICS, FaultKind, FindingKind, faults_of, findings_of
 from garkcli.glossary.fields import field_text
 from garkcli.glossary.key import Key, keys_of
+from garkcli.glossary.term import PAPER, Term
+from garkcli.properties.definitions import every_definition
 from garkcli.report.field_texts import REFERENCES, fields_of
 from garkcli.report.schemas import REPORTS, report_schema
 
@@ -25,6 +28,62 @@ def codes_page() -> str:
 def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
     rows = [(f"`{x.code}`", _cell(x.text), _cell(x.cure)) for x in kinds]
     return _table(("code", "what it means", "what to do"), rows)
+
+
+_WORKS = {
+    rf"{PAPER}(, section [\d.]+)?.*": r"Zanna\1",
+    r"E. Hairer, S.( P.)? Nørsett, G. Wanner, Solving [A-Za-z ]+ I,": "HNW",
+    r"E. Hairer, G. Wanner, Solving [A-Za-z ]+ II,": "HW",
+    r"E. Hairer, C. Lubich, G. Wanner, [A-Za-z ]+,": "HLW",
+    r", section ([\d.]+)": r" \1",
+    r" section ([IVX.\d]+)": r" \1",
+    r"this project(, docs/([\w-]+)\.md|; )?": r"[\2](\2.md)",
+    r"\[\]\(\.md\)": "",
+}
+"""How docs/glossary.md shortens the works that terms come from, and links to pages."""
+
+
+def terms_tables() -> str:
+    """The terms in Markdown, a table a topic: names, what it is, where it comes from."""
+    parts = []
+    for topic, title in glossary.TOPICS.items():
+        rows = [_term_row(x) for x in glossary.terms_of(topic)]
+        parts.append(f"## {title}\n\n{_table(('term', 'what it is', 'source'), rows)}")
+    return "\n".join(parts)
+
+
+def _term_row(term: Term) -> tuple[str, str, str]:
+    also = f"; {', '.join(term.labels)}" if term.labels else ""
+    formula = term.formula.replace("|", "\\|")
+    text = _cell(_first_sentence(term.text)) + (f" `{formula}`" if formula else "")
+    return f"**{_cell(term.name)}**{_cell(also)}", text, _short_source(term.source)
+
+
+def _short_source(source: str) -> str:
+    """A source with short names of works, pages of the documentation as links.
+
+    >>> _short_source("this project, docs/exact-order.md, section 2")
+    '[exact-order](exact-order.md) 2'
+    """
+    for work, short in _WORKS.items():
+        source = re.sub(work, short, source)
+    return source
+
+
+def _first_sentence(text: str) -> str:
+    return re.split(r"(?<=\.) (?=[A-Z])", text)[0]
+
+
+def claims_tables() -> str:
+    """What each claim means, a table for each kind of values."""
+    rows: dict[str, list[tuple[str, str, str]]] = {}
+    for claim in every_definition():
+        text = claim.text + (f" For {claim.meaning}." if claim.meaning else "")
+        row = (f"`{claim.key}`", _cell(text), _short_source(claim.source))
+        rows.setdefault(claim.values, []).append(row)
+    heads = ("claim", "what it means", "source")
+    parts = [f"Values: {values}.\n\n{_table(heads, found)}" for values, found in rows.items()]
+    return "\n".join(parts)
 
 
 def keys_table(kind: str) -> str:
