@@ -26,8 +26,8 @@ def codes_page() -> str:
 
 
 def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
-    rows = [(f"`{x.code}`", _cell(x.text), _cell(x.cure)) for x in kinds]
-    return _table(("code", "what it means", "what to do"), rows)
+    rows = [(f"`{x.code}`", cell(x.text), cell(x.cure)) for x in kinds]
+    return table(("code", "what it means", "what to do"), rows)
 
 
 _WORKS = {
@@ -48,15 +48,15 @@ def terms_tables() -> str:
     parts = []
     for topic, title in glossary.TOPICS.items():
         rows = [_term_row(x) for x in glossary.terms_of(topic)]
-        parts.append(f"## {title}\n\n{_table(('term', 'what it is', 'source'), rows)}")
+        parts.append(f"## {title}\n\n{table(('term', 'what it is', 'source'), rows)}")
     return "\n".join(parts)
 
 
 def _term_row(term: Term) -> tuple[str, str, str]:
     also = f"; {', '.join(term.labels)}" if term.labels else ""
     formula = term.formula.replace("|", "\\|")
-    text = _cell(_first_sentence(term.text)) + (f" `{formula}`" if formula else "")
-    return f"**{_cell(term.name)}**{_cell(also)}", text, _short_source(term.source)
+    text = cell(_first_sentence(term.text)) + (f" `{formula}`" if formula else "")
+    return f"**{cell(term.name)}**{cell(also)}", text, _short_source(term.source)
 
 
 def _short_source(source: str) -> str:
@@ -79,10 +79,10 @@ def claims_tables() -> str:
     rows: dict[str, list[tuple[str, str, str]]] = {}
     for claim in every_definition():
         text = claim.text + (f" For {claim.meaning}." if claim.meaning else "")
-        row = (f"`{claim.key}`", _cell(text), _short_source(claim.source))
+        row = (f"`{claim.key}`", cell(text), _short_source(claim.source))
         rows.setdefault(claim.values, []).append(row)
     heads = ("claim", "what it means", "source")
-    parts = [f"Values: {values}.\n\n{_table(heads, found)}" for values, found in rows.items()]
+    parts = [f"Values: {values}.\n\n{table(heads, found)}" for values, found in rows.items()]
     return "\n".join(parts)
 
 
@@ -91,8 +91,8 @@ def keys_table(kind: str) -> str:
     rows = []
     for key in keys_of(kind).values():
         example = key.example.replace("|", "\\|")
-        rows.append((f"`{key.path}`", _cell(_said(key)), f"`{example}`"))
-    return _table(("key", "what it is", "example"), rows)
+        rows.append((f"`{key.path}`", cell(_said(key)), f"`{example}`"))
+    return table(("key", "what it is", "example"), rows)
 
 
 def _said(key: Key) -> str:
@@ -199,8 +199,8 @@ def _fields_table() -> str:
             said = ": ".join(x for x in (text, words) if x not in ("", first))
             if said:
                 parts.append(f"{', '.join(found[text, words])}: {said}")
-        rows.append((f"`{name}`", _cell("; ".join(parts))))
-    return _table(("field", "what it holds"), rows)
+        rows.append((f"`{name}`", cell("; ".join(parts))))
+    return table(("field", "what it holds"), rows)
 
 
 def _phrase(text: str) -> str:
@@ -209,7 +209,7 @@ def _phrase(text: str) -> str:
     return phrase[0].upper() + phrase[1:]
 
 
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table in Markdown."""
     lines = [_row(heads), "|" + "---|" * len(heads)]
     lines += map(_row, rows)
@@ -231,8 +231,6 @@ def _one_of(schema: Any, text: str) -> str:
 _MOST_WORDS = 13
 
 
-def _cell(text: str) -> str:
+def cell(text: str) -> str:
     """A text in a cell of a table: its signs are no signs of Markdown."""
-    for sign in "\\*_|":
-        text = text.replace(sign, f"\\{sign}")
-    return text
+    return re.sub(r"[\\*|]|(?<!\w)_|_(?!\w)", r"\\\g<0>", text)

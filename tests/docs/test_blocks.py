@@ -31,7 +31,6 @@ TESTED = {
     ("docs/ci.md", "python"): "test_ci_docs.py",
     ("docs/ci.md", "sh"): "test_ci_docs.py",
     ("docs/ci.md", "json"): "test_ci_docs.py",
-    ("docs/command-line.md", "text"): "test_command_line_docs.py",
     ("docs/json.md", "json"): "test_json_docs.py",
     ("docs/notebook.md", "{code-cell} python"): "test_notebook_docs.py",
     ("docs/notebook.md", "text"): "test_notebook_docs.py",

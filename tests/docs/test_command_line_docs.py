@@ -3,28 +3,67 @@
 from __future__ import annotations
 
 import os
+import re
+from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
+from textwrap import dedent
 
+import click
 from click.testing import CliRunner
 
 from garkcli.cli.main import gark
 from garkcli.cli.table import SHOWN
+from tests.docs.tables import cell, table
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
 MARK = "<!-- reference -->\n"
+MOST = 2
+"""An option of more commands than these is told once."""
+OF_ALL = {"-o", "-q", "-v", "--color", "-h"}
+KEPT = "\b"
 
 
 def reference() -> str:
-    """The help of every command, in 80 columns."""
-    runner = CliRunner()
-    parts = []
-    for name in SHOWN:
-        result = runner.invoke(
-            gark, [name, "--help"], prog_name="gark", terminal_width=80, max_content_width=80
-        )
-        assert result.exit_code == 0, result.output
-        parts.append(f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n")
+    """The options of most commands, then a section a command: usage, help, its own options."""
+    group = click.Context(gark, info_name="gark")
+    commands = {x: found for x in SHOWN if (found := gark.get_command(group, x))}
+    records = {name: [*_records(found, group)] for name, found in commands.items()}
+    times = Counter(record for found in records.values() for record in found)
+    common = [x for x, count in times.items() if count > MOST and not x[0].startswith("--format")]
+    parts = [f"### Options of several commands\n\n{_options(common)}"]
+    for name, found in commands.items():
+        context = click.Context(found, info_name=name, parent=group)
+        usage = " ".join(found.collect_usage_pieces(context))
+        own = [x for x in records[name] if x not in common]
+        shared = [x[0].split()[0].rstrip(",") for x in records[name] if x in common]
+        also = ", ".join(f"`{x}`" for x in shared if x not in OF_ALL)
+        parts.append(f"### gark {name}\n\n`gark {name} {usage}`\n\n{_help(found)}\n")
+        parts.append(_options(own) + (f"\nAlso {also}.\n" if also else ""))
     return "\n".join(parts)
+
+
+def _records(found: click.Command, group: click.Context) -> Iterator[tuple[str, str]]:
+    context = click.Context(found, parent=group)
+    for param in found.get_params(context):
+        if isinstance(param, click.Option) and (record := param.get_help_record(context)):
+            yield record
+
+
+def _options(records: list[tuple[str, str]]) -> str:
+    rows = [(f"`{name}`".replace("|", "\\|"), cell(text)) for name, text in records]
+    return table(("option", "what it does"), rows)
+
+
+def _help(found: click.Command) -> str:
+    """The paragraphs of a help, but for exit codes, which have a table; kept lines as code."""
+    paragraphs = []
+    for text in re.split(r"\n\s*\n", (found.help or "").strip()):
+        if text.startswith(KEPT):
+            paragraphs.append(f"```text\n{dedent(text.removeprefix(KEPT).strip(chr(10)))}\n```")
+        elif not text.startswith("Exit code"):
+            paragraphs.append(cell(" ".join(text.split())))
+    return "\n\n".join(paragraphs)
 
 
 def test_reference_is_the_help() -> None:
