@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 import inspect
 import re
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
@@ -13,6 +14,8 @@ from itertools import pairwise
 from typing import Any
 
 import garkcli
+from garkcli.check.meanings import explain
+from garkcli.errors import UsageProblem
 
 TYPES = {
     "AnyMethod": "api.anymethod",
@@ -130,14 +133,13 @@ def linked(text: str, own: str = "") -> str:
     return re.sub(r"``([^`]+)``", code, text)
 
 
-def listed(section: str, own: str) -> Iterator[str]:
-    """A section as a list."""
-    for name, text in items(section):
-        # errors have sections of their own, arguments only names like others
-        is_error = isinstance(getattr(garkcli, name, None), type)
-        shown = linked(f"``{name}``", own) if is_error else f"`{name}`"
-        head = f"{shown}: " if name else ""
-        yield f"* {head}{linked(text, own)}"
+def brief(text: str) -> str:
+    """The first sentence of a text.
+
+    >>> brief("The order, eq. (bA). It is exact.")
+    'The order, eq. (bA).'
+    """
+    return re.split(r"(?<=\.)\s+(?=[A-Z`])", " ".join(text.split()))[0]
 
 
 class _Plain(str):
@@ -148,43 +150,26 @@ class _Plain(str):
 
 
 def signature(name: str, thing: Any) -> str:
-    """How a function is called, or a value made, with the types of its arguments."""
+    """How a function is called, or a value made; the types of arguments stand with these."""
     shape = inspect.signature(thing)
-    shown = []
-    for parameter in shape.parameters.values():
-        written = thing.__annotations__ if inspect.isclass(thing) else {}
-        kind = str(written.get(parameter.name, parameter.annotation)).replace('"', "")
-        shown.append(parameter.replace(annotation=_Plain(kind)))
-    answer: Any = _Plain(shape.return_annotation)
-    if isinstance(thing, type):
-        answer = inspect.Signature.empty
+    empty = inspect.Signature.empty
+    shown = [parameter.replace(annotation=empty) for parameter in shape.parameters.values()]
+    answer: Any = empty if isinstance(thing, type) else _Plain(shape.return_annotation)
     return f"{name}{shape.replace(parameters=shown, return_annotation=answer)}"
 
 
-def body(doc: Docstring, own: str) -> Iterator[str]:
-    """Prose, arguments, what is returned, errors and examples."""
-    yield linked(prose(doc.prose), own)
-    for label, section in doc.sections.items():
-        entries = list(listed(section, own))
-        if label in {"Args", "Attributes"}:
-            yield "\n".join(entries)
-        elif label in {"Raises", "Errors"}:
-            yield "Raises:\n\n" + "\n".join(entries)
-        else:
-            yield f"{label}: {linked(' '.join(section.split()), own)}"
-    if doc.examples:
-        yield "```python\n" + "\n\n".join(doc.examples) + "\n```"
+def typed(name: str, thing: Any) -> str:
+    """An argument with its type."""
+    kind = inspect.signature(thing).parameters[name].annotation
+    return f"{name}: {kind}".replace('"', "")
 
 
-def prose(text: str) -> str:
-    """Paragraphs in a line each; what stands on indented lines or in tables stays as it is."""
-    parts = []
-    for paragraph in text.split("\n\n"):
-        if paragraph.startswith(" ") or "===" in paragraph:
-            parts.append(paragraph)
-        else:
-            parts.append(" ".join(paragraph.split()))
-    return "\n\n".join(parts)
+def is_explained(name: str) -> bool:
+    """Whether gark explain knows a name."""
+    try:
+        return bool(explain(name))
+    except UsageProblem:
+        return False
 
 
 def members(kind: type) -> Iterator[tuple[str, Any]]:
@@ -198,24 +183,15 @@ def members(kind: type) -> Iterator[tuple[str, Any]]:
                 yield name, value
 
 
-def member(name: str, value: Any, own: str) -> str:
-    """A property or a method in an entry of a list."""
-    doc = Docstring.of(value)
-    head = f"`.{name}`"
+def member(name: str, value: Any) -> tuple[str, str]:
+    """A property or a method: how it is written, and what it is."""
     if isinstance(value, classmethod):
         value = value.__func__
+    shape = ""
     if inspect.isfunction(value):
         shape = str(inspect.signature(value)).partition(" ->")[0]
         shape = re.sub(r"^\((self|cls)(, )?", "(", shape).replace("'", "")
-        head = f"`.{name}{shape}`"
-    text = linked(" ".join(doc.prose.split()), own)
-    for label in ("Returns", "Raises"):
-        if label in doc.sections:
-            more = "; ".join(
-                f"`{error}`: {why}" if error else why for error, why in items(doc.sections[label])
-            )
-            text += f" {label} {linked(more, own)}"
-    return f"* {head}: {text}"
+    return f"{name}{shape}", Docstring.of(value).prose
 
 
 def of_page(kind: type) -> list[type]:
@@ -231,28 +207,61 @@ def of_page(kind: type) -> list[type]:
 
 
 def more_general(kind: type) -> str:
-    """The sentence that leads to the section of a base; empty where none has one."""
+    """What leads to the section of a base; empty where none has one."""
     own = of_page(kind)
-    others = [base for base in kind.__mro__ if base not in own]
-    for base in others:
-        if base.__name__ in {*garkcli.__all__}:
-            return f"It is a [`{base.__name__}`](#{base.__name__.lower()})."
+    for base in kind.__mro__:
+        if base not in own and base.__name__ in garkcli.__all__:
+            return f" A [`{base.__name__}`](#{base.__name__.lower()})."
     return ""
 
 
-def described(name: str, thing: Any) -> str:
-    """The section of one name."""
-    parts = [f"### {name}"]
-    if not isinstance(thing, type) or is_made(thing):
-        parts.append(f"`{signature(name, thing)}`")
-    parts += [part for part in body(of_class(thing), name) if part]
+def told(name: str, thing: Any) -> list[tuple[str, str]]:
+    """The arguments of a function, or the attributes, properties and methods of a value."""
+    doc = of_class(thing)
     if isinstance(thing, type):
-        if more_general(thing):
-            parts.insert(2, more_general(thing))
-        entries = [member(x, value, name) for x, value in members(thing)]
-        if entries:
-            parts.append("\n".join(entries))
+        entries = list(items(doc.sections.get("Attributes", "")))
+        entries += [member(x, value) for x, value in members(thing)]
+        return [(x, linked(brief(text).partition("; ")[0], name)) for x, text in entries]
+    entries = list(items(doc.sections.get("Args", "")))
+    return [(typed(x, thing), linked(brief(text), name)) for x, text in entries]
+
+
+def described(name: str, thing: Any, common: Mapping[str, str]) -> str:
+    """The section of one name, without what is told for all: arguments, and known attributes."""
+    doc = of_class(thing)
+    is_value = isinstance(thing, type)
+    parts = [f"### {name}"]
+    if not is_value or is_made(thing):
+        parts.append(f"`{signature(name, thing)}`")
+    general = more_general(thing) if is_value else ""
+    returns = f" Returns: {brief(doc.sections['Returns'])}" if "Returns" in doc.sections else ""
+    parts.append(linked(brief(doc.prose) + returns, name) + general)
+    is_short = is_value and name not in garkcli.__all__
+    known, own = [], []
+    for entry, text in told(name, thing):
+        is_known = is_explained(entry) if is_short else common.get(entry) == text
+        (known if is_known else own).append((entry, text))
+    if own:
+        parts.append("\n".join(f"* `{x}`: {text.rstrip('.')}" for x, text in own))
+    if known and is_value:
+        parts.append(f"Known: {', '.join(f'`{x}`' for x, _ in known)}.")
+    if "Raises" in doc.sections:
+        names = (linked(f"``{x}``", name) for x, _ in items(doc.sections["Raises"]))
+        parts.append(f"Raises {', '.join(names)}.")
     return "\n\n".join(parts)
+
+
+def commonly() -> dict[str, str]:
+    """What the arguments of several functions mean wherever nothing else is said."""
+    functions = {x: getattr(garkcli, x) for x in garkcli.__all__}
+    counts = Counter(
+        entry
+        for name, thing in functions.items()
+        if inspect.isfunction(thing)
+        for entry in told(name, thing)
+    )
+    often = [entry for entry, count in counts.most_common() if count > 1]
+    return dict(sorted(dict(reversed(often)).items()))
 
 
 def of_class(thing: Any) -> Docstring:
@@ -307,25 +316,20 @@ def type_text(name: str, place: str) -> str:
 def page() -> str:
     """All of it, below the head that a person wrote."""
     parts = ["## Types of arguments\n"]
-    for name, place in TYPES.items():
-        parts.append(f"* `{name}`: {type_text(name, place)}")
-    told: set[str] = set()
+    parts += [f"* `{name}`: {type_text(name, place)}" for name, place in TYPES.items()]
+    common = commonly()
+    parts.append("\n## Arguments of several functions\n")
+    parts += [f"* `{name}`: {text}" for name, text in common.items()]
+    shown: set[str] = set()
     for head, names in groups():
-        parts.append(f"\n## {head}\n")
-        fresh = [name for name in names if name not in told]
-        told |= {*fresh}
-        parts.append("\n\n".join(_section(name) for name in fresh))
+        things = {name: getattr(garkcli, name) for name in names if name not in shown}
+        things |= {x: type(thing) for x, thing in things.items() if x == "catalogue"}
+        shown |= {*things}
+        sections = [described(name, thing, common) for name, thing in things.items()]
+        parts.append(f"\n## {head}\n\n" + "\n\n".join(sections))
     parts.append("\n## Values\n")
-    found = [home(place) for place in VALUES]
-    parts.append("\n\n".join(described(*value) for value in found))
+    parts.append("\n\n".join(described(*home(place), common) for place in VALUES))
     return "\n".join(parts) + "\n"
-
-
-def _section(name: str) -> str:
-    thing = getattr(garkcli, name)
-    if name == "catalogue":
-        return described(name, type(thing))
-    return described(name, thing)
 
 
 def returned() -> set[str]:
