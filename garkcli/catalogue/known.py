@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import mul
 from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
@@ -54,36 +55,22 @@ def fingerprint(tableau: Tableau) -> float:
     True
     """
     printed = numeric_entries(tableau, 2 * _DIGITS)
-    weights = [_floats(row) for row in printed.b]
-    blocks = [[list(map(_floats, block or ())) for block in row] for row in printed.A]
+    weights = _floats(printed.b)
+    blocks = [[_floats(block or ()) for block in row] for row in printed.A]
     vectors = [[1.0] * len(row) for row in weights]
     for _ in range(_ROUNDS):
-        vectors = [
-            [_peak(_seen(row, i, vectors)) for i in range(len(old))]
-            for row, old in zip(blocks, vectors, strict=True)
+        # what each stage of a colour sees of all stages, through the peak
+        seen = [
+            [sum(sum(map(mul, A[i], u)) for A, u in zip(row, vectors, strict=True) if A) for i in s]
+            for row, s in zip(blocks, map(range, map(len, vectors)), strict=True)
         ]
-    sums = [sum(map(_product, *pair)) for pair in zip(weights, vectors, strict=True)]
-    return round(sum(sums), _DIGITS)
+        vectors = [[1 / (1 + (25 * x - 8) ** 2) for x in row] for row in seen]
+    total: float = sum(sum(map(mul, b, u)) for b, u in zip(weights, vectors, strict=True))
+    return round(total, _DIGITS)
 
 
-def _floats(row: Row) -> list[float]:
-    return [float(x.mid()) for x in row if isinstance(x, arb)]
-
-
-def _seen(
-    row: Sequence[Sequence[Sequence[float]]], i: int, vectors: Sequence[Sequence[float]]
-) -> float:
-    """What stage i of a colour sees of all stages."""
-    pairs = zip(row, vectors, strict=True)
-    return sum(sum(map(_product, block[i], u)) for block, u in pairs if block)
-
-
-def _peak(x: float) -> float:
-    return 1 / (1 + (25 * x - 8) ** 2)
-
-
-def _product(x: float, y: float) -> float:
-    return x * y
+def _floats(rows: Sequence[Row]) -> list[list[float]]:
+    return [[float(x.mid()) for x in row if isinstance(x, arb)] for row in rows]
 
 
 def find_known(analysis: Analysis, text: str) -> Known | None:

@@ -109,7 +109,7 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         ("pair-order", analysis.pair_order, "pair"),
     )
     for key, found, which in parts:
-        claimed = _claimed(method, key)
+        claimed = highest_order(method.claims, [key])
         if found is None or found.order >= claimed:
             continue
         is_explained = method.tolerance is not None and analysis.suggestion is not None
@@ -117,11 +117,6 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
             return None
         return _blame_for(method.tableau, found, claimed, key, which)
     return _blame_of_embedded(method, analysis)
-
-
-def _claimed(method: MethodFile, key: str) -> int:
-    """The order that the file claims; 0 where it claims none."""
-    return highest_order(tuple(claim for claim in method.claims if claim.key == key))
 
 
 def _blame_for(
@@ -144,7 +139,7 @@ def _blame_of_embedded(method: MethodFile, analysis: Analysis) -> Blame | None:
     has the order that the file claims.
     """
     key = "embedded-order"
-    claimed = _claimed(method, key)
+    claimed = highest_order(method.claims, [key])
     facts = analysis.embedded
     if facts is None or facts.order.order >= claimed:
         return None

@@ -163,7 +163,7 @@ class Domain:
             LimitExceeded: it is too large, or it and those before are together.
         """
         value = self.evaluate(expression)
-        self._size += _size(value)
+        self._size += _bits(value) * (value.poly.length() if isinstance(value, Algebraic) else 1)
         if self._size > MAX_BITS_TOGETHER:
             message = f"the coefficients have more than {MAX_BITS_TOGETHER} bits together"
             raise LimitExceeded(message, "write them smaller", expression.start, expression.end)
@@ -332,13 +332,6 @@ def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
         return max(int(x.height_bits()) for x in number.poly.coeffs())
     return int(number.height_bits())
-
-
-def _size(number: Number) -> int:
-    """About the bits of a number."""
-    if isinstance(number, Algebraic):
-        return _bits(number) * number.poly.length()
-    return _bits(number)
 
 
 def _bounded(number: Number, at: Expression) -> Number:

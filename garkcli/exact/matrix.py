@@ -240,7 +240,8 @@ class LinearMap:
         self._transposed = [(k, part.transpose()) for k, part in self._parts]
         self._rows_apart: Sequence[_Rational] | None = None
         if field is None:
-            self._rows_apart = _rational_rows_apart(rows)
+            rational = cast("Sequence[_Rational]", rows)
+            self._rows_apart = rational if any(map(_has_denominators_apart, rational)) else None
 
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
@@ -276,13 +277,8 @@ class EntrywiseMap:
         return [apply_left(w, self._rows) for w in functionals]
 
 
-def _rational_rows_apart(rows: Matrix) -> Sequence[_Rational] | None:
-    """The rows, where one of them is better summed as fractions; else None."""
-    rational = cast("Sequence[_Rational]", rows)
-    return rational if any(map(_has_denominators_apart, rational)) else None
-
-
 def _has_denominators_apart(row: _Rational) -> bool:
+    """Whether a row is better summed as fractions."""
     denominators = [int(x.q) for x in row]
     bits = sum(q.bit_length() for q in denominators)
     if bits < MIN_BITS_APART:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -198,9 +198,9 @@ OF_ORDERS = {
 """Claims for which orders must be looked for as far as their numbers, and one further."""
 
 
-def highest_order(claims: tuple[ClaimText, ...]) -> int:
-    """The largest order that occurs in the claims."""
-    return max([_largest(claim.value) for claim in claims if claim.key in OF_ORDERS], default=0)
+def highest_order(claims: tuple[ClaimText, ...], keys: Collection[str] = OF_ORDERS) -> int:
+    """The largest number that occurs in the claims with some keys; 0 where there are none."""
+    return max([_largest(claim.value) for claim in claims if claim.key in keys], default=0)
 
 
 def _largest(wanted: object) -> int:

@@ -51,7 +51,12 @@ class OrderByOrder(ABC, Generic[Value]):
     def branches(self, k: int, order: int) -> Value:
         """The value of all branches of an order that the stages of space k see."""
         if (k, order) not in self._branches:
-            self._branches[k, order] = self._joined(k, self._images(k, order))
+            images = (
+                self._image(k, m, order, self.of_trees(m, order))
+                for m in range(self.tableau.size)
+                if (k, m) in self.tableau.blocks
+            )
+            self._branches[k, order] = self._joined(k, images)
         return self._branches[k, order]
 
     def forests(self, k: int, order: int) -> Value:
@@ -59,11 +64,6 @@ class OrderByOrder(ABC, Generic[Value]):
         if (k, order) not in self._forests:
             self._forests[k, order] = self._new_forests(k, order)
         return self._forests[k, order]
-
-    def _images(self, k: int, order: int) -> Iterator[Value]:
-        for m in range(self.tableau.size):
-            if (k, m) in self.tableau.blocks:
-                yield self._image(k, m, order, self.of_trees(m, order))
 
     def _splits(self, k: int, order: int) -> Iterator[tuple[Value, Value]]:
         """The smallest branch, and the forest of the others, of all forests of two branches at

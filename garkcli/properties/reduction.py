@@ -106,12 +106,10 @@ def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
         tableau: the method.
         tolerance: the rounding of its coefficients, which must not be able to change the answer.
     """
-    for k, _ in enumerate(tableau.spaces):
-        if not _has_weights(tableau, k, tolerance):
-            return False
-        if not _tells_apart(tableau, k, tolerance):
-            return False
-    return True
+    return all(
+        _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
+        for k in range(len(tableau.spaces))
+    )
 
 
 def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
@@ -119,11 +117,8 @@ def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
     space = tableau.spaces[k]
     rows = [colour.b for colour in tableau.colours if colour.space == k]
     if isinstance(space, PointSpace):
-        for i in range(space.stages):
-            weights = [b[i] for b in rows]
-            if not any(is_nonzero(weight, tolerance) for weight in weights):
-                return False
-        return True
+        stages = zip(*rows, strict=True)
+        return bool(rows) and all(any(is_nonzero(x, tolerance) for x in b) for b in stages)
     if tolerance:
         return False
     return any(_is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows)
@@ -277,8 +272,7 @@ def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
         classes.append([stages])
     while True:
         finer = [_split(tableau, k, classes) for k in numbers]
-        sizes_before = [len(found) for found in classes]
-        if [len(found) for found in finer] == sizes_before:
+        if list(map(len, finer)) == list(map(len, classes)):
             return finer
         classes = finer
 
@@ -286,10 +280,13 @@ def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
 def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[list[int]]:
     """The classes of one space, divided by what their stages see."""
     found: list[list[int]] = []
+    blocks = [(tableau.blocks.get((k, m)), x.space) for m, x in enumerate(tableau.colours)]
     for members in classes[k]:
         by_sight: list[tuple[list[object], list[int]]] = []
         for i in members:
-            sight = _sight(tableau, k, i, classes)
+            # what the stage sees: its node, and the sums of its entries over each class
+            sight: list[object] = [tableau.spaces[k].nodes[i]]
+            sight += [_summed(A[i], classes[space]) for A, space in blocks if A is not None]
             # compared, not hashed: that of a fraction is slow to be had first
             alike = next((x for seen, x in by_sight if seen == sight), None)
             if alike is None:
@@ -298,16 +295,6 @@ def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[lis
                 alike.append(i)
         found += [alike for _, alike in by_sight]
     return sorted(found)
-
-
-def _sight(tableau: Tableau, k: int, i: int, classes: list[list[list[int]]]) -> list[object]:
-    """What stage i of a space sees: its node, and the sums of its entries over each class."""
-    sight: list[object] = [tableau.spaces[k].nodes[i]]
-    for m, colour in enumerate(tableau.colours):
-        block = tableau.blocks.get((k, m))
-        if block is not None:
-            sight.append(_summed(block[i], classes[colour.space]))
-    return sight
 
 
 @doing("smallest method")

@@ -66,7 +66,7 @@ class Subject(Frozen):
     @cached_property
     def graph(self) -> StageGraph:
         """Which stage values depend on which."""
-        return stage_graph(self._with_entries, None, self.tolerance)
+        return stage_graph(self.points or self.tableau, None, self.tolerance)
 
     @cached_property
     def shape(self) -> Shape:
@@ -99,7 +99,7 @@ class Subject(Frozen):
 
     def _of_points(self, l: int) -> Shape:
         """The shape of a colour by its entries."""
-        graph = stage_graph(self._with_entries, [l], self.tolerance)
+        graph = stage_graph(self.points or self.tableau, [l], self.tolerance)
         return shape_of(graph, self.tolerance)
 
     @cached_property
@@ -107,19 +107,10 @@ class Subject(Frozen):
         """The method with one coordinate a stage; None where nodes have no simple radicals."""
         return at_points(self.tableau)
 
-    @property
-    def _with_entries(self) -> Tableau:
-        return self.tableau if self.points is None else self.points
-
     @cached_property
     def symmetry(self) -> Symmetry:
         """Whether it is its own adjoint."""
         return symmetry(self.tableau, self.tolerance)
-
-    @cached_property
-    def stage_orders(self) -> tuple[int, ...]:
-        """The stage order of each colour."""
-        return self.simplifying.stage_orders
 
     @cached_property
     def linear(self) -> StabilityFunction | None:

@@ -122,7 +122,11 @@ def _reflections(tableau: Tableau, k: int, tolerance: fmpq) -> Iterator[Reflecti
     if isinstance(space, PolynomialSpace):
         yield from _reflected_polynomials(space)
     elif isinstance(space, PointSpace):
-        yield from _involutions(_fitting(_keys(tableau, k, space), tolerance))
+        keys = _keys(tableau, k, space)
+        allowed = (3 * len(keys) + 3) * tolerance  # sums are as long as stages
+        yield from _involutions(
+            [[_are_close((image,), (other,), allowed) for other, _ in keys] for _, image in keys]
+        )
 
 
 def _reflected_polynomials(space: PolynomialSpace) -> Iterator[Reflection]:
@@ -162,18 +166,12 @@ def _keys(tableau: Tableau, k: int, space: StageSpace) -> list[tuple[Vector, Vec
     return keys
 
 
-def _fitting(keys: list[tuple[Vector, Vector]], tolerance: fmpq) -> list[list[bool]]:
-    """For each pair of stages whether one may turn into the other; sums are as long as stages."""
-    allowed = (3 * len(keys) + 3) * tolerance
-    fits = []
-    for _, image in keys:
-        close = [_are_close((image,), (other,), allowed) for other, _ in keys]
-        fits.append(close)
-    return fits
-
-
 def _involutions(fits: list[list[bool]]) -> Iterator[Reflection]:
-    """Permutations that are their own inverse and take each stage to one that fits."""
+    """Permutations that are their own inverse and take each stage to one that fits.
+
+    Args:
+        fits: for each pair of stages whether one may turn into the other.
+    """
     size = len(fits)
     images: list[int | None] = [None] * size
 

@@ -118,17 +118,14 @@ def _pair_in_brief(a: Any) -> Answer:
     return replace(kinds.order_answer(a.pair_order), level=USUAL if is_told else DATA)
 
 
-def with_time(a: Any) -> Answer:
+def with_time(key: str, of: Callable[[Any], Any]) -> Row:
     """The order on problems with time, told where the nodes are not the row sums."""
-    return replace(
-        kinds.order_answer(a.nonautonomous_order), level=USUAL if a.inconsistent else DETAIL
-    )
 
+    def get(a: Any) -> Answer:
+        level = USUAL if a.inconsistent else DETAIL
+        return replace(kinds.order_answer(of(a)), level=level)
 
-def embedded_with_time(a: Any) -> Answer:
-    """The same of the embedded weights."""
-    found = a.embedded and a.embedded.nonautonomous_order
-    return replace(kinds.order_answer(found), level=USUAL if a.inconsistent else DETAIL)
+    return Row(key, kinds.ORDER, get, has_null=True)
 
 
 def witnesses(a: Any) -> list[tuple[Any, Any]]:
@@ -372,7 +369,7 @@ RENUMBERED = kinds.record(
 
 
 def _is_open(subject: Any, l: int) -> bool:
-    return bool(subject.stage_orders[l] >= subject.limit)
+    return bool(subject.simplifying.stage_orders[l] >= subject.limit)
 
 
 COLOUR = Section(
@@ -386,7 +383,7 @@ COLOUR = Section(
     Row(
         "stage_order",
         kinds.COUNT,
-        lambda x: Answer(x[0].stage_orders[x[1]], Status(at_least=_is_open(*x))),
+        lambda x: Answer(x[0].simplifying.stage_orders[x[1]], Status(at_least=_is_open(*x))),
     ),
     Row(
         "stage_order_is_lower_bound",
@@ -427,7 +424,7 @@ def count_rows(key: str) -> tuple[Row, ...]:
 def colours_apart(a: Any) -> list[Any] | None:
     """The colours, where they are not alike."""
     shapes = {getattr(shape, "kind", None) for shape in a.subject.shapes}
-    if len(shapes) == 1 and len({*a.subject.stage_orders}) == 1:
+    if len(shapes) == 1 and len({*a.subject.simplifying.stage_orders}) == 1:
         return None
     return [(a.subject, l) for l in range(a.tableau.size)]
 
@@ -439,7 +436,7 @@ def _colours_words(found: Any, d: Plain) -> str:
         gamma = getattr(shape, "gamma", None)
         said = [] if shape is None else [shape.name]
         said += [] if gamma is None else [f"γ = {d.number(gamma)}"]
-        said.append(f"stage order {d.capped(subject.stage_orders[l], subject.limit)}")
+        said.append(f"stage order {d.capped(subject.simplifying.stage_orders[l], subject.limit)}")
         texts.append(f"{d.prose(subject.tableau.colours[l].name)} {', '.join(said)}")
     return "; ".join(texts)
 
@@ -712,9 +709,11 @@ ANALYSIS = [
     ),
     of_several("conjugate_order"),
     of_several("pair_order"),
-    Row("nonautonomous_order", kinds.ORDER, with_time, has_null=True),
+    with_time("nonautonomous_order", lambda a: a.nonautonomous_order),
     order("embedded_order", lambda a: a.embedded and a.embedded.order),
-    Row("embedded_nonautonomous_order", kinds.ORDER, embedded_with_time, has_null=True),
+    with_time(
+        "embedded_nonautonomous_order", lambda a: a.embedded and a.embedded.nonautonomous_order
+    ),
     Row(
         "error_estimate",
         part(ESTIMATE, estimate_words),

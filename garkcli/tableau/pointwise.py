@@ -269,9 +269,8 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
 
 def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
     """The maps of coordinates to stage values and back."""
-    s = space.stages
     if not isinstance(space, PolynomialSpace):
-        unit = _to_arb(identity(s))
+        unit = _to_arb(identity(space.stages))
         return unit, unit
     return powers_of_nodes(space), coordinates_at_nodes(space)
 

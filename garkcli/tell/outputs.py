@@ -46,13 +46,10 @@ def gist(fact: Fact, d: Plain) -> str:
 def phrases(section: Section, whole: Any, d: Plain, level: Level) -> Iterator[str]:
     """The facts down to a level, each as a part of a sentence."""
     for fact in section.facts(whole, level):
-        if fact.level <= level and fact.is_something and _is_said(fact):
+        kind = fact.row.kind
+        can_be_said = not kind.is_below and kind.rows is None
+        if fact.level <= level and fact.is_something and can_be_said:
             yield phrase(fact, d)
-
-
-def _is_said(fact: Fact) -> bool:
-    """Whether a fact can be a part of a sentence."""
-    return not fact.row.kind.is_below and fact.row.kind.rows is None
 
 
 def phrase(fact: Fact, d: Plain) -> str:

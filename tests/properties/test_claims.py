@@ -350,7 +350,7 @@ def test_stages_of_several_methods_that_are_solved_together() -> None:
     subject = subject_of(load("methods/collocation.gark.yaml"))
     assert subject.shape.systems == (((0, 0), (0, 1), (1, 1), (1, 2)),)
     assert subject.verdict("implicit-stages").value == 4
-    assert subject.stage_orders == (2, 3)
+    assert subject.simplifying.stage_orders == (2, 3)
     assert subject.verdict("stage-order").value == 2
 
 

@@ -40,17 +40,12 @@ def what_is_not_singly(subject: Subject) -> Reason:
     """Why there is no common coefficient γ; empty where there is one."""
     shape = subject.shape
     if shape.kind != "diagonally implicit":
-        return what_is_solved_together(subject) or it_is(shape.kind)
+        return what_is_solved_together(subject) or Reason(f"it is {shape.kind}")
     if shape.gamma is not None:
         return NO_REASON
     found = {x: None for entries in subject.graph.loops.values() for x in entries}
     first, second, *_ = (number_words(x) for x in found if x is not None)
     return Reason("stages depend on themselves by {} and by {}", first, second)
-
-
-def it_is(kind: str | None) -> Reason:
-    """Of which kind a method is."""
-    return Reason(f"it is {kind}")
 
 
 def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdict:
@@ -89,7 +84,7 @@ def diagonally_implicit(subject: Subject) -> Verdict:
     if kind is None:
         return Verdict.undecided(UNDECIDED)
     if kind == "explicit":
-        return Verdict(False, it_is(kind))
+        return Verdict(False, Reason(f"it is {kind}"))
     return Verdict.unless(what_is_solved_together(subject))
 
 
@@ -137,7 +132,7 @@ def fully_implicit(subject: Subject) -> Verdict:
     kind = subject.shape.kind
     if kind is None:
         return Verdict.undecided(UNDECIDED)
-    return Verdict.unless(NO_REASON if kind == "fully implicit" else it_is(kind))
+    return Verdict.unless(NO_REASON if kind == "fully implicit" else Reason(f"it is {kind}"))
 
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6", kind="count")

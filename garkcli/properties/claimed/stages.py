@@ -247,7 +247,7 @@ def stage_order(subject: Subject) -> Verdict:
     quadrature and stage values of the same order q. Of one colour l: for that l and all m. The
     nodes are those that the file gives.
     """
-    found = subject.stage_orders
+    found = subject.simplifying.stage_orders
     return Verdict(min(found), _by_colour(subject, found), is_at_least=min(found) >= subject.limit)
 
 
