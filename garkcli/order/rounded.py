@@ -115,8 +115,12 @@ class TreeResiduals(StageVectors[Rows]):
     def _values(self, table: TreeTable, segment: Segment) -> Row:
         """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
         b = self.enclosure.b[segment.root].entries()
-        weighted = arb_mat([times(row, b) for row in self.stems(table, segment)])
-        return (weighted * arb_mat(self.branches(table, segment)).transpose()).entries()
+        stems, branches = self.stems(table, segment), self.branches(table, segment)
+        if len(stems) < len(branches):  # the weights go where they are fewer
+            stems = [times(row, b) for row in stems]
+        else:
+            branches = [times(row, b) for row in branches]
+        return (arb_mat(stems) * arb_mat(branches).transpose()).entries()
 
     def _part(self, vectors: Rows, places: Column) -> Rows:
         return [vectors[i] for i in places.tolist()]

@@ -23,7 +23,6 @@ from garkcli.tableau.tableau import Tableau
 if TYPE_CHECKING:
     from garkcli.properties.property import Verdict
     from garkcli.stability.linear import StabilityFunction
-    from garkcli.stability.within import StabilityWithin
 
 MISSING_BLOCKS = Reason("some stages do not see every vector field")
 """Why what is about all vector fields together has no meaning where blocks are missing."""
@@ -112,19 +111,22 @@ class Subject(Frozen):
         """Whether it is its own adjoint."""
         return symmetry(self.tableau, self.tolerance)
 
+    @property
+    def is_linear(self) -> bool:
+        """Whether there is an R(z) with all vector fields equal: no block is missing."""
+        return self.is_complete and not self.tableau.is_partitioned
+
     @cached_property
-    def linear(self) -> StabilityFunction | None:
-        """R(z) with all vector fields equal; None where blocks are missing."""
-        if not self.is_complete or self.tableau.is_partitioned:
-            return None
+    def linear(self) -> StabilityFunction:
+        """R(z) with all vector fields equal."""
         from garkcli.stability.linear import stability_function
 
         return stability_function(self.tableau)
 
     @cached_property
-    def linear_within(self) -> StabilityWithin:
-        """What holds of R(z) for all methods within the tolerance."""
-        from garkcli.stability.within import stability_within
+    def linear_within(self) -> tuple[bool | None, bool | None]:
+        """Whether all methods within the tolerance are A-stable, L-stable; None: not decided."""
+        from garkcli.stability.within import stiff_stability_within
 
         shares = [ONE] * self.tableau.size
-        return stability_within(self.tableau, shares, self.tolerance, self.order)
+        return stiff_stability_within(self.tableau, shares, self.tolerance, self.order)

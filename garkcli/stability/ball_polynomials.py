@@ -17,7 +17,7 @@ from itertools import pairwise, zip_longest
 
 from flint import arb, arb_mat, arb_poly, fmpq
 
-from garkcli.exact.field import ZERO
+from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
 
 MOST_PIECES_OF_UNIT = 4000
@@ -150,11 +150,12 @@ OPEN = Bounds(ZERO, None)
 """Nothing is known."""
 
 
-def first_failure(coefficients: Sequence[arb]) -> Bounds:
+def first_failure(coefficients: Sequence[arb], upto: fmpq | None = None) -> Bounds:
     """The x ≥ 0 from which on a polynomial is negative, between bounds.
 
     Args:
         coefficients: the lowest first; exact zeros are structure.
+        upto: beyond it nothing is asked: a polynomial that is positive so far is unlimited.
 
     >>> found = first_failure([arb(4), arb(0), arb(-1)])
     >>> bool(found.low <= 2 <= found.high and found.high - found.low < fmpq(1, 10**9))
@@ -171,27 +172,29 @@ def first_failure(coefficients: Sequence[arb]) -> Bounds:
         return Bounds(ZERO, ZERO)
     if kept[0].contains(0):
         return OPEN
-    if len(kept) == 1 or _is_positive_everywhere(kept):
-        return UNLIMITED
     p = arb_poly(kept)
-    return _bounded_behind(p, _passed(p))
+    if upto is None:
+        is_positive = len(kept) == 1 or _is_positive_everywhere(kept)
+        return UNLIMITED if is_positive else _bounded_behind(p, _passed(p))
+    passed = _passed(p, upto)
+    return UNLIMITED if passed >= upto else _bounded_behind(p, passed)
 
 
 def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
     """Whether it is positive on [0, 1], and reversed on [0, 1]; False if that is not seen."""
     both_ways = (arb_poly(list(coefficients)), arb_poly(list(coefficients[::-1])))
-    return all(_passed(p, up_to_one=True) == 1 for p in both_ways)
+    return all(_passed(p, ONE) == 1 for p in both_ways)
 
 
-def _passed(p: arb_poly, up_to_one: bool = False) -> fmpq:
-    """How far from 0 the polynomial is seen to be positive."""
-    ends = [fmpq(0), fmpq(1)]
-    if not up_to_one:
-        ends += [fmpq(2) ** k for k in range(1, FARTHEST)]
+def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
+    """How far from 0 the polynomial is seen to be positive; beyond ``upto`` nobody looks."""
+    ends = [fmpq(0), *(fmpq(2) ** k for k in range(FARTHEST))]
     pieces = [(low, high, 0) for low, high in pairwise(ends)][::-1]
     tried = 0
     while pieces:
         low, high, depth = pieces.pop()
+        if upto is not None and low >= upto:
+            return low
         tried += 1
         middle = (low + high) / 2
         if p(arb(middle, (high - low) / 2)) > 0:

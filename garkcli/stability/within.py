@@ -21,6 +21,7 @@ from garkcli.graph import components
 from garkcli.stability.algebraic import rounded_balls
 from garkcli.stability.ball_polynomials import (
     OPEN,
+    UNLIMITED,
     Bounds,
     are_coprime,
     both,
@@ -147,7 +148,10 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
     conditions = [[denominator[k] for k in range(len(denominator))]]
     for vector in vectors:
         conditions += _numerators(denominator, whole, vector)
-    return least([first_failure(condition) for condition in conditions])
+    found = UNLIMITED
+    for condition in conditions:
+        found = least([found, first_failure(condition, found.high)])
+    return found
 
 
 def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> list[list[arb]]:
@@ -195,16 +199,26 @@ def stability_within(
     with ctx.workprec(BITS):
         R = fraction_within(tableau, shares, tolerance)
         E = _margin(R, order)
-        is_stiff = is_stiffly_accurate(tableau, shares)
-        a_stable = both(_is_bounded(E, is_stiff), _poles_are_right(R))
+        a_stable, l_stable = stiff_stability_within(tableau, shares, tolerance, order)
         return StabilityWithin(
             a_stable=a_stable,
-            l_stable=both(a_stable, _vanishes_at_infinity(R, is_stiff)),
+            l_stable=l_stable,
             real=_real_end(R),
             # rounding hides whether all coefficients are zero
             imaginary=OPEN if all(a.is_zero() for a in E) else first_failure(E),
             ssp=ssp_within(tableau, shares, tolerance),
         )
+
+
+def stiff_stability_within(
+    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq, order: int
+) -> tuple[bool | None, bool | None]:
+    """Whether a method is A-stable and whether it is L-stable; see ``stability_within``."""
+    with ctx.workprec(BITS):
+        R = fraction_within(tableau, shares, tolerance)
+        is_stiff = is_stiffly_accurate(tableau, shares)
+        a_stable = both(_is_bounded(_margin(R, order), is_stiff), _poles_are_right(R))
+        return a_stable, both(a_stable, _vanishes_at_infinity(R, is_stiff))
 
 
 def is_stiffly_accurate(tableau: Tableau, shares: Sequence[Number]) -> bool:

@@ -130,21 +130,21 @@ def a_stable(subject: Subject) -> Verdict:
     = λy with all vector fields equal. Decided by the poles of R and the polynomial E = |Q(iy)|² −
     |P(iy)|² for R = P/Q.
     """
-    if subject.linear is None:
+    if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
-        return decide_within(subject.linear_within.a_stable)
+        return decide_within(subject.linear_within[0])
     return Verdict.unless(obstacle_to_a_stability(subject.linear))
 
 
 @claimed("B. L. Ehle, thesis, Waterloo (1969)", meaning=SEES_ALL, is_cheap=False)
 def l_stable(subject: Subject) -> Verdict:
     """A-stable with R(∞) = 0: what is infinitely stiff is damped in one step."""
-    R = subject.linear
-    if R is None:
+    if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
-        return decide_within(subject.linear_within.l_stable)
+        return decide_within(subject.linear_within[1])
+    R = subject.linear
     limit = R.at_infinity()
     if limit:
         return Verdict(False, Reason("R(∞) = {}", number_words(limit)))
