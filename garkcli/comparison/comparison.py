@@ -220,9 +220,8 @@ def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Gr
     """The conditions up to the first order at which both fail."""
     if answer.sameness is not None or first.size != second.size:
         return None
-    upto = max(one.order.order, other.order.order) + 1
     methods = [meant(x.tableau, x.tolerance) for x in (one, other)]
-    return conditions_met(methods[0], methods[1], upto)
+    return conditions_met(methods[0], methods[1], (one.order.order, other.order.order))
 
 
 def _properties(one: Analysis, other: Analysis) -> tuple[PropertyPair, ...]:

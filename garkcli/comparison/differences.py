@@ -179,30 +179,36 @@ class Met(Frozen):
         return tuple(x for x in self.pairs if x[1].holds)
 
 
-def conditions_met(one: AnyTableau, other: AnyTableau, upto: int) -> Met:
-    """The conditions that one method meets and the other does not.
+def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) -> Met:
+    """The conditions that one method meets and the other does not, up to the first order at which
+    both fail; fewer where there are more than ``MAX_CONDITIONS`` conditions.
 
     Args:
         one: a method.
         other: another with the same number of colours.
-        upto: the highest order of interest; fewer are compared where there are more than
-            ``MAX_CONDITIONS`` conditions.
+        orders: the orders that they are known to have.
     """
     tableau = printed(one)
     graph = _common_graph(tableau, printed(other))
     roots = _common_roots(tableau, printed(other))
     pairs: list[tuple[Condition, Condition]] = []
     reached, total = 0, 0
-    for order in range(1, upto + 1):
+    for order in range(1, max(orders) + 2):
         by_root = count_by_root(tableau.size, order, *graph)
         total += sum(by_root[root] for root in roots)
         if total > MAX_CONDITIONS:
             break
+        reached = order
+        if order <= min(orders):
+            continue
         trees = list(_trees(tableau.size, order, graph, roots))
+        if order <= orders[0]:
+            trees = [x.tree for x in conditions(other, trees) if not x.holds]
+        elif order <= orders[1]:
+            trees = [x.tree for x in conditions(one, trees) if not x.holds]
         for first, second in zip(conditions(one, trees), conditions(other, trees), strict=True):
             if first.holds != second.holds:
                 pairs.append((first, second))
-        reached = order
     return Met(reached, tuple(pairs))
 
 

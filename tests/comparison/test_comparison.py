@@ -283,7 +283,7 @@ def test_the_search_gives_up_honestly(monkeypatch: Any) -> None:
 def test_few_conditions_are_compared_of_many() -> None:
     """No more than so many; which orders are complete is said."""
     side = load(str(ROOT / "methods/three-colours.gark.yaml")).tableau
-    found = conditions_met(side, side, 12)
+    found = conditions_met(side, side, (0, 11))
     assert found.pairs == ()
     assert 3 <= found.order < 12
     assert MAX_CONDITIONS >= 1000
