@@ -13,6 +13,7 @@ from garkcli.errors import ExpressionError, printable
 from garkcli.exact.display import decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
+from garkcli.exact.field import Number
 from garkcli.exact.nodes import Literal
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
@@ -107,7 +108,7 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
     rows += [*table.b, *(row for row in table.c if row), *(table.embedded or ())]
     texts = {x for row in rows for x in row if len(x) > FEWEST_DIGITS and "." in x}
     short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if _fraction(x)]
-    units = {fmpq_of(text): unit for text, unit in table.units}
+    units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
     return Digits((*method.printed, *short), units)
 
 

@@ -182,8 +182,9 @@ class Domain:
             case Chain(signs=signs, operands=operands):
                 total: Number = ZERO if signs[0] in "+-" else ONE
                 for sign, operand in zip(signs, operands, strict=True):
-                    number = self.evaluate(operand)
-                    total = _bounded(self._apply(sign, total, number, operand), expression)
+                    total = self._apply(sign, total, self.evaluate(operand), operand)
+                    if _bits(total) > MAX_BITS:
+                        raise too_many_bits(expression)
                 return total
             case Power(base=base, exponent=exponent):
                 return self._power(self.evaluate(base), exponent, expression)
@@ -332,12 +333,6 @@ def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
         return max(int(x.height_bits()) for x in number.poly.coeffs())
     return int(number.height_bits())
-
-
-def _bounded(number: Number, at: Expression) -> Number:
-    if _bits(number) > MAX_BITS:
-        raise too_many_bits(at)
-    return number
 
 
 def too_many_bits(at: Expression) -> LimitExceeded:

@@ -64,16 +64,12 @@ def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
         by_space.setdefault(space, []).append(stage + 1)
     parts = []
     for space, stages in by_space.items():
-        noun = "stage" if len(stages) == 1 else "stages"
-        parts.append(f"{noun} {_ranges(stages)}{_of_colours(tableau, space)}")
+        part = f"{'stage' if len(stages) == 1 else 'stages'} {_ranges(stages)}"
+        if len(tableau.spaces) > 1:
+            names = [x.name for x in tableau.colours if x.space == space]
+            part += f" of {'colour' if len(names) == 1 else 'colours'} {', '.join(names)}"
+        parts.append(part)
     return " and ".join(parts)
-
-
-def _of_colours(tableau: Tableau, space: int) -> str:
-    if len(tableau.spaces) == 1:
-        return ""
-    names = [x.name for x in tableau.colours if x.space == space]
-    return f" of {'colour' if len(names) == 1 else 'colours'} {', '.join(names)}"
 
 
 def _ranges(numbers: Sequence[int]) -> str:

@@ -225,18 +225,13 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
     with ctx.workprec(goal + 64):
         while True:
             enclosed = _numeric(tableau, digits)
-            if enclosed is not None and _is_narrow(enclosed, digits):
-                return enclosed
+            if enclosed is not None:
+                rows = [*enclosed.c, *enclosed.b]
+                rows += (row for blocks in enclosed.A for block in blocks for row in block or ())
+                bound = arb(10) ** -digits
+                if all(x.rad() < bound for row in rows for x in row if isinstance(x, arb)):
+                    return enclosed
             ctx.prec *= 2
-
-
-def _is_narrow(enclosed: Entries, digits: int) -> bool:
-    bound = arb(10) ** -digits
-    rows = [*enclosed.c, *enclosed.b]
-    for blocks in enclosed.A:
-        for block in blocks:
-            rows += block or ()
-    return all(x.rad() < bound for row in rows for x in row if isinstance(x, arb))
 
 
 def _numeric(tableau: Tableau, digits: int) -> Entries | None:

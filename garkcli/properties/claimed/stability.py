@@ -234,7 +234,7 @@ def real_stability(subject: Subject) -> Verdict:
     """The length of the real stability interval: the largest x for which |R(z)| ≤ 1 on [−x, 0]."""
     from garkcli.stability.linear import real_set
 
-    if subject.linear is None:
+    if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return Verdict.undecided("the coefficients are rounded")
@@ -253,7 +253,7 @@ def imaginary_stability(subject: Subject) -> Verdict:
     """
     from garkcli.stability.linear import imaginary_set
 
-    if subject.linear is None:
+    if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return Verdict.undecided("the coefficients are rounded")
