@@ -88,21 +88,21 @@ def claims_tables() -> str:
 
 def keys_table(kind: str) -> str:
     """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
-    rows = []
+    paths: dict[str, list[str]] = {}
     for key in keys_of(kind).values():
-        example = key.example.replace("|", "\\|")
-        rows.append((f"`{key.path}`", cell(_said(key)), f"`{example}`"))
-    return table(("key", "what it is", "example"), rows)
+        paths.setdefault(_said(key), []).append(f"`{key.path}`")
+    return table(("key", "what it is"), ((", ".join(x), cell(text)) for text, x in paths.items()))
 
 
 def _said(key: Key) -> str:
-    """What a key is, and what holds without it."""
+    """What a key is, in a sentence, and what holds without it."""
+    text = _first_sentence(key.text)
     if key.default is None:
-        return key.text
+        return text
     default = str(key.default)
     if isinstance(key.default, bool):
         default = default.lower()
-    return f"{key.text} By default {default}."
+    return f"{text} By default {default}."
 
 
 def findings_table(command: str) -> str:
