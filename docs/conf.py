@@ -159,6 +159,7 @@ def _write_formula(writer: Any, node: Any) -> None:
 
     is_block = node.tagname == "math_block"
     formula = convert(node.astext(), display="block" if is_block else "inline")
+    formula = re.sub(r"<mi>([≤≥≠±·∘⊙∈≈⇔∖◁])</mi>", r"<mo>\1</mo>", formula)  # with space around
     scrolls = '<div tabindex="0" style="overflow-x: auto; overflow-y: hidden">'
     writer.body.append(f"{scrolls}{formula}</div>" if is_block else formula)
     raise SkipNode
