@@ -373,7 +373,7 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
     """Properties that the source declares."""
     tableau = subject.tableau
     block = tableau.block(0, 0)
-    if not subject.table.flags.get("fsal") or block is None:
+    if not subject.table.flags.get("fsal") or block is None or tableau.size > 1:
         return
     tolerance = subject.rounded.tolerance
     pairs = zip(block[-1], tableau.colours[0].b, strict=True)

@@ -138,7 +138,7 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
         if meant.is_sure or meant.is_assembled:
             sure = replace(empty, is_sure=True)
             return troubled(sure, error.message, isinstance(error, Misshapen))
-        if _is_unread(roles):
+        if _is_unread(roles) or (_has_weights(roles) and not isinstance(error, Misshapen)):
             return troubled(replace(empty, is_sure=True), error.message)
         trouble = f"arrays called A and b do not fit together: {error.message}"
         return replace(troubled(empty, trouble), is_sure=False)
@@ -170,6 +170,13 @@ def _is_number(value: Value) -> bool:
 def _is_unread(roles: Roles) -> bool:
     """Whether it is for an entry that is not known that a table cannot be read."""
     return any(first_unknown(roles[x]) is not None for x in ("A", "b") if x in roles)
+
+
+def _has_weights(roles: Roles) -> bool:
+    """Whether b has the sum 1, which is that of weights."""
+    b = roles.get("b")
+    is_list = isinstance(b, Array) and len(b.items) > 1
+    return is_list and abs(_near(roles["b"]) - 1) < _SAME
 
 
 def _flags(roles: Roles) -> dict[str, bool]:
@@ -354,7 +361,7 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
             units=made.units,
         )
         roles = {role: x for role, x in roles.items() if form != "Shu–Osher" or role != "c"}
-    c = _nodes(roles, len(b))
+    c = _nodes(roles, A)
     A, b, c, embedded = _embedded(roles, A, b, c, meant)
     return replace(
         empty,
@@ -382,6 +389,9 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
     """The form of low-storage and Shu–Osher coefficients, and what they are; None of others."""
     form = meant.signature.form if meant.signature else "rk"
     A = roles.get("A")
+    if isinstance(A, Array) and A.is_matrix and len(A.items) == 1 and "c" not in roles:
+        # {{a2, a3, …}}
+        A = A.items[0]
     if "gamma1" in roles:
         names = ("gamma1", "gamma2", "gamma3", "delta", "A")
         rows = [weights(plain(roles[x])) if x in roles else () for x in names]
@@ -416,7 +426,7 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     """Ā, b̄, b and c as the pair (q, p) with linear velocities."""
     b_q, b = (weights(plain(roles[x])) for x in ("b_q", "b"))
     stages = len(b)
-    c = _nodes(roles, stages)
+    c = _nodes(roles, square(plain(_with_rows(roles["A_q"])), stages))
     if c is None:
         raise Unreadable("the nodes of a Nyström method are not written out")
     A = square(plain(_with_rows(roles["A_q"])), stages)
@@ -460,7 +470,8 @@ def _weights_of(roles: Roles, meant: Meant, stages: int) -> Row:
     return weights(plain(given), stages if has_default or meant.maker else 0)
 
 
-def _nodes(roles: Roles, stages: int) -> Row | None:
+def _nodes(roles: Roles, A: Rows) -> Row | None:
+    stages = len(A)
     given = roles.get("c")
     if not isinstance(given, Array) or first_unknown(given) is not None:
         return None
@@ -470,6 +481,10 @@ def _nodes(roles: Roles, stages: int) -> Row | None:
         return ("0", *row)
     if len(row) != stages:
         raise Misshapen(f"{len(row)} nodes for {stages} stages")
+    is_from_the_second = is_zero(row[-1]) and not is_zero(row[0])
+    if is_from_the_second and all(map(is_zero, A[0])) and not all(map(is_zero, A[-1])):
+        # c2 … cs, and a number that nothing uses
+        return ("0", *row[:-1])
     return row
 
 
@@ -544,7 +559,8 @@ def _two_parts(roles: Roles, empty: FoundTable) -> FoundTable:
     explicit = square(plain(roles.get("A")), stages)
     b_explicit = _given(roles, "b", stages) or b_implicit
     c_implicit, c_explicit = _given(roles, "c2", stages), _given(roles, "c", stages)
-    of_implicit, of_explicit = _given(roles, "embedded2", stages), _given(roles, "embedded", stages)
+    of_implicit = _given_low(roles, "2", b_implicit)
+    of_explicit = _given_low(roles, "", b_explicit)
     embedded = None if of_implicit is None else (of_explicit or of_implicit, of_implicit)
     if all(is_zero(x) for row in (*explicit, b_explicit) for x in row):
         # nothing is explicit: the way to register an implicit method
@@ -562,6 +578,14 @@ def _two_parts(roles: Roles, empty: FoundTable) -> FoundTable:
         # each part is evaluated at its own times
         return replace(shared, A=(row, row), c=(c_explicit, c_implicit))
     return shared
+
+
+def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
+    """The embedded weights of a part, or what they are with b an error of."""
+    error = roles.get(f"error{part}")
+    if isinstance(error, Array) and error.items:
+        return changed("-", b, weights(plain(error), len(b)))
+    return _given(roles, f"embedded{part}", len(b))
 
 
 def _have_other_sums(first: Value, second: Value) -> bool:

@@ -719,7 +719,7 @@ class Evaluator:
         named = {key: self.value(x, space) for key, x in call.named}
         target = space.find(name) if isinstance(callee, ir.Name) else None
         if isinstance(target, Function) and len(target.parameters) == len(args):
-            return self._applied(target, args)
+            return self.applied(target, args)
         plain = name.rpartition("::")[2]
         if isinstance(target, Type) and target.name:
             plain, target = target.name, None
@@ -735,6 +735,10 @@ class Evaluator:
             return self._sliced(target, call.args, space)
         if isinstance(callee, ir.Field) and plain in _SAME:
             return self.value(callee.of, space)
+        if isinstance(callee, ir.Field) and plain == "back" and not args:
+            array = self.value(callee.of, space)
+            if isinstance(array, Array) and array.items:
+                return copied(array.items[-1])
         if plain.endswith("!"):
             for arg in call.args:
                 if isinstance(arg, ir.Name) and isinstance(space.find(arg.name), Array):
@@ -750,7 +754,8 @@ class Evaluator:
         """What a call is given; a record in it is one of its own."""
         return self.unknown(described(value)) if isinstance(value, Record) else value
 
-    def _applied(self, function: Function, args: Sequence[Value]) -> Value:
+    def applied(self, function: Function, args: Sequence[Value]) -> Value:
+        """The value of a function of one expression."""
         if self._inlined >= MAX_INLINED:
             return self.unknown("calls that are nested too deep")
         inner = Space(function.space)

@@ -140,6 +140,8 @@ class TableFinder:
                 return
         for name, value in fields.items():
             role = name if record.kind == PRINTED else ROLES.get(name)
+            if signature is not None and name in signature.named:
+                role = signature.named[name]
             if role is not None and not isinstance(value, Null):
                 roles.setdefault(role, value)
         parts = roles_of_parts(fields)
@@ -232,6 +234,10 @@ class TableFinder:
         for stem, of_role in blocks.items():
             if "A" in of_role and all(len(at) == 2 for at in of_role["A"]):
                 groups[stem] = {**groups.get(stem, {}), **_grid(of_role)}
+            elif stem in groups and set(of_role.get("b", ())) == {(1,), (2,)}:
+                # b1 and b2 beside one A: the weights and the embedded ones
+                pair = {"b": of_role["b"][1,], "embedded": of_role["b"][2,]}
+                groups[stem] = {**pair, **groups[stem]}
         for stem, roles in groups.items():
             if not is_complete(roles):
                 continue

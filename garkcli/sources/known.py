@@ -16,6 +16,7 @@ from garkcli.sources.values import (
     ONE,
     ZERO,
     Array,
+    Function,
     Number,
     Record,
     Type,
@@ -284,6 +285,15 @@ def _mapped(call: Call) -> Value | None:
     return conversion([values], call.line)
 
 
+def _each(call: Call) -> Value | None:
+    """``[f(x) for x in …]``."""
+    function, values = call.args
+    if not isinstance(function, Function) or not isinstance(values, Array):
+        return call.unknown()
+    call.evaluator.allowance.spend(size(values))
+    return call.evaluator.array(call.evaluator.applied(function, [x]) for x in values.items)
+
+
 def _power(call: Call) -> Value | None:
     if len(call.args) != 2:
         return None
@@ -375,6 +385,7 @@ CONVERSIONS = frozenset(_BY_FUNCTION[_converted].split())
 CALLS: Mapping[str, Known] = {
     "list *": _repeated,
     "list +": _stacked,
+    "list of each": _each,
     **{name: known for known, names in _BY_FUNCTION.items() for name in names.split()},
 }
 """What is known of each function."""

@@ -183,11 +183,21 @@ def recognised(A: Row, b: Row, c: Row | None) -> tuple[str, Converted]:
         steps, _ = found = printed.steps(scheme)
         if _is_near(steps.b, fmpq(1)) and (c is None or _agree(steps, c)):
             fitting.append((form, found))
-    alike = {_butcher(found) for _, found in fitting}
+    alike = {_butcher(found): form for form, found in reversed(fitting)}
+    if len(alike) > 1 and c is None:
+        # the nodes are the row sums, and weights make at least order 2 with these
+        better = {_butcher(found): form for form, found in fitting if _has_order_two(found[0])}
+        alike = better or alike
     if len(alike) != 1:
         kind = "no low-storage method" if not alike else "more than one low-storage method"
         raise Unreadable(f"A and b are {kind} with these nodes" if c else f"A and b are {kind}")
-    return fitting[0][0], alike.pop()
+    made, form = alike.popitem()
+    return form, made
+
+
+def _has_order_two(steps: Steps) -> bool:
+    nodes = [sum(row, start=fmpq(0)) for row in steps.A]
+    return _is_near([b * c for b, c in zip(steps.b, nodes, strict=True)], fmpq(1, 2))
 
 
 def _agree(steps: Steps, c: Row) -> bool:

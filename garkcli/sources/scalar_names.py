@@ -52,12 +52,16 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
         rows[other] |= {10 * i + j: x for (i, j), x in entries[other].items() if i > 0}
     if stem in {"a", "A"} and {"C", "gamma", "γ"} & set(entries):
         return Scalars(kind="Rosenbrock")
+    found = Scalars()
+    matrix = _without_last_rows(matrix, found)
     unknown = next((x for x in matrix.values() if isinstance(x, Unknown)), None)
     written = sum(isinstance(x, Number) for x in matrix.values())
     if unknown is not None and ("argument" in unknown.reason or 2 * written < len(matrix)):
         # a table is used, and none is made
         return None
     weight, node = ("c", "a") if stem == "b" else ("b", "c")
+    if {"w", "d"} <= set(rows) and not {weight, node} & set(rows):
+        weight, node = "w", "d"
     low = 0 if min(j for _, j in matrix) == 0 else 1
     given = {i: x for i, x in rows.get(weight, {}).items() if not isinstance(x, Unknown)}
     stages = max(i for i, _ in matrix) - low + 1
@@ -66,7 +70,6 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
         stages = max(stages, max(given) - first + 1)
     if not 2 <= stages <= MAX_STAGES or len(matrix) + len(given) < 4:
         return None
-    found = Scalars()
     if unknown is not None:
         return _unread(found, unknown)
     A = _filled(matrix, stages, low)
@@ -85,12 +88,36 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     elif not given and nodes and _is_near(_total(A[-1]), ONE):
         found.roles["b"] = Array(list(A[-1]))
         found.notes.append("no weights are written out: they are the last row of A")
+    elif not given and nodes and _is_near(_total(A[-1][:-1]), ONE) and not _is_zero(A[-1][-1]):
+        found.roles["b"] = Array(list(A[-1][:-1]))
+        found.roles["A"] = Array([Array(row[:-1]) for row in A[:-1]])
+        found.roles["c"] = Array(list(c[:-1] if c else ()))
+        stages -= 1
+        found.notes.append("no weights are written out: they are the last row, which is no stage")
     elif len(nodes) + len(matrix) > 4:
         return _unread(found, Unknown("no weights with the sum 1"))
     else:
         return None
     _with_embedded(found, rows, stages, low)
     return found
+
+
+def _without_last_rows(matrix: _Entries, found: Scalars) -> _Entries:
+    """The matrix without its last rows, where these are what another function gives: further stages
+    for dense output.
+    """
+    other = [
+        i
+        for (i, _), x in matrix.items()
+        if isinstance(x, Unknown) and x.reason.startswith("a part of the call")
+    ]
+    if not other:
+        return matrix
+    kept = {at: x for at, x in matrix.items() if at[0] < min(other)}
+    if any(isinstance(x, Unknown) for x in kept.values()) or len(kept) < 3:
+        return matrix
+    found.notes.append(f"further stages are given by another function: from {min(other)} on")
+    return kept
 
 
 def _unread(found: Scalars, unknown: Unknown) -> Scalars:
@@ -140,14 +167,22 @@ def _fitted(
     gamma = next((values[x] for x in _DIAGONALS if isinstance(values.get(x), Number)), None)
     ways: list[tuple[str, list[list[Value]]]] = [("", A)]
     has_diagonal = any(not _is_zero(A[i][i]) for i in range(stages))
+    if gamma is not None and has_diagonal and _is_zero(A[-1][-1]):
+        whole = [*A[:-1], [*A[-1][:-1], gamma]]
+        if _is_near(_total(whole[-1]), ONE):
+            ways.insert(0, ("the last entry of the diagonal is a number of its own", whole))
     if gamma is not None and not has_diagonal:
         told = "the diagonal is a number of its own"
+        if not (_is_zero(A[1][0]) or _is_near(A[1][0], gamma)):
+            # the second row of a method with an explicit first stage begins with γ
+            ways.append((told, _with(A, lambda i, j: i == j, gamma)))
         if stages > 1 and _is_zero(A[1][0]):
             ways.append(
                 (told, _with(A, lambda i, j: (i == j and i > 0) or (i, j) == (1, 0), gamma))
             )
         ways.append((told, _with(A, lambda i, j: i == j and i > 0, gamma)))
         ways.append((told, _with(A, lambda i, j: i == j, gamma)))
+    fitting: list[tuple[int, str, list[list[Value]], list[Value]]] = []
     for note, matrix in ways:
         sums = [_total(row) for row in matrix]
         for shift in (1, 0, 2):
@@ -160,13 +195,29 @@ def _fitted(
             count = sum(x is not None for x in given)
             if not count or count < min(len(nodes), 2):
                 continue
-            pairs = zip(given, sums, strict=True)
-            if all(x is None or _is_near(x, y) for x, y in pairs):
-                if note:
-                    found.notes.append(note)
+            off = [
+                i
+                for i, (x, y) in enumerate(zip(given, sums, strict=True))
+                if not (x is None or _is_near(x, y))
+            ]
+            if not off or (count > FEWEST_NODES and _may_be_wrong(matrix, off)):
                 full = [_sum(y) if x is None else x for x, y in zip(given, sums, strict=True)]
-                return matrix, full
-    return None
+                fitting.append((len(off), note, matrix, full))
+    if not fitting:
+        return None
+    _, note, matrix, full = min(fitting, key=lambda x: x[0])
+    if note:
+        found.notes.append(note)
+    return matrix, full
+
+
+FEWEST_NODES = 4
+"""So many nodes are the row sums where one other is not, and may be wrong."""
+
+
+def _may_be_wrong(A: Sequence[Sequence[Value]], off: Sequence[int]) -> bool:
+    """Whether one node alone is no row sum, and no entry of its row is left out."""
+    return len(off) == 1 and not any(map(_is_zero, A[off[0]][: off[0]]))
 
 
 def _with(

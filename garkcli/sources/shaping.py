@@ -98,13 +98,21 @@ def _padded(rows: Sequence[Row], stages: int) -> Rows:
     lengths = [len(row) for row in rows]
     if max(lengths, default=0) > stages:
         raise Misshapen(f"rows of {max(lengths)} for {stages} stages")
-    is_from_the_second = lengths == [*range(1, stages)]
+    is_from_the_second = lengths == [*range(1, stages)] or (
+        len(rows) == stages - 1 and set(lengths) == {stages} and _has_subdiagonal(rows)
+    )
     full = list(rows)
     if is_from_the_second:
         full = [(), *rows]
     while len(full) < stages:
         full.append(())
     return tuple(row + (ZERO,) * (stages - len(row)) for row in full)
+
+
+def _has_subdiagonal(rows: Sequence[Row]) -> bool:
+    """Whether each row ends where that of an explicit method from its second stage on ends."""
+    ends = [max((j for j, x in enumerate(row) if not is_zero(x)), default=-1) for row in rows]
+    return ends[0] == 0 and all(end <= i for i, end in enumerate(ends))
 
 
 def _of_flat(entries: Row, stages: int) -> Rows:

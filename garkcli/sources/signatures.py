@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, field
 
 
 class Signature(Frozen):
@@ -19,6 +19,7 @@ class Signature(Frozen):
         format: of the table, where it is another one than that of the language.
         has_default_weights: whether missing weights are the last row of the matrix.
         is_guess: whether other data look so, too: only arrays that fit together are a table.
+        named: the roles of arguments with names that mean something else elsewhere.
     """
 
     roles: Sequence[str]
@@ -27,6 +28,7 @@ class Signature(Frozen):
     format: str = ""
     has_default_weights: bool = False
     is_guess: bool = False
+    named: Mapping[str, str] = field(default_factory=dict)
 
 
 def _rk(roles: str, *counts: int) -> Signature:
@@ -69,11 +71,17 @@ SIGNATURES: Mapping[str, Signature] = {
         format="petsc",
         has_default_weights=True,
     ),
+    "ESDIRKIMEXTableau": Signature(
+        ["A2", "b2", "A", "b", "c2", "error2", "error", "-", "order", "stages"],
+        "ark",
+        named={"ce": "c"},
+    ),
     "IMEXButcher": PARTS,
     "IMEXTableau": PARTS,
     "TSBasicSymplecticRegister": Signature(
         ["title", "order", "stages", "drifts", "kicks"], "drift-first", counts=(5,), format="petsc"
     ),
+    "SymplecticTableau": Signature(["kicks", "drifts"], "drift-first", counts=(2,)),
     "ExplicitRKTableau": _rk("A c b order"),
     "ImplicitRKTableau": _rk("A c b order"),
     "RungeKuttaMethod": _rk("A b c"),

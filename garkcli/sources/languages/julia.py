@@ -7,6 +7,7 @@ their order from Julia's own rules.
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Iterator
 
@@ -72,6 +73,10 @@ class Token(Frozen):
     end: int
     operand: ir.Expr = ir.Nothing()
     is_prefix: bool = False
+
+
+_TYPE = re.compile(r"T[0-9]?")
+"""Arguments that are types, by their names."""
 
 
 class JuliaLowering(Lowering):
@@ -210,7 +215,7 @@ class JuliaLowering(Lowering):
         known = self.text(name)
         if given.type == "unary_typed_expression":
             return ""
-        if "Type" in text:
+        if "Type" in text or _TYPE.fullmatch(text):
             types.add(known)
             return ""
         return known

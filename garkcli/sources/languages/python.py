@@ -143,6 +143,11 @@ class PythonLowering(Lowering):
                 return ir.Unary(self.text(field("operator")), self.expr(field("argument")))
             case "parenthesized_expression" if inside:
                 return self.expr(inside[0])
+            case "list_comprehension" if len(inside) == 2 and inside[1].type == "for_in_clause":
+                left, over = (inside[1].child_by_field_name(x) for x in ("left", "right"))
+                if left is not None and left.type == "identifier":
+                    each = ir.Lambda((self.text(left),), self.expr(inside[0]))
+                    return ir.Call(ir.Name("list of each"), (each, self.expr(over)))
             case "list" | "tuple" | "expression_list":
                 return ir.Items(self.exprs(inside))
             case "dictionary":

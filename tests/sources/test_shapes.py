@@ -1,0 +1,159 @@
+"""Tables as programs store them: weights beside each other, rows without the first, parts apart."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli.bridges.audit import Audited, audit
+from garkcli.sources.found import FoundTable
+from garkcli.sources.languages import c, julia, python
+
+TWO_WEIGHTS = """
+inline void fill_emb(std::vector<std::vector<double>> &a, std::vector<double> &b1,
+                     std::vector<double> &b2, std::vector<double> &c) {
+  a  = {{}, {0.5}, {0.0, 0.75}, {2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0}};
+  c  = {0.0, 0.5, 0.75, 1.0};
+  b1 = {2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0, 0.0};
+  b2 = {7.0 / 24.0, 0.25, 1.0 / 3.0, 0.125};
+}
+"""
+LAST_ROW = """
+inline void fill(std::vector<std::vector<double>> &a, std::vector<double> &b,
+                 std::vector<double> &c) {
+  a = {{}, {0.5}, {0.0, 0.75}, {2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0}};
+  c = {0.0, 0.5, 0.75, 1.0};
+  b = a.back();
+  b.push_back(0.0);
+}
+"""
+ONE_ROW = """
+inline void fill_ls(std::vector<std::vector<double>> &a, std::vector<double> &b) {
+  a = {{0.755726351946097, 0.386954477304099}};
+  b = {0.245170287303492, 0.184896052186740, 0.569933660509768};
+}
+"""
+FROM_THE_SECOND = """
+def step(func, y0, f0, t0, dt):
+  alpha = jnp.array([1 / 2, 3 / 4, 1., 0], dtype=dt.dtype)
+  beta = jnp.array([[1 / 2, 0, 0, 0], [0, 3 / 4, 0, 0], [2 / 9, 1 / 3, 4 / 9, 0]], dtype=f0.dtype)
+  c_sol = jnp.array([2 / 9, 1 / 3, 4 / 9, 0], dtype=f0.dtype)
+  c_error = jnp.array([2 / 9 - 7 / 24, 1 / 3 - 1 / 4, 4 / 9 - 1 / 3, -1 / 8], dtype=f0.dtype)
+"""
+EACH = """
+A = [1 / 2, 3 / 4, 1.]
+B = [[1 / 2], [0, 3 / 4], [2 / 9, 1 / 3, 4 / 9]]
+B = [torch.tensor(B_, dtype=torch.float64) for B_ in B]
+C_sol = [2 / 9, 1 / 3, 4 / 9, 0]
+_TABLE = _ButcherTableau(alpha=A, beta=B, c_sol=torch.tensor(C_sol), c_error=None)
+"""
+KICKS = """
+function Ruth3ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
+    a1 = convert(T, 2 // 3)
+    a2 = -convert(T, 2 // 3)
+    a3 = convert(T, 1)
+    b1 = convert(T, 7 // 24)
+    b2 = convert(T, 3 // 4)
+    b3 = convert(T, -1 // 24)
+    return SymplecticTableau((a1, a2, a3), (b1, b2, b3))
+end
+"""
+TWO_PARTS = """
+function ARS111Tableau(T, T2)
+    Ai = zeros(T, 2, 2)
+    Ai[2, 2] = one(T)
+    bi = T[zero(T), one(T)]
+    Ae = zeros(T, 2, 2)
+    Ae[2, 1] = one(T)
+    be = T[one(T), zero(T)]
+    c = T2[zero(T2), one(T2)]
+    return ESDIRKIMEXTableau(Ai, bi, Ae, be, c, T[], T[], 0, 1, 2, false, [0, 0], one(T2); ce = c)
+end
+"""
+FURTHER = """
+function BS3ConstantCache(T)
+    c1 = convert(T, 1 // 2); c2 = convert(T, 3 // 4)
+    a21 = convert(T, 1 // 2); a32 = convert(T, 3 // 4)
+    a41 = convert(T, 2 // 9); a42 = convert(T, 1 // 3); a43 = convert(T, 4 // 9)
+    c5, a51, a52, a53, a54 = Interp(T)
+    return BS3ConstantCache(c1, c2, a21, a32, a41, a42, a43, c5, a51, a52, a53, a54)
+end
+"""
+NO_STAGE = """
+function MidpointsTableau(T)
+    γ = convert(T, 1 // 6)
+    a21 = convert(T, 1 // 3)
+    a31 = convert(T, 1 // 3); a32 = convert(T, 1 // 3)
+    a41 = convert(T, 1 // 3); a42 = convert(T, 1 // 3); a43 = convert(T, 1 // 3)
+    c2 = convert(T, 1 // 2); c3 = convert(T, 5 // 6)
+    return MidpointsTableau(γ, a21, a31, a32, a41, a42, a43, c2, c3)
+end
+"""
+LAST_DIAGONAL = """
+function Hairer4Tableau(T)
+    γ = convert(T, 1 // 4)
+    c2 = convert(T, 3 // 4); c3 = convert(T, 11 // 20); c4 = convert(T, 1 // 2)
+    a11 = convert(T, 1 // 4)
+    a21 = convert(T, 1 // 2); a22 = convert(T, 1 // 4)
+    a31 = convert(T, 17 // 50); a32 = convert(T, -1 // 25); a33 = convert(T, 1 // 4)
+    a41 = convert(T, 371 // 1360); a42 = convert(T, -137 // 2720); a43 = convert(T, 15 // 544)
+    a44 = convert(T, 1 // 4)
+    a51 = convert(T, 25 // 24); a52 = convert(T, -49 // 48); a53 = convert(T, 125 // 16)
+    a54 = convert(T, -85 // 12)
+    return Hairer4Tableau(γ, c2, c3, c4, a11, a21, a22, a31, a32, a33, a41, a42, a43, a44, a51,
+        a52, a53, a54)
+end
+"""
+WRITTEN = {
+    "b1 and b2": (c.find, TWO_WEIGHTS, 3, 2),
+    "the last row": (c.find, LAST_ROW, 3, None),
+    "one row": (c.find, ONE_ROW, 3, None),
+    "from the second stage on": (python.find, FROM_THE_SECOND, 3, 2),
+    "a list of each": (python.find, EACH, 3, None),
+    "kicks and drifts": (julia.find, KICKS, 3, None),
+    "two parts": (julia.find, TWO_PARTS, 1, None),
+    "further stages": (julia.find, FURTHER, 3, None),
+    "weights that are no stage": (julia.find, NO_STAGE, 2, None),
+    "the last entry of the diagonal": (julia.find, LAST_DIAGONAL, 4, None),
+}
+
+
+def only(find: object, text: str) -> tuple[FoundTable, Audited]:
+    """The only table of a source, and what an audit finds of it."""
+    (table,) = find(text, "x")  # type: ignore[operator]
+    found = audit(table)
+    assert found is not None
+    return table, found
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_the_order_is_that_of_the_method(name: str) -> None:
+    """As published, no lower and no higher, and nothing is wrong with the table."""
+    find, text, order, low = WRITTEN[name]
+    table, found = only(find, text)
+    assert table.trouble == ""
+    assert found.order is not None
+    assert found.order.order == order
+    assert (found.embedded_order and found.embedded_order.order) == low
+    assert not found.findings
+
+
+def test_a_wrong_node_among_good_ones_is_told() -> None:
+    """One of five nodes is no row sum: the table is read, and the row is named, as a doubt."""
+    rows = {2: "1/5", 3: "3/40 9/40", 4: "3/10 -9/10 6/5", 5: "-11/54 5/2 -70/27 35/27"}
+    rows |= {6: "1631/55296 175/512 575/13824 44275/110592 253/4096"}
+    named = {f"a{i}{j}": x for i, row in rows.items() for j, x in enumerate(row.split(), start=1)}
+    named |= {"c2": "1/5", "c3": "3/10", "c4": "4/5", "c5": "1", "c6": "7/8"}
+    named |= {"b1": "37/378", "b3": "250/621", "b4": "125/594", "b6": "512/1771"}
+    text = "\n    ".join(["def step():", *(f"{name} = {x}" for name, x in named.items())])
+    _, found = only(python.find, text)
+    assert found.order is not None
+    assert found.order.order == 5
+    assert [(x.code, x.level) for x in found.findings] == [("nodes", "warning")]
+    assert "row 4 has the sum 3/5, its node is 4/5" in found.findings[0].message
+
+
+def test_a_node_of_a_row_with_an_entry_left_out_is_none() -> None:
+    """Where an entry is not there, the step may have it as a number of its own: nothing is read."""
+    text = LAST_DIAGONAL.replace("a42 = convert(T, -137 // 2720); ", "").replace("a42, ", "")
+    (table,) = julia.find(text, "x")
+    assert table.trouble == "rows and nodes that do not fit together"
