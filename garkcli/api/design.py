@@ -170,10 +170,11 @@ def stable_values(
     colour: Whole | None = None,
     seconds: float | None = None,
 ) -> StableValues:
-    r"""The values of the one parameter of a family that make it stable: ``gark design --a-stable``.
+    r"""The values of the parameter of a family that make it stable: ``gark design --a-stable``.
 
     Args:
-        family: as ``find_parameters`` takes it; with one free parameter.
+        family: as ``find_parameters`` takes it; with one free parameter, or several through one
+            linear combination of which the step depends on them.
         wanted: ``"a-stable"``, ``"l-stable"`` or ``"p-stable"``.
         whose: as in ``find_parameters``.
         slow: of P-stability on two springs, (hω_s)²; None for the oscillator.

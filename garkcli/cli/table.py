@@ -193,7 +193,7 @@ design --digits N 1..1000 default=12 | Digits of numbers without simple radicals
 --emit FILE written | Write the first method found as a method file with its claim.
 --minimise WHAT words=objectives = minimise.objective
 --p-stable value=p-stable name=stability = stable_values.wanted
-    | The exact set of values of one parameter for which the method is P-stable.
+    | The exact set of values of the parameters for which the method is P-stable.
 --a-stable value=a-stable name=stability = stable_values.wanted | The same for A-stability.
 --l-stable value=l-stable name=stability = stable_values.wanted | The same for L-stability.
 --colour N 1.. = stable_values.colour

@@ -90,8 +90,8 @@ def _in_lowest_terms(
 ) -> tuple[Coefficients, Coefficients]:
     """P and Q without common factors, divided by Q(0)."""
     common = common_denominator([*P, *Q], ring)
-    p = _joined(P, common, ring)
-    q = _joined(Q, common, ring)
+    p = joined(P, common, ring)
+    q = joined(Q, common, ring)
     factor = p.gcd(q)
     numerator = _by_power(p // factor, ring)
     denominator = _by_power(q // factor, ring)
@@ -99,7 +99,7 @@ def _in_lowest_terms(
     return _trimmed([a / scale for a in numerator]), _trimmed([a / scale for a in denominator])
 
 
-def _joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
+def joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
     """A polynomial in z, times a common denominator, as one in z and the parameters."""
     larger = Parameters(["_z", *ring.names])
     terms = {}

@@ -88,20 +88,33 @@ class Kind(Protocol):
         """Polynomials in t: where one is negative the method is not stable at x."""
 
 
+def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
+    """The linear problem that a kind of stability is about: y ↦ L^m y for each colour.
+
+    Raises:
+        UsageProblem: it has no meaning for the method.
+    """
+    if wanted == "p-stable":
+        problem = Oscillator.default(terms_of(tableau), fmpq(1))
+        check_structure(tableau, problem)
+        return [problem.matrix(colour) for colour in tableau.colours]
+    if colour is None:
+        colours, spaces = list(range(tableau.size)), list(range(len(tableau.spaces)))
+    else:
+        colours, spaces = [colour], [tableau.colours[colour].space]
+    is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
+    if tableau.is_partitioned or not is_complete:
+        raise UsageProblem(_RIGHT, "ask for --p-stable", code="wanted-without-meaning")
+    return [((share,),) for share in shares_of(tableau, colour)]
+
+
 class AStability:
     """|R(z)| ≤ 1 for Re z ≤ 0, of all colours alike or of one alone."""
 
     def __init__(self, members: Members, tableau: Tableau, colour: int | None = None) -> None:
-        if colour is None:
-            colours, spaces = list(range(tableau.size)), list(range(len(tableau.spaces)))
-        else:
-            colours, spaces = [colour], [tableau.colours[colour].space]
-        is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
-        if tableau.is_partitioned or not is_complete:
-            raise UsageProblem(_RIGHT, "ask for --p-stable", code="wanted-without-meaning")
-        self.members = members
         self.shares = shares_of(tableau, colour)
-        fields: list[Matrix] = [((share,),) for share in self.shares]
+        fields = driven(tableau, "a-stable", colour)
+        self.members = members
         self.plane = step_plane(tableau, members.family.ring, fields)
         self.Q = self.plane.denominator
         self.P = self.plane.numerators[0][0]
@@ -139,8 +152,7 @@ class PStability:
     def __init__(self, members: Members, tableau: Tableau) -> None:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        check_structure(tableau, self.problem)
-        fields = [self.problem.matrix(colour) for colour in tableau.colours]
+        fields = driven(tableau, "p-stable")
         self.plane = step_plane(tableau, members.family.ring, fields)
         self.signs, others = oscillator_curves(self.plane)
         poles = in_square(self.plane.denominator)

@@ -18,11 +18,13 @@ P-stability often holds at isolated points, which no sampling finds.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Literal, TypeAlias, get_args
 
 from flint import fmpq
 
 from garkcli.design.design import TABLEAUS, Design, Whose
+from garkcli.design.fewer import Form, fewest
 from garkcli.design.stability_kinds import (
     AStability,
     Kind,
@@ -30,12 +32,14 @@ from garkcli.design.stability_kinds import (
     PStability,
     SpringStability,
     TwoSprings,
+    driven,
 )
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.parametric import common_denominator
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.stability.two_frequencies import has
 from garkcli.tableau.family import Family
 from garkcli.upward import Shown
@@ -57,6 +61,8 @@ class StableValues(Shown, Frozen):
         undecided: single values that are left open.
         two_springs: what P-stability is meant on; None for the oscillator.
         colour: which colour alone is driven, counted from 0; None for all of them alike.
+        form: the one number, linear in several parameters, that the step hangs on, and whose values
+            are meant; None for a parameter itself.
     """
 
     family: Family
@@ -66,18 +72,17 @@ class StableValues(Shown, Frozen):
     undecided: tuple[RealRoot, ...]
     two_springs: TwoSprings | None = None
     colour: int | None = None
+    form: Form | None = None
 
     @property
     def parameter(self) -> str:
-        """The name of the parameter."""
-        return self.family.parameters[0]
+        """The name of the parameter, or the number in its place."""
+        return self.family.parameters[0] if self.form is None else str(self.form)
 
     @property
     def has_wishes(self) -> bool:
         """Whether the file asks for more than stability, which every value of the set has."""
-        family = self.family
-        wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
-        return any(p.total_degree() != 0 for p in wanted)
+        return has_wishes(self.family)
 
     @property
     def has_values(self) -> bool | None:
@@ -96,6 +101,12 @@ class StableValues(Shown, Frozen):
     def __repr__(self) -> str:
         parts = counted(len(self.found), "interval")
         return f"<StableValues {self.wanted}: {parts}>"
+
+
+def has_wishes(family: Family) -> bool:
+    """Whether a file asks for more of the parameters than stability."""
+    wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
+    return any(p.total_degree() != 0 for p in wanted)
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
@@ -123,7 +134,8 @@ def stable_values(
     """The set of values of the one free parameter, of those that are as the file wants them.
 
     Args:
-        family: of methods, with one free parameter and rational coefficients otherwise.
+        family: of methods, with one free parameter and rational coefficients otherwise, or with
+            several on which the step depends through one linear form.
         wanted: P-stability on the oscillator that is split as usual, A-stability or L-stability
             with all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
@@ -136,7 +148,9 @@ def stable_values(
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    _refuse_others(family)
+    _refuse_radicals(family)
+    if len(family.parameters) > 1:
+        return _of_several(family, wanted, whose, two_springs, colour)
     tableau = TABLEAUS[whose](family.tableau)
     members = Members(family, whose)
     if wanted == "p-stable":
@@ -204,15 +218,31 @@ def _ends(found: Sequence[Interval]) -> list[Polynomial]:
     return [Polynomial.from_flint(end.polynomial) for end in ends]
 
 
-def _refuse_others(family: Family) -> None:
-    name, *others = family.parameters
-    if others:
-        raise UsageProblem(
-            f"there are {1 + len(others)} free parameters, and the set of one is found",
-            f"give values to all but one, such as --set {others[-1]}=1/2",
-            code="free-parameters",
-        )
+def _of_several(
+    family: Family, wanted: Wanted, whose: Whose, two_springs: TwoSprings | None, colour: int | None
+) -> StableValues:
+    """The set for several parameters, where the step hangs on one number that is linear in them."""
+    tableau = TABLEAUS[whose](family.tableau)
+    entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
+    is_plain = common_denominator(list(entries), family.ring).is_constant()
+    is_open = all(ends == (None, None) for ends in family.ranges.values())
+    if is_plain and is_open and two_springs is None and not has_wishes(family):
+        fields = driven(tableau, wanted, colour)
+        smaller, forms = fewest(family, tableau, fields)
+        if len(forms) == 1:
+            found = stable_values(smaller, wanted, whose, colour=colour)
+            return replace(found, family=family, form=forms[0])
+    *_, last = family.parameters
+    raise UsageProblem(
+        f"there are {len(family.parameters)} free parameters, and the set of one is found",
+        f"give values to all but one, such as --set {last}=1/2",
+        code="free-parameters",
+    )
+
+
+def _refuse_radicals(family: Family) -> None:
     if family.radicals:
+        name = family.parameters[0]
         raise UsageProblem(
             f"there are roots among the coefficients, beside {name}",
             "write the method as a family by name, whose nodes are not needed",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from garkcli.design.design import Whose
 from garkcli.design.stable_values import StableValues, Wanted
+from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
@@ -39,7 +40,7 @@ def stability(values: StableValues, d: Plain) -> str:
     """For which values a method is stable: ``A-stable for exactly 1/4 ≤ g``."""
     wanted = Stability(values.wanted, values.colour).in_words(values.family.tableau)
     text = d.prose("stable" if values.two_springs else wanted)
-    name = d.expression(values.parameter)
+    name = ", ".join(map(d.expression, values.family.parameters))
     if values.has_wishes:
         text += ", and as the file wants it,"
     if not values.found:
@@ -49,8 +50,16 @@ def stability(values: StableValues, d: Plain) -> str:
     if values.is_everything:
         return f"{text} for every value of {name}"
     brief = replace(d, is_brief=True)
-    found = " or ".join(brief.interval(x, values.parameter) for x in values.found)
+    found = " or ".join(_part(values, x, brief) for x in values.found)
     return f"{text} for {'' if values.undecided else 'exactly '}{found}"
+
+
+def _part(values: StableValues, x: Interval, d: Plain) -> str:
+    """A part of the set; a value of several parameters' form is told of the first of these."""
+    if values.form is not None and x.is_point and x.start is not None:
+        value = root_text(x.start) or f"{root_decimal(x.start, d.digits)}…"
+        return " = ".join(map(d.expression, values.form.solved(value)))
+    return d.interval(x, values.parameter)
 
 
 def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
@@ -110,7 +119,14 @@ WHOLE = Section(
         row.of(lambda x: x.values)
         for row in (
             Row("of", choice(*get_args(Whose)), lambda x: x.whose, DATA),
-            Row("unknowns", TEXTS, lambda x: [x.parameter], DATA),
+            Row("unknowns", TEXTS, lambda x: list(x.family.parameters), DATA),
+            Row(
+                "linear_form",
+                TEXT,
+                lambda x: None if x.form is None else str(x.form),
+                DATA,
+                is_optional=True,
+            ),
             WANTED,
             COLOUR,
             Row(

@@ -353,3 +353,61 @@ def test_solutions_that_are_stable_in_one_colour(tmp_path: Path) -> None:
     ):
         refused = gark("design", str(path), *options)
         assert (refused.code, said in refused.err) == (2, True)
+
+
+THREE_RULES = """parameters: {t1: free, t2: free}
+methods: [{family: gauss, stages: 2}, {family: gauss, stages: 3}]
+transfer: {interpolation: t1, conjugate-collocation: t2, legendre: 1 - t1 - t2}
+"""
+SUM = "parameters: {a: free, b: free}\nA: [[a - 2*b, 0], [1 - 2*a + 4*b, a - 2*b]]\nb: [1/2, 1/2]\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted", "told"),
+    [
+        (THREE_RULES, "p-stable", "P-stable for exactly t1 = 1 + 2/3*t2"),
+        (SUM, "a-stable", "A-stable for exactly 1/4 ≤ a - 2*b"),
+        (
+            SUM,
+            "l-stable",
+            "L-stable for exactly a = 1 - sqrt(2)/2 + 2*b or a = 1 + sqrt(2)/2 + 2*b",
+        ),
+        (
+            IMPLICIT.replace("t: free", "s: free, t: free"),
+            "a-stable",
+            "A-stable for exactly 1/2 ≤ t",
+        ),
+        (
+            "parameters: {a: free, b: free}\nA: [[1/2]]\nb: [1]\nc: [a + b]\n",
+            "a-stable",
+            "for every value of a, b",
+        ),
+    ],
+)
+def test_several_parameters_that_are_one_number(text: str, wanted: Wanted, told: str) -> None:
+    """R depends on one linear form of the parameters: its values, told in the parameters; and with
+    the second one fixed the set of the first one is the same.
+    """
+    report = gark("design", "-", f"--{wanted}", stdin=text)
+    assert " ".join(report.out.split()).partition(" 1 - sqrt(2)/2 0.29")[0].endswith(told)
+    values = found(text, wanted)
+    form = values.form
+    assert form is not None
+    terms = dict(form.terms)
+    names = values.family.parameters
+    (fixed,) = [name for name in names if name != form.terms[0][0]]
+    for value in (fmpq(-2), fmpq(3, 4)):
+        one = stable_values(loads_family(text, settings={fixed: str(value)}), wanted)
+        shift = terms.get(fixed, fmpq(0)) * value
+        for t in (fmpq(k, 8) for k in range(-40, 41)):
+            assert contains(values, t + shift) == contains(one, t)
+
+
+def test_parameters_that_are_several_numbers() -> None:
+    """Two numbers, ranges and wishes: told to fix all parameters but one."""
+    text = "parameters: {g: free, d: free, e: free}\nA: [[g, 0], [1 - d, d]]\nb: [1 - e, e]\n"
+    run = gark("design", "-", "--a-stable", stdin=text)
+    assert run.code == 2
+    assert "give values to all but" in run.err
+    ranged = SUM.replace("a: free", "a: {free: true, range: [0, 1]}")
+    assert gark("design", "-", "--a-stable", stdin=ranged).code == 2

@@ -1,0 +1,142 @@
+"""On how few numbers the step of a family depends: linear forms of its parameters.
+
+The step M = N/D on a linear problem stays as it is along a direction v of the parameters exactly
+where D ∂_v N = N ∂_v D. That is linear in v, so that all such directions are found, and what is
+left are as many linear forms as there are other directions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any
+
+from flint import fmpq, fmpq_mat, fmpq_mpoly
+
+from garkcli.deadline import check_time
+from garkcli.design.member import member
+from garkcli.design.stability_functions import characteristic_coefficients, joined
+from garkcli.exact.display import to_text
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.exact.span import leading_columns
+from garkcli.frozen import Frozen, replace
+from garkcli.stepping.linear import stage_system
+from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
+
+
+class Form(Frozen):
+    """A linear form Σ a_i t_i of parameters; the first of them has the coefficient 1.
+
+    Attributes:
+        terms: names with coefficients, none of them 0.
+    """
+
+    terms: tuple[tuple[str, fmpq], ...]
+
+    def __str__(self) -> str:
+        """As method files write it, such as ``t1 - 2/3*t2``."""
+        (first, _), *others = self.terms
+        return first + _sum_text(others)
+
+    def solved(self, value: str) -> tuple[str, str]:
+        """The first parameter, and what it is equal to where the form has a value."""
+        (first, _), *others = self.terms
+        return first, value + _sum_text([(name, -a) for name, a in others])
+
+
+def _sum_text(terms: Sequence[tuple[str, fmpq]]) -> str:
+    parts = []
+    for name, a in terms:
+        factor = "" if abs(a) == 1 else f"{to_text(abs(a))}*"
+        parts.append(f" {'-' if a < 0 else '+'} {factor}{name}")
+    return "".join(parts)
+
+
+def fewest(family: Family, tableau: Tableau, fields: Sequence[Matrix]) -> tuple[Family, list[Form]]:
+    """The family of as few parameters as its step has, one at least, and what these are.
+
+    Args:
+        family: whose coefficients are polynomials in several parameters.
+        tableau: of it, or made of it: that whose step is meant.
+        fields: y ↦ L^m y for each colour, rational.
+    """
+    names = family.parameters
+    pivots, directions = _directions(tableau, family.ring, fields)
+    pivots, directions = pivots[: len(names) - 1], directions[: len(names) - 1]
+    kept = [k for k in range(len(names)) if k not in pivots]
+    forms = []
+    for k in kept:
+        others = [(names[p], -v[k]) for p, v in zip(pivots, directions, strict=True)]
+        forms.append(Form(((names[k], fmpq(1)), *(x for x in reversed(others) if x[1]))))
+    if not pivots:
+        return family, forms
+    ring = Parameters([names[k] for k in kept])
+    values: dict[str, Any] = {name: fmpq(0) for name in names}
+    values |= {name: ring.parameter(name) for name in ring.names}
+    smaller = replace(
+        family,
+        tableau=member(family.tableau, family.ring, values),
+        ring=ring,
+        parameters=ring.names,
+        ranges={name: family.ranges[name] for name in ring.names},
+    )
+    return smaller, forms
+
+
+def _directions(
+    tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
+) -> tuple[list[int], list[list[fmpq]]]:
+    """A basis of the directions along which the step stays: each has 1 at its pivot, a late
+    parameter, where the others have 0.
+    """
+    system = stage_system(tableau, fields)
+    d = len(fields[0])
+    D = characteristic_coefficients(system.W)
+    functions = [D]
+    for i in range(d):
+        for j in range(d):
+            # det(I − z (W − e_j b_i)) = D (1 + z b_i (I − zW)⁻¹ e_j)
+            rows = (
+                tuple(w - row_E[j] * b for w, b in zip(row, system.B[i], strict=True))
+                for row, row_E in zip(system.W, system.E, strict=True)
+            )
+            entry = characteristic_coefficients(tuple(rows))
+            functions.append([a if i == j else a - b for a, b in zip(entry, D, strict=True)])
+    common = common_denominator(list(chain.from_iterable(functions)), ring)
+    denominator, *numerators = (joined(x, common, ring) for x in functions)
+    number = len(ring.names)
+    equations = []
+    for numerator in numerators:
+        check_time()
+        changes = [
+            denominator * numerator.derivative(k + 1) - numerator * denominator.derivative(k + 1)
+            for k in range(number)
+        ]
+        equations += _coefficients(changes)
+    if not equations:
+        equations = [[fmpq(0)] * number]
+    # late parameters are solved for: their columns come first in an echelon form of the kernel
+    matrix = fmpq_mat([row[::-1] for row in equations])
+    reduced, _ = matrix.rref()
+    leading = leading_columns(reduced)
+    free = [k for k in range(number) if k not in leading]
+    kernel = []
+    for k in free:
+        v = [fmpq(0)] * number
+        v[k] = fmpq(1)
+        for row, pivot in enumerate(leading):
+            v[pivot] = -reduced[row, k]
+        kernel.append(v)
+    if not kernel:
+        return [], []
+    echelon, _ = fmpq_mat(kernel).rref()
+    pivots = [number - 1 - k for k in leading_columns(echelon)]
+    return pivots, [row[::-1] for row in echelon.tolist()]
+
+
+def _coefficients(polynomials: Sequence[fmpq_mpoly]) -> list[list[fmpq]]:
+    """For each monomial its coefficients in some polynomials."""
+    tables = [p.to_dict() for p in polynomials]
+    return [[fmpq(table.get(e, 0)) for table in tables] for e in dict.fromkeys(chain(*tables))]
