@@ -260,7 +260,7 @@ def commonly() -> dict[str, str]:
         if inspect.isfunction(thing)
         for entry in told(name, thing)
     )
-    often = [entry for entry, count in counts.most_common() if count > 1]
+    often = [entry for entry, count in counts.most_common() if count > 2]
     return dict(sorted(dict(reversed(often)).items()))
 
 

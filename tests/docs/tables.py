@@ -54,9 +54,8 @@ def terms_tables() -> str:
 
 def _term_row(term: Term) -> tuple[str, str, str]:
     also = f"; {', '.join(term.labels)}" if term.labels else ""
-    formula = term.formula.replace("|", "\\|")
-    text = cell(_first_sentence(term.text)) + (f" `{formula}`" if formula else "")
-    return f"**{cell(term.name)}**{cell(also)}", text, _short_source(term.source)
+    text = f"{_first_sentence(term.text)} {term.formula}".rstrip()
+    return f"**{cell(term.name)}**{cell(also)}", cell(text), _short_source(term.source)
 
 
 def _short_source(source: str) -> str:

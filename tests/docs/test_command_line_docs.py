@@ -51,7 +51,24 @@ def _records(found: click.Command, group: click.Context) -> Iterator[tuple[str, 
 
 
 def _options(records: list[tuple[str, str]]) -> str:
-    rows = [(f"`{name}`".replace("|", "\\|"), cell(text)) for name, text in records]
+    """A table of options; words to choose from stand in the text, so that columns stay narrow."""
+    rows, properties = [], []
+    for name, text in records:
+        flags, _, choices = (
+            name.partition(" [") if re.search(r"\||--format", name) else (name, "", "")
+        )
+        default = re.search(r" *\[default: ([^\];]+)\]$", text)
+        words = choices.rstrip("]").split("|")
+        if text.startswith("The property "):
+            properties.append(f"`{flags.partition(' / ')[0]}`")
+            continue
+        if choices and default:
+            words = [f"{x} (default)" if x == default[1] else x for x in words]
+            text = text.removesuffix(default[0])
+        told = f"{text} One of {', '.join(words)}." if choices and text else text
+        rows.append((f"`{flags}`", cell(" ".join((told or ", ".join(words)).split()))))
+    if properties:
+        rows.append((", ".join(properties), "The [property](properties.md); `--no-…` without it."))
     return table(("option", "what it does"), rows)
 
 
