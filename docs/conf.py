@@ -30,6 +30,8 @@ html_theme = "furo"
 html_title = f"gark {__version__}"
 html_show_copyright = False
 html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 linkcheck_ignore = [r".*/OWNER/"]  # where the reader hosts it
 myst_heading_anchors = 4  # links to headings, as code hosts have them
 smartquotes = False  # transcripts are quoted as they are printed
@@ -160,8 +162,8 @@ def _write_formula(writer: Any, node: Any) -> None:
     is_block = node.tagname == "math_block"
     formula = convert(node.astext(), display="block" if is_block else "inline")
     formula = re.sub(r"<mi>([≤≥≠±·∘⊙∈≈⇔∖◁])</mi>", r"<mo>\1</mo>", formula)  # with space around
-    scrolls = '<div tabindex="0" style="overflow-x: auto; overflow-y: hidden">'
-    writer.body.append(f"{scrolls}{formula}</div>" if is_block else formula)
+    block = f'<div class="formula" tabindex="0">{formula}</div>'
+    writer.body.append(block if is_block else formula)
     raise SkipNode
 
 

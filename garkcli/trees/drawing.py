@@ -218,6 +218,8 @@ STEP_Y = 36
 RADIUS = 11
 DIAMETER = 2 * RADIUS
 MARGIN = 16
+COLUMNS = 6  # of a sheet
+FEW, FEW_COLUMNS = 9, 3  # up to so many trees, in so many columns
 ROW_GAP = 24  # between the captions of one row and the highest tree of the next
 CAPTION_SIZE = 12  # type size of the captions, in pixels
 CAPTION_STEP = 17  # from one line of a caption to the next
@@ -232,8 +234,10 @@ def draw_svg(tree: Tree) -> str:
     return draw_svg_sheet([tree])
 
 
-def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns: int = 6) -> str:
+def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns: int = 0) -> str:
     """An SVG document with the trees in rows of ``columns``, beneath each its caption, σ and γ.
+
+    By default a row has six trees, or three where there are few, so that a phone shows them.
 
     The dots carry the colours' numbers, from 1, and fills of ``PALETTE``. ``captions``: a
     line of text for each tree. Raises ``ValueError`` when there are not as many captions as trees.
@@ -246,6 +250,7 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
     lines = [[f"σ = {u.symmetry}, γ = {u.density}"] for u in trees]
     for k, caption in enumerate(captions or ()):
         lines[k].insert(0, caption)
+    columns = columns or (FEW_COLUMNS if count <= FEW else COLUMNS)
     columns = max(1, min(columns, count))
     widths, heights = _grid(placed, lines, columns)
     foot = CAPTION_STEP * max(map(len, lines), default=0) + 2 * MARGIN + ROW_GAP
