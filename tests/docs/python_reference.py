@@ -14,8 +14,7 @@ from itertools import pairwise
 from typing import Any
 
 import garkcli
-from garkcli.check.meanings import explain
-from garkcli.errors import UsageProblem
+from tests.docs.tables import cell, table
 
 TYPES = {
     "AnyMethod": "api.anymethod",
@@ -29,6 +28,8 @@ TYPES = {
     "AnyPath": "bridges.calls",
 }
 """Types of arguments: where each is defined, and as what where that differs."""
+OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
+"""Those that say all of an argument: it stands in the signature alone."""
 VALUES = (
     "order.certificate:Order",
     "order.certificate:Witness",
@@ -150,26 +151,20 @@ class _Plain(str):
 
 
 def signature(name: str, thing: Any) -> str:
-    """How a function is called, or a value made; the types of arguments stand with these."""
+    """How a function is called, or a value made; most types of arguments stand with these."""
     shape = inspect.signature(thing)
     empty = inspect.Signature.empty
-    shown = [parameter.replace(annotation=empty) for parameter in shape.parameters.values()]
+    shown = [
+        parameter.replace(annotation=_Plain(kind) if (kind := type_of(x, thing)) in OWN else empty)
+        for x, parameter in shape.parameters.items()
+    ]
     answer: Any = empty if isinstance(thing, type) else _Plain(shape.return_annotation)
     return f"{name}{shape.replace(parameters=shown, return_annotation=answer)}"
 
 
-def typed(name: str, thing: Any) -> str:
-    """An argument with its type."""
-    kind = inspect.signature(thing).parameters[name].annotation
-    return f"{name}: {kind}".replace('"', "")
-
-
-def is_explained(name: str) -> bool:
-    """Whether gark explain knows a name."""
-    try:
-        return bool(explain(name))
-    except UsageProblem:
-        return False
+def type_of(name: str, thing: Any) -> str:
+    """The type of an argument."""
+    return str(inspect.signature(thing).parameters[name].annotation).replace('"', "")
 
 
 def members(kind: type) -> Iterator[tuple[str, Any]]:
@@ -216,14 +211,22 @@ def more_general(kind: type) -> str:
 
 
 def told(name: str, thing: Any) -> list[tuple[str, str]]:
-    """The arguments of a function, or the attributes, properties and methods of a value."""
+    """The arguments of a function whose types do not tell all, or what a value has."""
     doc = of_class(thing)
     if isinstance(thing, type):
         entries = list(items(doc.sections.get("Attributes", "")))
         entries += [member(x, value) for x, value in members(thing)]
         return [(x, linked(brief(text).partition("; ")[0], name)) for x, text in entries]
-    entries = list(items(doc.sections.get("Args", "")))
-    return [(typed(x, thing), linked(brief(text), name)) for x, text in entries]
+    entries = [
+        (f"{x}: {type_of(x, thing)}", _DEFAULT.sub("", brief(text)))
+        for x, text in items(doc.sections.get("Args", ""))
+        if type_of(x, thing) not in OWN
+    ]
+    return [(x, linked(text, name)) for x, text in entries]
+
+
+_DEFAULT = re.compile(r"[;,] (by default|None for|that of the method where) .*")
+"""What is said of defaults, which the signature shows."""
 
 
 def described(name: str, thing: Any, common: Mapping[str, str]) -> str:
@@ -236,19 +239,19 @@ def described(name: str, thing: Any, common: Mapping[str, str]) -> str:
     general = more_general(thing) if is_value else ""
     returns = f" Returns: {brief(doc.sections['Returns'])}" if "Returns" in doc.sections else ""
     parts.append(linked(brief(doc.prose) + returns, name) + general)
-    is_short = is_value and name not in garkcli.__all__
-    known, own = [], []
-    for entry, text in told(name, thing):
-        is_known = is_explained(entry) if is_short else common.get(entry) == text
-        (known if is_known else own).append((entry, text))
+    own = [(x, text) for x, text in told(name, thing) if common.get(x) != text]
     if own:
         parts.append("\n".join(f"* `{x}`: {text.rstrip('.')}" for x, text in own))
-    if known and is_value:
-        parts.append(f"Known: {', '.join(f'`{x}`' for x, _ in known)}.")
     if "Raises" in doc.sections:
         names = (linked(f"``{x}``", name) for x, _ in items(doc.sections["Raises"]))
         parts.append(f"Raises {', '.join(names)}.")
     return "\n\n".join(parts)
+
+
+def value_row(name: str, kind: type) -> tuple[str, str, str]:
+    """The row of what calls return: what it is, and the names that it has."""
+    names = ", ".join(f"`{x}`" for x, _ in told(name, kind))
+    return f"`{name}`", cell(linked(brief(of_class(kind).prose))), names.replace("|", "\\|")
 
 
 def commonly() -> dict[str, str]:
@@ -328,7 +331,8 @@ def page() -> str:
         sections = [described(name, thing, common) for name, thing in things.items()]
         parts.append(f"\n## {head}\n\n" + "\n\n".join(sections))
     parts.append("\n## Values\n")
-    parts.append("\n\n".join(described(*home(place), common) for place in VALUES))
+    rows = (value_row(*home(place)) for place in VALUES)
+    parts.append(table(("value", "what it is", "what it has"), rows).rstrip())
     return "\n".join(parts) + "\n"
 
 
