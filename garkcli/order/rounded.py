@@ -22,7 +22,7 @@ from garkcli.exact.enclosing import times
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
-from garkcli.order.conditions import coupling_graph, elementary_weight, twin_roots
+from garkcli.order.conditions import coupling_graph, elementary_weight, is_admissible, twin_roots
 from garkcli.order.effects import Effects
 from garkcli.order.tolerance import within
 from garkcli.tableau.rounded import Enclosure, RoundedTableau, Row, Rows, enclose_tableau
@@ -138,7 +138,7 @@ class TreeResiduals(StageVectors[Rows]):
         return list(chain.from_iterable(parts))
 
 
-FEW_TREES = 20_000
+FEW_TREES = 50_000
 """Up to so many trees an order is decided by listing them; beyond, spans are tried first."""
 MOST_TREES = 500_000
 """Beyond so many trees of an order they are not listed at all."""
@@ -290,7 +290,7 @@ class Conditions:
         """All conditions of an order; None where there are too many trees to decide."""
         count = sum(counts_upto(self.admissible, order)[-1])
         if count > FEW_TREES and share:
-            verdict = self._by_spans(order)
+            verdict = self._by_bushes(order) or self._by_spans(order)
             if verdict is not None:
                 return verdict
         return None if count > self.most else self._by_trees(order, share)
@@ -334,6 +334,22 @@ class Conditions:
         """
         moved = {u: residual for residual, _, u in self.corner.of_order(order, share)}
         return [x for x in doubtful if not x[0] <= abs(moved[x[2]] - x[1])]
+
+    def _by_bushes(self, order: int) -> Verdict | None:
+        """That the order fails, where a quadrature condition does: a bush of leaves of one colour.
+
+        It is looked at before the many, as methods of high order seldom integrate better.
+        """
+        tableau = self.rounded.tableau
+        for l in twin_roots(tableau):
+            for m in range(tableau.size):
+                bush = Tree(l, (Tree(m),) * (order - 1))
+                if is_admissible(tableau, bush):
+                    weight = elementary_weight(tableau, bush)
+                    witness = Witness(bush, weight, fmpq(1, bush.density))
+                    if self.fails(witness):
+                        return Verdict(arb(0), "trees", witness)
+        return None
 
     def _by_spans(self, order: int) -> Verdict | None:
         """The conditions of an order where a bound on all decides, or one tree that fails."""
