@@ -31,18 +31,16 @@ if TYPE_CHECKING:
 
 @declared("check", ["auto", *FORMATS])
 def check(given: Given, output: Output) -> int:
-    """Everything known about each method, and its claims.
+    """Order and properties of each method, and whether its claims hold.
 
     FILE is a method file, a directory (all *.gark.yaml below it), a pattern (in quotes, ** for any
-    directories), or - for standard input.
+    directories), or - for standard input. Without FILE the paths of .gark.toml, or of [tool.gark]
+    in pyproject.toml, are checked with the options there.
 
     The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree
-    whose condition fails next; B, C and D of every block and the bounds they give; consistency and
+    whose condition fails next; B, C and D of every block with the bounds they give; consistency and
     symplecticity; the claims under `expect`. The format auto is github in GitHub Actions and text
     elsewhere.
-
-    Without FILE the paths of .gark.toml, or of [tool.gark] in pyproject.toml, are meant; what else
-    they say holds where no option says otherwise.
 
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
@@ -156,12 +154,11 @@ def _ended(path: str, why: str) -> Outcome:
 def claims(given: Given, output: Output) -> None:
     """What is true of a method, as a file claims it under `expect`.
 
-    Of a file that makes claims these, with what is true in place of what it says; of one that makes
-    none the orders, whether it is symplectic, its stage order, and the properties that it has.
-    What has no meaning for a method, or is not decided, is not claimed. FILE as for gark check.
+    For a file with claims: these, corrected. Otherwise the orders, whether it is symplectic, its
+    stage order, and the properties that it has. What has no meaning or is not decided is left out.
+    FILE as for gark check.
 
-    With --write the claims are put into the files: gark check fails from then on where the method
-    is no longer what it was.
+    --write puts the claims into the files, so that gark check fails once the method changes.
     """
     from garkcli.api.calls import refuse_unknown, true_claims_of
     from garkcli.methodfile.carried import write_claims

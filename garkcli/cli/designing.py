@@ -50,15 +50,16 @@ PROOFS = ("exact", "exists", "numerical")
 def design(given: Given, output: Output) -> int:
     """For which values of its free parameters a method has an order, exactly.
 
-    A parameter is free by parameters: {tau: free}. The answer is every value, these values, a
-    family of a dimension, or none, and then the tree whose condition cannot be met. Each value
-    found goes through the certificate of gark check. Exit code 1: no value has the order of
-    --order, or the stability that is asked for.
+    parameters: {tau: free} makes a parameter free. The answer is every value, finitely many, a
+    family of some dimension, or none, with the tree whose condition cannot be met. Each value
+    passes the certificate of gark check.
 
-    With --search methods of the order are looked for by least squares from random starts. Each find
-    is exact, its order proved by the certificate; proved to exist; or numerical, and then it is
-    not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
-    says nothing of what there is.
+    --search looks for methods from random starts by least squares. A find is exact with its order
+    proved, proved to exist, or numerical and not proved. The same seed has the same finds
+    everywhere.
+
+    Exit code: 1 no value has the order or stability asked for, 3 a search found nothing, which
+    proves nothing.
     """
     from garkcli.methodfile.family import load_family
 
@@ -509,9 +510,9 @@ def _proof(found: Found) -> int:
 def sweep(given: Given, output: Output) -> None:
     """Many methods side by side: families, stages, transfer rules, values of parameters.
 
-    SPEC says which, which criteria are told of each, which methods are kept, and what is better;
-    see docs/sweep.md. Each criterion is decided exactly, as gark check and gark stability do. The
-    rows are written one by one: a sweep that is ended at any moment goes on with --resume.
+    SPEC names the methods, the criteria, which methods to keep and what is better; see
+    docs/sweep.md. Each criterion is decided exactly. Rows are written one by one, and --resume
+    continues a sweep that was ended at any moment.
     """
     from garkcli.report.calls import swept
     from garkcli.report.sweep import REPORT, json_lines, refuse_parquet, write_parquet

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 @declared("export")
 def export(given: Given, output: Output) -> None:
-    """A method as the codes that people run read it: SciPy, SUNDIALS, PETSc, C, JSON and others.
+    """A method for other codes: SciPy, SUNDIALS, PETSc, C, JSON and others.
 
-    The head of the file says which orders gark proved. Decimals are correctly rounded. What a
-    target cannot hold is refused, with the reason.
+    The head of the file says which orders gark proved. Decimals are correctly rounded. gark refuses
+    what a target cannot hold, with the reason.
     """
     from garkcli.bridges.preparing import prepared
     from garkcli.bridges.registry import bridge_named
@@ -59,10 +59,9 @@ def _check_test(bridge: Bridge, output: Output) -> None:
 def import_(given: Given, output: Output) -> None:
     """Methods out of other people's sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
 
-    SOURCE is a file, a folder (all files in it of the formats that are read), or - for standard
-    input. Nothing in it is ever executed. Each table is a method; its order is found, and claimed
-    in its file. Decimals of many digits are taken for rounded: the file says within which
-    tolerance.
+    SOURCE is a file, a folder (all files in it of the formats that gark reads), or - for standard
+    input; gark executes nothing in it. Each table becomes a method file that claims its order.
+    Decimals of many digits count as rounded, and the file says within which tolerance.
 
     Exit code: 0 methods were found, 2 there is none.
     """
@@ -155,13 +154,12 @@ def audit(given: Given, output: Output) -> int:
     """The tables of a solver's source tree against what they declare.
 
     PATH is a folder (all files in it of the formats that gark import reads), a file, or - for
-    standard input. Of every table that is found: whether it has the order and the embedded order
-    that the source declares, whether its nodes are its row sums and what it costs where they are
-    not, whether its weights have the sum 1. Nothing in a source is executed. The format auto is
-    github in GitHub Actions and text elsewhere.
+    standard input; gark executes nothing in it. Of every table: does it have the order and embedded
+    order that the source declares, are its nodes its row sums and what does it cost if not, is the
+    sum of its weights 1? The format auto is github in GitHub Actions and text elsewhere.
 
-    Exit code: 0 nothing is wrong, 1 a finding is an error, or with --strict something that looks
-    like a table was not read, 2 there is no table, or none that can be read.
+    Exit code: 0 nothing is wrong, 1 a finding is an error, or with --strict a likely table was not
+    read, 2 there is no table, or none that can be read.
     """
     from garkcli.bridges.audit import audited, unlike
     from garkcli.bridges.sources import source_files

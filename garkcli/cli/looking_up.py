@@ -46,11 +46,11 @@ _KINDS = ("rk", "ark", "prk", "gark", "family")
 
 @declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
 def certificate(given: Given, output: Output) -> None:
-    """What proves the orders of a method, to be checked without gark.
+    """A proof of the orders of a method that can be checked without gark.
 
-    The exact tableau, its conjugate and pair, the trees that span all trees of each order, and a
-    tree that fails. tools/referee.py of the source distribution, one short file of plain Python,
-    decides the orders again from it; --format coq is for the proof assistant Coq.
+    The exact tableau, its conjugate and pair, trees that span all trees of each order, and a tree
+    that fails. tools/referee.py of the source distribution, one short file of plain Python, decides
+    the orders again from it; --format coq is for the proof assistant Coq.
     """
     from garkcli.api.calls import prove_method
     from garkcli.report.certificate import REPORT
@@ -66,11 +66,11 @@ def certificate(given: Given, output: Output) -> None:
 
 @declared("explain", FORMATS, WORD={"shell_complete": completed("check.meanings:known_words")})
 def explain(given: Given, output: Output) -> None:
-    """What a word of a report or of a file means: its definition, its formula, its source.
+    """What a word of a report or of a file means: definition, formula, source.
 
     WORD is a term such as density or "stage order", a line of a report, a claim, a key of a file
-    such as compose.steps, a family, a transfer rule, a problem, the code of an error or its
-    message. Without one the terms are listed.
+    such as compose.steps, a family, a transfer rule, a problem, or the code or message of an error.
+    Without WORD gark lists the terms.
     """
     from garkcli.check.meanings import explain
     from garkcli.report.meaning import REPORT, every_term, list_text, told
@@ -194,10 +194,9 @@ def _listed(given: Mapping[str, Any]) -> list[Entry]:
 
 @declared("show", FORMATS)
 def show(given: Given, output: Output) -> None:
-    """All about one method: its tableau, orders, properties, where it was published.
+    """One method: its tableau, orders, properties, where it was published.
 
-    What is known of a method of the package stands in its index; every other one is judged as by
-    gark check.
+    For a method of the package gark reads its index; it judges every other one as gark check does.
     """
     from garkcli.methodfile.load import load
     from garkcli.report.show import REPORT, Shown
@@ -221,11 +220,10 @@ def _entry(given: Given, method: MethodFile) -> Entry:
 
 @declared("cite", ("bibtex", *FORMATS))
 def cite(given: Given, output: Output) -> None:
-    """Where methods were published, as an entry of a bibliography.
+    """Where methods were published, as entries of a bibliography, one a publication.
 
     FILE is a method file or a name of the catalogue, as for gark check; catalogue: means all of
-    it. Methods of one publication have one entry. A file whose `reference` is plain text gives a
-    note, one without a reference is told.
+    it. A `reference` that is plain text becomes a note; gark names files without a reference.
     """
     from garkcli.report.calls import references
     from garkcli.report.citation import REPORT, bibliography
@@ -243,14 +241,13 @@ def cite(given: Given, output: Output) -> None:
 
 @declared("report", ["html"])
 def report(given: Given, output: Output) -> int:
-    """All about methods as one HTML page, to be looked at, printed and passed on.
+    """All about methods as one HTML page, to look at, print and pass on.
 
-    FILE is a method file, a directory, a pattern or a name of the catalogue, as for gark check.
-    gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to standard output. The page
-    needs no network: tableau, conjugate and pair typeset, the orders with the tree at
-    which each ends, B, C and D, the order conditions to be filtered, pictures, properties, claims,
-    references. Of several methods it has a table that compares them, and a part each. The claims of
-    a file are about its method: with --pair or --conjugate the page has none.
+    FILE as for gark check. gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to
+    standard output. The page needs no network: tableau, conjugate and pair typeset, orders with
+    their witness trees, B, C and D, order conditions with filters, pictures, properties, claims,
+    references; a table compares several methods. Claims of a file are about its method: with
+    --pair or --conjugate the page has none.
 
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method; the page
     is written in each case, and says so.

@@ -21,11 +21,11 @@ EXAMPLE = "gark new midpoint.gark.yaml --tableau '0 |; 1/2 | 1/2; | 0 1'"
 
 @declared("new", ["yaml"])
 def new(given: Given, output: Output) -> None:
-    """A method file with comments and with its claims, from a tableau or from families.
+    """A method file with comments and claims, from a tableau or from families.
 
-    A tableau is pasted as it stands in a book: a line a stage, with or without a bar after the
-    node, and a line of weights below; zeros to the right may be left out. Without options it is
-    asked for.
+    Paste a tableau as a book prints it: a line a stage, with or without a bar after the node, and a
+    line of weights below; leave out zeros to the right if you like. Without options gark asks for
+    it.
     """
     from garkcli.api.calls import with_claims
     from garkcli.methodfile.load import loads

@@ -60,19 +60,16 @@ def note_changing(problem: Problem, output: Output) -> None:
 def converge(given: Given, output: Output) -> int:
     """The convergence test: errors over step sizes, observed against predicted order, energy error.
 
-    Steps are taken with as many digits as the errors need, so that a method of order 12 shows slope
-    12 and not rounding; the step map of the oscillator is linear and taken exactly. Without
-    --problem it is generic, or its counterpart for separable, semi-separable and Nyström methods:
-    these see every tree, others may show a higher order than the method has.
+    gark steps with as many digits as the errors need, so that a method of order 12 shows slope 12,
+    and takes the step map of the oscillator exactly. Without --problem the problem is generic, or
+    its counterpart for separable, semi-separable and Nyström methods: these see every tree, others
+    may show a higher order.
 
-    The method of FILE steps as it is given, whatever form it has; its symplectic pair with --pair.
+    Several FILEs, directories or patterns are compared in one table and one plot; with --work by
+    what their errors cost.
 
-    Several FILEs, directories (all *.gark.yaml below them) or patterns are compared, in one table
-    and one plot. With --work they are compared by what their errors cost.
-
-    Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
-    step fails, 2 a file cannot be read, or its method is not for this problem, 3 one is undecided:
-    no order is seen.
+    Exit code: 0 every observed order is that of the method on this problem, 1 one is not, or a step
+    fails, 2 a file cannot be read, or is not for this problem, 3 an order is undecided.
     """
     paths = given.files_meant(output)
     if given.problem is None and (given.omega or given.split):
@@ -291,21 +288,18 @@ def hint_rounding(method: GarkMethod, result: Convergence, output: Output, where
 
 @declared("energy", [*FORMATS, "csv"])
 def energy(given: Given, output: Output) -> int:
-    """The energy error over a long time, and that of every other invariant: does it drift?
+    """The error of the energy and of every other invariant over a long time: does it drift?
 
-    A fit separates the drift from the oscillation around it and gives its uncertainty. The step map
-    of the oscillator is linear: there the energy error has no rounding, and whether it is bounded
-    for all time is decided exactly. The other problems are stepped in floats with compensated
-    summation, or with --digits. The method of FILE steps as it is given, its symplectic pair with
-    --pair.
+    A fit separates the drift from the oscillation and gives its uncertainty; a drift that a slow
+    modulation may explain is undecided, and gark proposes a longer run. On the oscillator there is
+    no rounding, and boundedness for all time is decided exactly. Other problems use floats with
+    compensated summation, or --digits.
 
-    A drift that a slow modulation may explain is undecided, and a longer run proposed.
+    With --modified the energy error over step sizes, of H and of its modified Hamiltonian cut off
+    after each power of h.
 
-    Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows
-    up or the orbit escapes. What is undecided does not meet --bounded.
-
-    With --modified the energy error over step sizes, of H and of its modified Hamiltonian, cut off
-    after each power of h: it has the order of the next one. Exit code 1 where it has a lower order.
+    Exit code: 1 if --bounded or --max-error is not met, or undecided, a step fails, the energy
+    blows up, the orbit escapes, or --modified shows a lower order.
     """
     from garkcli.api.runs import long_run
     from garkcli.report.energy import REPORT, EnergyReport
@@ -449,13 +443,11 @@ def _in_modified(given: Given, output: Output) -> int:
 def modified(given: Given, output: Output) -> None:
     """The modified equation of a method, in trees, exactly.
 
-    A step is a step along the exact solution of another equation, whose coefficients are listed:
-    of a symplectic method those of its modified Hamiltonian in free trees. They tell the order
-    to which the method is symplectic and conserves energy, and its effective order: the order in
-    the best coordinates.
+    A step follows the exact solution of another equation. gark lists its coefficients, for a
+    symplectic method those of the modified Hamiltonian in free trees, and the orders that they
+    tell: of symplecticity, of energy, and the effective order, in the best coordinates.
 
-    With --problem the modified Hamiltonian itself, of a method that is not symplectic the modified
-    equation.
+    With --problem the modified Hamiltonian or equation itself.
     """
     from garkcli.api.modified import backward_analysis
     from garkcli.backward.series import possible_order

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 def stability(given: Given, output: Output) -> None:
     """Stability on linear, oscillating and contractive problems, decided exactly.
 
-    The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator,
-    its intervals of stability, P-stability, phase lag; algebraic stability; the SSP coefficient.
-    Of a file with free parameters R(z) with these, and for which values it is stable.
+    The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator with
+    its stable intervals, P-stability and phase lag; algebraic stability; the SSP coefficient. With
+    free parameters R(z), and for which values the method is stable.
     """
     from garkcli.methodfile.naming import called
     from garkcli.report.stability import REPORT

@@ -28,10 +28,9 @@ EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "
 def tableau(given: Given, output: Output) -> None:
     """The assembled tableau, all blocks.
 
-    Entries are exact where the nodes are rational or quadratic numbers, decimals otherwise. With
-    --format yaml it is a method file that loads again. LaTeX shows a method for positions and
-    momenta as two arrays, Q and P. Entries of a file with free parameters are rational functions of
-    these.
+    Entries are exact where the nodes are rational or quadratic numbers, else decimals; rational
+    functions if parameters are free. --format yaml writes a method file. LaTeX shows a method for
+    positions and momenta as two arrays, Q and P.
     """
     try:
         method = given.method()
@@ -54,11 +53,10 @@ def tableau(given: Given, output: Output) -> None:
 
 @declared("conjugate", (*FORMATS, "yaml"))
 def conjugate(given: Given, output: Output) -> None:
-    """The symplectic conjugate tableau of a method: gark tableau --conjugate.
+    """The symplectic conjugate of a method: gark tableau --conjugate.
 
-    With --format yaml it is a method file that loads again; conjugated again it gives the original
-    blocks exactly. Where the nodes have no simple radicals that file says `conjugate: true` instead
-    of entries. Entries of a file with free parameters are rational functions of these.
+    --format yaml writes a method file; the conjugate of that is the original, exactly. Where the
+    nodes have no simple radicals the file says `conjugate: true` instead of entries.
     """
     given.which = given.which or "conjugate"
     tableau(given, output)
@@ -308,12 +306,11 @@ def convert(given: Given, output: Output) -> None:
 
 @declared("diff", FORMATS)
 def diff(given: Given, output: Output) -> int:
-    """How two methods differ: in entries, orders, conditions and properties; and whether they are
-    the same method with its stages numbered otherwise, or in another form.
+    """How two methods differ in entries, orders, conditions and properties; whether they are one
+    method in another numbering or form.
 
-    Exit code 0 where the steps and the further weights are the same: with stages or colours
-    renumbered, stages without influence left out, or within the rounding that both files admit; 1
-    where they are not; 3 where that is not decided.
+    Exit code: 0 the steps and further weights are the same, up to renumbering, stages without
+    influence and the rounding that both files admit; 1 they are not; 3 not decided.
     """
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.naming import called

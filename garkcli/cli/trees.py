@@ -34,11 +34,11 @@ BLOCK_SIZE = 1 << 14
 
 @declared("trees", ["text", "json", "ndjson", "csv", "markdown", "latex"])
 def trees(given: Given, output: Output) -> None:
-    """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
+    """The N-trees of an order, by root colour, with order, symmetry and density.
 
-    A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
-    With --symplectic the rooted trees that differ in the place of their root are one row: their
-    conditions are equivalent for symplectic methods.
+    [[]_2]_1 is a root of colour 1 with a leaf of colour 2. With --symplectic one row stands for all
+    rooted trees that differ in the place of their root only: symplectic methods have equivalent
+    conditions for them.
     """
     if given.order_asked is not None and given.order is not None:
         raise UsageProblem("the order is given twice", "give it once", code="options-clash")
@@ -248,14 +248,13 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
 def conditions(given: Given, output: Output) -> None:
     """The order-condition table.
 
-    Without FILE the conditions that every method has to meet: a row for each tree shape, to hold
-    for all colours (text and latex), or a row for each coloured tree (json and csv). With FILE
-    every condition of that method with its exact value, the required value and the residual;
-    identical conditions are listed once. Values of a file with free parameters are rational
-    functions of these.
+    Without FILE the conditions for every method: a row for each tree shape and all colours (text
+    and latex), or for each coloured tree (json and csv). With FILE each condition of that method
+    with its exact value, the required value and the residual, identical ones once; rational
+    functions if parameters are free.
 
-    With --symplectic one condition of each class of those that are equivalent for symplectic
-    methods; with FILE for its symplectic pair, unless it is symplectic itself.
+    With --symplectic one condition of each class that is equivalent for symplectic methods; with
+    FILE for its symplectic pair, unless it is symplectic itself.
     """
     from garkcli.order.conditions import all_conditions
     from garkcli.report.conditions import REPORT, ConditionRow, Conditions
