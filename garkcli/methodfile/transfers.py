@@ -22,7 +22,7 @@ from garkcli.transfer import MAX_DEGREE, PAIR_RULES, RULES, SUMMARIES
 
 
 def _weight(rule: str) -> g.Key:
-    text = f"The weight of the rule {rule} in a combination of rules."
+    text = "The weight of this rule in a combination of rules."
     return g.Key(f"{rule}: 1/2", NUMBER, text, is_word=False)
 
 

@@ -74,10 +74,10 @@ def _first_sentence(text: str) -> str:
 
 
 def claims_tables() -> str:
-    """What each claim means, a table for each kind of values."""
+    """What each claim means, in a sentence, a table for each kind of values."""
     rows: dict[str, list[tuple[str, str, str]]] = {}
     for claim in every_definition():
-        text = claim.text + (f" For {claim.meaning}." if claim.meaning else "")
+        text = _first_sentence(claim.text) + (f" For {claim.meaning}." if claim.meaning else "")
         row = (f"`{claim.key}`", cell(text), _short_source(claim.source))
         rows.setdefault(claim.values, []).append(row)
     heads = ("claim", "what it means", "source")
@@ -94,14 +94,14 @@ def keys_table(kind: str) -> str:
 
 
 def _said(key: Key) -> str:
-    """What a key is, in a sentence, and what holds without it."""
-    text = _first_sentence(key.text)
+    """What a key is, and what holds without it."""
+    text = _phrase(_first_sentence(key.text), "")
     if key.default is None:
         return text
     default = str(key.default)
     if isinstance(key.default, bool):
         default = default.lower()
-    return f"{text} By default {default}."
+    return f"{text}; by default {default}"
 
 
 def findings_table(command: str) -> str:
@@ -202,9 +202,10 @@ def _fields_table() -> str:
     return table(("field", "what it holds"), rows)
 
 
-def _phrase(text: str) -> str:
-    """The first sentence or its first part, without article and stop."""
-    phrase = re.split(r"(?<=[.;]) ", text)[0].rstrip(".;").removeprefix("The ")
+def _phrase(text: str, end: str = ";") -> str:
+    """The first sentence, or what stands before ``end`` in it, without article and stop."""
+    first = re.split(rf"(?<=[.{end}]) ", text)[0]
+    phrase = first.rstrip(".;").removeprefix("The ")
     return phrase[0].upper() + phrase[1:]
 
 
