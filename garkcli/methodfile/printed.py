@@ -36,6 +36,8 @@ FLOAT = fmpq(1, 2**53)
 """By how much of itself the float next to a number is off."""
 SHORTER = 100
 """A decimal of so many times finer units than a float never was one."""
+QUADRUPLE = fmpq(1, 2**113)
+"""By how much of itself the number of quadruple precision next to a number is off."""
 
 
 def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmpq]:
@@ -96,7 +98,8 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
 def careless_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
     """The same where decimals are rounded carelessly: ``CARELESS`` units of their last place. What
     may have been computed in floats before it was printed, fractions and decimals that are no
-    longer than floats, may be off by so many units of these.
+    longer than floats, may be off by so many units of these; longer decimals by so many units of
+    quadruple precision.
     """
     units = approximant_units(printed, given)
     fractions = {value for expression, value in printed if _is_whole(expression)}
@@ -106,7 +109,8 @@ def careless_units(printed: Printed, given: Units | None = None) -> dict[Number,
             units[value] = max(10 * unit, CARELESS * of_float)
         else:
             is_float = unit > of_float / SHORTER
-            units[value] = CARELESS * (max(unit, of_float) if is_float else unit)
+            least = of_float if is_float else of_float / FLOAT * QUADRUPLE
+            units[value] = CARELESS * max(unit, least) if unit else unit
     return units
 
 

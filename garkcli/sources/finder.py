@@ -16,6 +16,7 @@ from garkcli.sources.parts import role_of_part, roles_of_parts
 from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
 from garkcli.sources.signatures import PARTS, PRINTED, SIGNATURES, other_kind
+from garkcli.sources.steps import Follower, NoStep
 from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, whole
 
 _NUMBERED = re.compile(
@@ -24,6 +25,7 @@ _NUMBERED = re.compile(
 )
 """Names of arrays with the numbers of vector fields."""
 _TABLE = "ARKodeButcherTable_Alloc"
+_WHOLE_QUOTIENTS = frozenset({"c", "fortran"})
 
 
 class TableFinder:
@@ -85,7 +87,7 @@ class TableFinder:
             return
         values, lines = dict(space), space.lines
         self._named(values, lines, scope)
-        if len(self._meant) + len(self._other) == count:
+        if len(self._meant) + len(self._other) == count and not self._step(scope, space):
             self._scalars(scope.title, values, scope.line)
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
@@ -250,6 +252,21 @@ class TableFinder:
             if "RungeKutta" in {x.rpartition(".")[2] for x in bases}:
                 meant = replace(meant, is_sure=True, line=scope.line)
             self._meant.append(meant)
+
+    def _step(self, scope: ir.Scope, space: Space) -> bool:
+        """Whether a function is a step that is written out."""
+        if scope.kind != "function":
+            return False
+        follower = Follower(space, self._format in _WHOLE_QUOTIENTS)
+        try:
+            follower.follow(scope.body)
+            roles = follower.roles()
+        except NoStep:
+            return False
+        note = "the coefficients are those of a step that is written out"
+        meant = Meant(scope.title, scope.line, roles, "a step", None, is_sure=True, notes=(note,))
+        self._meant.append(meant)
+        return True
 
     def _scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
         """Coefficients with names of their own: a21, b1."""

@@ -43,6 +43,15 @@ class FortranLowering(Lowering):
                 yield self._if(inside, line)
             case "do_loop" | "do_loop_statement":
                 yield self._loop(inside, line)
+            case "associate_statement" if inside:
+                for each in self.children(inside[0]):
+                    parts = self.children(each)
+                    if len(parts) == 2:
+                        yield ir.Assign(self.expr(parts[0]), self.expr(parts[1]), line)
+                yield from self.block(inside[1:])
+            case "subroutine_call" if len(inside) == 2:
+                given = self.exprs(inside[1].named_children)
+                yield ir.Do(ir.Call(self.expr(inside[0]), given), line)
             case kind if kind in _BLOCKS:
                 yield from self.block(inside)
 

@@ -1,0 +1,116 @@
+"""Steps that programs write out: the methods that they are."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli.bridges.audit import audit
+from garkcli.sources.languages import fortran, julia, matlab, python
+
+KUTTA = """
+subroutine rk4(me, t, x, h, xf)
+    associate (f1 => me%funcs(:,1), f2 => me%funcs(:,2), f3 => me%funcs(:,3), &
+               f4 => me%funcs(:,4), h2 => 0.5_wp*h)
+        call me%f(t,x,f1)
+        call me%f(t+h2,x+h2*f1,f2)
+        call me%f(t+h2,x+h2*f2,f3)
+        call me%f(t+h,x+h*f3,f4)
+        xf = x + h*(f1+f2+f2+f3+f3+f4)/6.0_wp
+    end associate
+end subroutine
+"""
+SHU_OSHER = """
+subroutine ssp33(t, x, h, xf)
+    call f(t, x, fs)
+    xf = x + h*fs
+    call f(t + h, xf, fs)
+    xf = (3.0_wp*x + xf + h*fs)/4.0_wp
+    call f(t + h/2.0_wp, xf, fs)
+    xf = (x + 2.0_wp*xf + 2.0_wp*h*fs)/3.0_wp
+end subroutine
+"""
+PAIR = """
+subroutine bs32(t, x, h, xf, xerr)
+    real(wp), parameter :: a2 = 1.0_wp/2.0_wp, a3 = 3.0_wp/4.0_wp
+    real(wp), parameter :: c1 = 2.0_wp/9.0_wp, c2 = 1.0_wp/3.0_wp, c3 = 4.0_wp/9.0_wp
+    real(wp), parameter :: e1 = c1 - 7.0_wp/24.0_wp, e2 = c2 - 0.25_wp, e3 = c3 - 1.0_wp/3.0_wp
+    call f(t, x, f1)
+    call f(t+a2*h, x+h*a2*f1, f2)
+    call f(t+a3*h, x+h*a3*f2, f3)
+    xf = x + h*(c1*f1 + c2*f2 + c3*f3)
+    call f(t+h, xf, f4)
+    xerr = h*(e1*f1 + e2*f2 + e3*f3 - 0.125_wp*f4)
+end subroutine
+"""
+PYTHON = """
+def heun(f, y, t, dt):
+    k1 = dt * f(y, t)
+    k2 = dt * f(y + k1, t + dt)
+    return y + 0.5 * (k1 + k2)
+"""
+JULIA = """
+function midpoint(f, u, p, t, dt)
+    k1 = f(u, p, t)
+    k2 = f(t + dt / 2, u + dt * k1 / 2)
+    u + dt * k2
+end
+"""
+MATLAB = """
+function y = heun3(f, t, y0, h)
+k1 = f(t, y0);
+k2 = f(t + h/3, y0 + h/3*k1);
+k3 = f(t + 2*h/3, y0 + 2*h/3*k2);
+y = y0 + h*(k1 + 3*k3)/4;
+end
+"""
+STEPS = {
+    "Kutta": (fortran.find, KUTTA, 4, None),
+    "Shu and Osher": (fortran.find, SHU_OSHER, 3, None),
+    "Bogacki and Shampine": (fortran.find, PAIR, 3, 2),
+    "Heun": (python.find, PYTHON, 2, None),
+    "Heun, three stages": (matlab.find, MATLAB, 3, None),
+}
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_the_order_of_a_step(name: str) -> None:
+    """The order that the paper has, and no higher; nothing is wrong."""
+    find, text, order, low = STEPS[name]
+    (table,) = find(text, "x")
+    assert table.notes == ("the coefficients are those of a step that is written out",)
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.findings) == (order, ())
+    assert (found.embedded_order and found.embedded_order.order) == low
+
+
+def test_a_wrong_number_is_found() -> None:
+    """A stage at another time than its value has; weights whose sum is not 1."""
+    (table,) = fortran.find(KUTTA.replace("call me%f(t+h,x", "call me%f(t+h2,x"), "x")
+    found = audit(table)
+    assert found is not None
+    assert [(x.code, x.level) for x in found.findings] == [("nodes", "error")]
+    (table,) = python.find(PYTHON.replace("0.5 * (k1", "0.4999 * (k1"), "x")
+    found = audit(table)
+    assert found is not None
+    assert [(x.code, x.level) for x in found.findings] == [("weights", "error")]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        JULIA,
+        PYTHON.replace("y + k1", "y + k1**2"),
+        PYTHON.replace("k1 = dt", "for i in range(3):\n        k1 = dt"),
+        PYTHON.replace("0.5 * (k1", "0.4 * (k1"),
+        PYTHON.replace("t + dt", "t + 1"),
+        "def g(a, b):\n    c = max(a, b)\n    d = max(a + c, b)\n    return c + d\n",
+    ],
+)
+def test_what_is_no_step(text: str) -> None:
+    """Slopes squared, in a loop, weights whose sum is not 1, times without the step; arguments in
+    another order.
+    """
+    find = julia.find if text is JULIA else python.find
+    assert find(text, "x") == []
