@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
@@ -12,7 +12,7 @@ from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table
 from garkcli.sources.evaluate import Space
 from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES, role_of
-from garkcli.sources.parts import role_of_part, roles_of_parts
+from garkcli.sources.parts import role_of_part, roles_of_parts, with_hats
 from garkcli.sources.rklab import block_roles
 from garkcli.sources.scalar_names import scalar_roles
 from garkcli.sources.signatures import PARTS, PRINTED, SIGNATURES, other_kind
@@ -24,6 +24,8 @@ _NUMBERED = re.compile(
     r"_?(?P<l>[0-9]{1,2})(?:_(?P<m>[0-9]{1,2}))?"
 )
 """Names of arrays with the numbers of vector fields."""
+_ARRAY = re.compile(r"(?P<stem>\w{1,200}?)_(?P<role>a[0-9]{1,2}|b|db|c)")
+"""Names of classes that are arrays."""
 _TABLE = "ARKodeButcherTable_Alloc"
 _WHOLE_QUOTIENTS = frozenset({"c", "fortran"})
 
@@ -45,11 +47,12 @@ class TableFinder:
         self._other: dict[tuple[str, int], FoundTable] = {}
         self._orders: dict[tuple[str, int], Number] = {}
         self._users: dict[tuple[str, int], set[str]] = {}
+        self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
 
     def tables(self) -> list[FoundTable]:
         """All of them, each once; arrays that a call takes are found with it."""
         found: dict[object, FoundTable] = {}
-        for meant in self._meant:
+        for meant in [*self._meant, *self._of_classes()]:
             declared = self._orders.get((meant.maker, meant.line))
             if declared is not None:
                 meant.roles.setdefault("order", declared)
@@ -74,6 +77,11 @@ class TableFinder:
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
         """The tables of a scope."""
+        named = _ARRAY.fullmatch(scope.name)
+        entries = space.get("this")
+        if named and isinstance(entries, Array):
+            self._arrays.setdefault(named["stem"], {})[named["role"]] = entries, scope.line
+            return
         made = list(space.calls)
         if isinstance(space.returned, Record) and space.returned not in made:
             made.append(space.returned)
@@ -105,6 +113,20 @@ class TableFinder:
             return
         values = {x: space[x] for x in names}
         self._named(values, space.lines, scope)
+
+    def _of_classes(self) -> Iterator[Meant]:
+        """Tables whose arrays are classes: a1, a2, …, b, db, c."""
+        for stem, arrays in self._arrays.items():
+            rows = [arrays.get(f"a{i}") for i in range(1, len(arrays) + 1)]
+            A = [Array([]), *(x[0] for x in rows if x is not None)]
+            roles: Roles = {"A": Array(list(A))}
+            for role, name in (("b", "b"), ("c", "c"), ("error", "db")):
+                if name in arrays:
+                    roles[role] = arrays[name][0]
+            if "b" in roles and len(A) > 1:
+                line = min(line for _, line in arrays.values())
+                name = stem.removesuffix("_coefficients")
+                yield Meant(name, line, roles, "", None, is_sure=True)
 
     def _declared_by_class(self, scope: ir.Scope, space: Space) -> None:
         """The order of a class is that of the table which it uses; a table whose name is private
@@ -244,11 +266,15 @@ class TableFinder:
             if not is_complete(roles):
                 continue
             title = roles.pop("title", None)
+            signature = None
+            if {"A", "b", "A_hat", "embedded"} <= set(roles):
+                # an implicit part, and the explicit one with a hat
+                roles, signature = with_hats(roles), PARTS
             name = stem or scope.title
             if isinstance(title, Word):
                 name = title.text
             bases = scope.bases if scope.kind == "class" else ()
-            meant = Meant(name, begins[stem], roles, "", None, bases=bases)
+            meant = Meant(name, begins[stem], roles, "", signature, bases=bases)
             if "RungeKutta" in {x.rpartition(".")[2] for x in bases}:
                 meant = replace(meant, is_sure=True, line=scope.line)
             self._meant.append(meant)

@@ -26,6 +26,8 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "delta": ("delta", "δ"),
     "A_q": ("Abar", "abar", "A_bar", "a_bar", "Ā"),
     "b_q": ("bbar", "b_bar", "b̄"),
+    "A_hat": ("A_hat",),
+    "c_hat": ("c_hat",),
     "stages": ("stages", "s", "n_stages", "nstages"),
     "title": ("name", "title"),
     "fsal": ("fsal", "FSAL", "is_fsal"),
@@ -37,8 +39,8 @@ _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bhat|b_hat|bembed|b2|order"
     r"|embedded_order|embedded|nodes|weights|stages|fsal|name)"
 )
-_DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[abc])")
-"""``rk4a``, ``lsrk54b``."""
+_DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
+"""``rk4a``, ``lsrk54b``, ``ars222A_hat``."""
 MAX_NAME = 200
 
 
@@ -54,7 +56,7 @@ def role_of(name: str) -> tuple[str, str] | None:
         return "", ROLES[name]
     if len(name) > MAX_NAME:
         return None
-    for pattern in (_SUFFIX, _PREFIX, _DIGIT):
+    for pattern in (_DIGIT, _SUFFIX, _PREFIX):
         found = pattern.fullmatch(name)
         if found:
             return found["stem"], ROLES[found["word"]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from garkcli.sources.values import ONE, Array, Value
+from garkcli.sources.values import ONE, ZERO, Array, Value
 
 _NAME = re.compile(
     r"(?P<word>butcher|[abc]|b_?hat|b_?embed)_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
@@ -54,6 +54,33 @@ def roles_of_parts(values: Mapping[str, Value]) -> dict[str, Value] | None:
             if isinstance(last, Array) and len(last.items) < len(matrix.items):
                 found[role] = Array(matrix.items[:-1])
     return found | {x: values[x] for x in ("order",) if x in values}
+
+
+def with_hats(roles: Mapping[str, Value]) -> dict[str, Value]:
+    """An implicit part and an explicit one with a hat as the roles of two parts; what is left out
+    is the first stage, which only the explicit part has.
+    """
+    found = {"A2": roles["A"], "b2": roles["b"], "A": roles["A_hat"], "b": roles["embedded"]}
+    found |= {
+        f"c{part}": roles[name] for part, name in (("2", "c"), ("", "c_hat")) if name in roles
+    }
+    found |= {x: roles[x] for x in ("order",) if x in roles}
+    A_hat = found["A"]
+    if isinstance(A_hat, Array) and _count(A_hat) + 1 == _count(found["b"]):
+        found["A"] = Array([Array([]), *A_hat.items])
+    if _count(found["b"]) == _count(found["b2"]) + 1:
+        A = found["A2"]
+        rows = [Array([ZERO, *x.items]) for x in getattr(A, "items", ()) if isinstance(x, Array)]
+        found["A2"] = Array([Array([]), *rows])
+        for role in ("b2", "c2"):
+            row = found.get(role)
+            if isinstance(row, Array):
+                found[role] = Array([ZERO, *row.items])
+    return found
+
+
+def _count(value: Value) -> int:
+    return len(value.items) if isinstance(value, Array) else 0
 
 
 def _ends_at_one(nodes: Value) -> bool:

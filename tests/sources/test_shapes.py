@@ -103,6 +103,23 @@ function Hairer4Tableau(T)
         a52, a53, a54)
 end
 """
+OF_CLASSES = """
+struct heun_a1 : std::array<double, 1> { heun_a1() { (*this)[0] = 1. / 3; } };
+struct heun_a2 : std::array<double, 2> { heun_a2() { (*this)[0] = 0; (*this)[1] = 2. / 3; } };
+struct heun_b : std::array<double, 3> {
+  heun_b() { (*this)[0] = .25; (*this)[1] = 0; (*this)[2] = .75; } };
+struct heun_c : std::array<double, 3> {
+  heun_c() { (*this)[0] = 0; (*this)[1] = 1. / 3; (*this)[2] = 2. / 3; } };
+"""
+HATS = """
+gamma = (3 + np.sqrt(3))/6
+ars233A = np.array([[gamma, 0], [1 - 2*gamma, gamma]])
+ars233A_hat = np.array([[gamma, 0], [gamma - 1, 2*(1 - gamma)]])
+ars233b = np.array([0.5, 0.5])
+ars233b_hat = np.array([0, 0.5, 0.5])
+ars233c = np.array([gamma, 1 - gamma])
+ars233c_hat = np.array([0, gamma, 1 - gamma])
+"""
 WRITTEN = {
     "b1 and b2": (c.find, TWO_WEIGHTS, 3, 2),
     "the last row": (c.find, LAST_ROW, 3, None),
@@ -111,6 +128,8 @@ WRITTEN = {
     "a list of each": (python.find, EACH, 3, None),
     "kicks and drifts": (julia.find, KICKS, 3, None),
     "two parts": (julia.find, TWO_PARTS, 1, None),
+    "arrays that are classes": (c.find, OF_CLASSES, 3, None),
+    "a part with a hat": (python.find, HATS, 3, None),
     "further stages": (julia.find, FURTHER, 3, None),
     "weights that are no stage": (julia.find, NO_STAGE, 2, None),
     "the last entry of the diagonal": (julia.find, LAST_DIAGONAL, 4, None),
