@@ -146,7 +146,7 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
     Raises:
         CannotConvert: a value needs a later one.
     """
-    if alpha and beta and not any((*alpha[0], *beta[0])):
+    if alpha and beta and all(x == 0 for x in (*alpha[0], *beta[0])):
         alpha, beta = alpha[1:], beta[1:]
     stages = len(alpha)
     if len(beta) != stages:
@@ -154,7 +154,7 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
     made = _Registers(stages)
     values, slopes = [made.y], [made.slope(made.y)]
     for i, rows in enumerate(zip(alpha, beta, strict=True), start=1):
-        if any(x for row in rows for x in row[i:]):
+        if any(x != 0 for row in rows for x in row[i:]):
             raise CannotConvert("a value needs a later one: the method is implicit")
         a, b = ([*row[:i], *[0] * (i - len(row))] for row in rows)
         terms = [*zip(a, values, strict=True), *zip(b, slopes, strict=True)]

@@ -86,6 +86,7 @@ SIGNATURES: Mapping[str, Signature] = {
     "ImplicitRKTableau": _rk("A c b order"),
     "RungeKuttaMethod": _rk("A b c"),
     "ExplicitRungeKuttaMethod": _rk("A b c"),
+    "ExplicitRungeKuttaPair": _rk("A b embedded"),
     "DiagonallyImplicitRKMethod": _rk("A b c"),
     "AdditiveRungeKuttaMethod": Signature(["A", "b", "c"], "lists"),
     "Tableau": _rk("title order A b c"),

@@ -84,6 +84,11 @@ SHU_OSHER = """
 alpha = [[1], [3/4, 1/4], [1/3, 0, 2/3]]
 beta = [[1], [0, 1/4], [0, 0, 2/3]]
 """
+ZEROS_FIRST = """
+alpha = np.array([[0, 0], [1., 0], [0.261583187659478, 0.738416812340522]])
+beta = np.array([[0, 0], [0.822875655532364, 0], [-0.215250437021539, 0.607625218510713]])
+RK["SSP22star"] = ExplicitRungeKuttaMethod(alpha=alpha, beta=beta, name="SSPRK22star")
+"""
 FOUND = {
     "2N, Carpenter and Kennedy": (matlab.find, CARPENTER_KENNEDY, 4, None),
     "2N, Williamson": (c.find, WILLIAMSON, 3, None),
@@ -92,6 +97,7 @@ FOUND = {
     "Nyström": (julia.find, NYSTROM, 4, 3),
     "Nyström by names": (fortran.find, FORTRAN, 4, None),
     "Shu–Osher": (python.find, SHU_OSHER, 3, None),
+    "Shu–Osher, a row of zeros first": (python.find, ZEROS_FIRST, 2, None),
 }
 
 
