@@ -4,8 +4,8 @@ The pages are plain Markdown that reads well where the code is hosted, so
 they have no directives, but for the cells of the notebook. What the site has
 besides is made here: the contents in the margin, from the headings and lists
 of `all-pages.md`; `CONTRIBUTING.md`, which stands outside of this folder, as the
-first page for contributors; and titles in place of the names of files, in
-links that show these.
+first page for contributors; titles in place of the names of files, in links
+that show these; and formulas, drawn as MathML.
 """
 
 from __future__ import annotations
