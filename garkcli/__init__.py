@@ -97,7 +97,7 @@ ANSWERS = {
     "report.modified": "ModifiedFormula.latex=formula_latex",
     "report.rendering": "Analysis.html=html Outcome.html=html Stability.html=html "
     "Comparison.html=html Design.html=html Minimum.html=html StableValues.html=html "
-    "SweepReport.html=html MethodProof.html=html ModifiedRun.html=html "
+    "StablePlane.html=html SweepReport.html=html MethodProof.html=html ModifiedRun.html=html "
     "BackwardAnalysis.html=html",
     "webpage.notebook": "Convergence.html=convergence_html LongRun.html=long_run_html",
 }

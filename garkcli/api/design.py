@@ -10,7 +10,6 @@ from garkcli.api.files import load_family, loads
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_none, whole
 from garkcli.deadline import within
 from garkcli.design import design as designing
-from garkcli.design import stable_values as stabilities
 from garkcli.design.choices import Chosen, accepted_methods
 from garkcli.design.design import CLAIMS, Design, Whose
 from garkcli.design.minimise import minimise as minimising
@@ -20,6 +19,7 @@ from garkcli.design.minimise.result import Minimum
 from garkcli.design.search import run as searching
 from garkcli.design.search.run import TOLERANCE, Method, Result
 from garkcli.design.stability_kinds import TwoSprings
+from garkcli.design.stable_plane import StablePlane, stable_set
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.exact.polynomial_text import root_decimal, root_text
@@ -169,12 +169,12 @@ def stable_values(
     up_to: Number | None = None,
     colour: Whole | None = None,
     seconds: float | None = None,
-) -> StableValues:
+) -> StableValues | StablePlane:
     r"""The values of the parameter of a family that make it stable: ``gark design --a-stable``.
 
     Args:
         family: as ``find_parameters`` takes it; with one free parameter, or several through one
-            linear combination of which the step depends on them.
+            linear combination of which the step depends on them; for A-stability with two.
         wanted: ``"a-stable"``, ``"l-stable"`` or ``"p-stable"``.
         whose: as in ``find_parameters``.
         slow: of P-stability on two springs, (hω_s)²; None for the oscillator.
@@ -211,7 +211,7 @@ def stable_values(
     if colour is not None:
         alone = colour_of(colour, "colour", read.tableau.size)
     with within(seconds):
-        return stabilities.stable_values(read, wanted, whose, springs, alone)
+        return stable_set(read, wanted, whose, springs, alone)
 
 
 def found_methods(

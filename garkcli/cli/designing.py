@@ -354,6 +354,8 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
     from garkcli.api.design import stable_values
     from garkcli.cli.stability import colour_named
     from garkcli.design.design import TABLEAUS
+    from garkcli.design.stable_plane import StablePlane
+    from garkcli.report import stable_plane as planes
     from garkcli.report.stable_values import REPORT, StableReport
 
     asked = given.of("stable_values")
@@ -365,7 +367,10 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
     except NotDecided as error:
         say_problem(error)
         return EXIT_CODES[None]
-    output.tell(REPORT, StableReport(family.source, found, given.digits))
+    if isinstance(found, StablePlane):
+        output.tell(planes.REPORT, planes.PlaneReport(family.source, found, given.digits))
+    else:
+        output.tell(REPORT, StableReport(family.source, found, given.digits))
     return EXIT_CODES[found.has_values]
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.frozen import Frozen
@@ -62,18 +62,19 @@ def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction
     is_complete = len(list(tableau.edges())) == size**2
     if tableau.is_partitioned or not is_complete:
         return ()
-    found = [_function(tableau, ring, "all", [ONE] * size)]
+    found = [function_of(tableau, ring, "all", [ONE] * size)]
     if size > 1:
         for l, colour in enumerate(tableau.colours):
             shares = [ZERO] * size
             shares[l] = ONE
-            found.append(_function(tableau, ring, colour.name, shares))
+            found.append(function_of(tableau, ring, colour.name, shares))
     return tuple(found)
 
 
-def _function(
-    tableau: Tableau, ring: Parameters, name: str, shares: Sequence[fmpq]
+def function_of(
+    tableau: Tableau, ring: Parameters, name: str, shares: Sequence[Number]
 ) -> FamilyFunction:
+    """R with shares of λ for the colours."""
     system = stage_system(tableau, [((w,),) for w in shares])
     [weights] = system.B
     damped: list[tuple[Any, ...]] = []

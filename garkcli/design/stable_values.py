@@ -18,13 +18,12 @@ P-stability often holds at isolated points, which no sampling finds.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain
 from typing import Literal, TypeAlias, get_args
 
 from flint import fmpq
 
 from garkcli.design.design import TABLEAUS, Design, Whose
-from garkcli.design.fewer import Form, fewest
+from garkcli.design.fewer import Form
 from garkcli.design.stability_kinds import (
     AStability,
     Kind,
@@ -32,14 +31,12 @@ from garkcli.design.stability_kinds import (
     PStability,
     SpringStability,
     TwoSprings,
-    driven,
 )
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, sign_of, where
-from garkcli.exact.parametric import common_denominator
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.stability.two_frequencies import has
 from garkcli.tableau.family import Family
 from garkcli.upward import Shown
@@ -134,8 +131,7 @@ def stable_values(
     """The set of values of the one free parameter, of those that are as the file wants them.
 
     Args:
-        family: of methods, with one free parameter and rational coefficients otherwise, or with
-            several on which the step depends through one linear form.
+        family: of methods, with one free parameter and rational coefficients otherwise.
         wanted: P-stability on the oscillator that is split as usual, A-stability or L-stability
             with all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
@@ -148,9 +144,9 @@ def stable_values(
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    _refuse_radicals(family)
+    refuse_radicals(family)
     if len(family.parameters) > 1:
-        return _of_several(family, wanted, whose, two_springs, colour)
+        raise too_many(family)
     tableau = TABLEAUS[whose](family.tableau)
     members = Members(family, whose)
     if wanted == "p-stable":
@@ -218,29 +214,18 @@ def _ends(found: Sequence[Interval]) -> list[Polynomial]:
     return [Polynomial.from_flint(end.polynomial) for end in ends]
 
 
-def _of_several(
-    family: Family, wanted: Wanted, whose: Whose, two_springs: TwoSprings | None, colour: int | None
-) -> StableValues:
-    """The set for several parameters, where the step hangs on one number that is linear in them."""
-    tableau = TABLEAUS[whose](family.tableau)
-    entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
-    is_plain = common_denominator(list(entries), family.ring).is_constant()
-    is_open = all(ends == (None, None) for ends in family.ranges.values())
-    if is_plain and is_open and two_springs is None and not has_wishes(family):
-        fields = driven(tableau, wanted, colour)
-        smaller, forms = fewest(family, tableau, fields)
-        if len(forms) == 1:
-            found = stable_values(smaller, wanted, whose, colour=colour)
-            return replace(found, family=family, form=forms[0])
+def too_many(family: Family) -> UsageProblem:
+    """That only the set of one parameter is found."""
     *_, last = family.parameters
-    raise UsageProblem(
+    return UsageProblem(
         f"there are {len(family.parameters)} free parameters, and the set of one is found",
         f"give values to all but one, such as --set {last}=1/2",
         code="free-parameters",
     )
 
 
-def _refuse_radicals(family: Family) -> None:
+def refuse_radicals(family: Family) -> None:
+    """Refuse a family with roots among its coefficients."""
     if family.radicals:
         name = family.parameters[0]
         raise UsageProblem(

@@ -29,6 +29,7 @@ TOLD_BY = {
     "convergence.Convergence": "convergence",
     "design.Design": "design",
     "design.Minimum": "design",
+    "design.StablePlane": "stable_plane",
     "design.StableValues": "stable_values",
     "longtime.LongRun": "energy",
     "report.SweepReport": "sweep",

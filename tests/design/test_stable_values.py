@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import loads, pair
+from garkcli.design.stable_plane import stable_set
 from garkcli.design.stable_values import StableValues, Wanted, stable_values
 from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.roots import RealRoot
@@ -36,7 +37,9 @@ LARGE = 1 + 2**0.5 / 2
 
 def found(text: str, wanted: Wanted, is_pair: bool = False) -> StableValues:
     """The set for a family."""
-    return stable_values(loads_family(text), wanted, "pair" if is_pair else "method")
+    values = stable_set(loads_family(text), wanted, "pair" if is_pair else "method")
+    assert isinstance(values, StableValues)
+    return values
 
 
 def texts(values: StableValues) -> list[tuple[str | None, str | None, bool, bool]]:
@@ -227,7 +230,7 @@ def test_as_a_command(tmp_path: Path) -> None:
     both = gark("design", str(path), "--a-stable", "--emit", str(path) + "x")
     assert (both.code, "ask for one" in both.err) == (2, True)
     path.write_text("parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8")
-    two = gark("design", str(path), "--a-stable")
+    two = gark("design", str(path), "--l-stable")
     assert (two.code, "--set u=1/2" in two.err) == (2, True)
     path.write_text("parameters: {t: free}\nA: [[t + sqrt(2)]]\nb: [1]\n", encoding="utf-8")
     roots = gark("design", str(path), "--a-stable")

@@ -75,6 +75,7 @@ VALUES = (
     "design.design:Found",
     "design.minimise.result:Minimum",
     "design.stable_values:StableValues",
+    "design.stable_plane:StablePlane",
     "design.search.run:Result",
     "bridges.audit:Audited",
     "sources.found:FoundTable",

@@ -24,6 +24,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles.brute import brute_order
 from tests.oracles.points import numbers
 from tests.order import random_pairs
+from tests.order.own_pairs import compare
 
 THREE_EIGHTHS = (
     "{A: [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]], b: [1/8, 3/8, 3/8, 1/8]}"
@@ -215,3 +216,10 @@ def test_many_blocks_are_not_looked_at() -> None:
     method = of_file((gauss(1),) * 13, "collocation")
     found = list(rule_reasons(analysis(method), method.rules))
     assert found == ["whether 156 blocks keep the order is not looked at (limit 150)"]
+
+
+def test_the_criterion_by_a_program_of_its_own() -> None:
+    """Random methods in plain fractions: the criterion, written once more from the page, against the
+    certificate, and some against all trees up to order 4; ``make pairs`` has more.
+    """
+    assert {1, 2, 3, 4} <= {*compare(60, 12, seed=3)}

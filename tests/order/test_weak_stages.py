@@ -52,7 +52,7 @@ def by_products(tableau: Tableau, colours: list[int], limit: int = LIMIT) -> int
                 if block is None:
                     break
                 w = [
-                    sum(x * row[j] for x, row in zip(w, block, strict=True))
+                    sum((x * row[j] for x, row in zip(w, block, strict=True)), Fraction(0))
                     for j in range(len(block[0]))
                 ]
             else:

@@ -14,6 +14,7 @@ from garkcli.report.rendering import _writer_of
 from tests.cli.harness import gark
 
 FAMILY = "tests/examples/families/sdirk.gark.yaml"
+PLANE = "tests/examples/families/plane.gark.yaml"
 NO_CLAIMS = "tests/examples/valid/smallest.gark.yaml"
 KUTTA = "tests/bridges/sources/kutta.csv"
 STEPS = ("--problem", "pendulum", "--steps", "1/2,1/4")
@@ -55,6 +56,11 @@ MADE: dict[str, Made] = {
         lambda: garkcli.stable_values(FAMILY, "a-stable"),
         ("design", FAMILY, "--a-stable"),
         FAMILY,
+    ),
+    "StablePlane": (
+        lambda: garkcli.stable_values(PLANE, "a-stable"),
+        ("design", PLANE, "--a-stable"),
+        PLANE,
     ),
     "MethodProof": (lambda: garkcli.prove_method("rk4"), ("certificate", "rk4"), ""),
     "Meaning": (lambda: garkcli.explain("density"), ("explain", "density"), "density"),

@@ -34,6 +34,7 @@ SLOW = {
 }
 """Files whose stability takes a good part of a second."""
 FAMILY = "tests/examples/families/sdirk.gark.yaml"
+PLANE = "tests/examples/families/plane.gark.yaml"
 IMEX = "methods/ark-ars222.gark.yaml"
 VERLET = "methods/stoermer-verlet.gark.yaml"
 COLLOCATION = "methods/collocation.gark.yaml"
@@ -87,6 +88,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         (FAMILY, "--pair"),
         (FAMILY, "--order", "2", "--minimise", "error"),
     ],
+    "design-plane": [("design", PLANE, "--a-stable")],
     "design-stability": [
         ("design", FAMILY, option, *of)
         for option in ("--a-stable", "--l-stable", "--p-stable")

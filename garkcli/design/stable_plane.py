@@ -1,0 +1,439 @@
+"""For which values of two parameters a family is A-stable: cells of the plane.
+
+What decides are curves in the plane of the parameters (t, y): over each region between them the
+zeros of E(x) = |Q(iy)|² − |P(iy)|² and the poles of R keep their number and order. The curves are
+projected once more, onto t. Between two critical t nothing changes but where the curves are, so
+that one rational t decides a strip, by the set of values of the one parameter that is left; its
+ends are branches of the curves.
+
+A-stability is |P| ≤ |Q| on the left half plane, with coefficients that are polynomials in the
+parameters: limits of A-stable methods are A-stable. So on the line over a critical t, where that is
+no curve itself, only the points where curves meet it are open, and of these only those that are no
+limits: there some z with |P(z)| > |Q(z)| decides. Over a rational t the engine for one parameter
+does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain, combinations, pairwise
+from typing import Any, TypeAlias
+
+from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
+
+from garkcli.deadline import check_time
+from garkcli.design.design import TABLEAUS, Whose
+from garkcli.design.fewer import fewest
+from garkcli.design.member import member, shares_of
+from garkcli.design.stability_functions import FamilyFunction, function_of, joined
+from garkcli.design.stability_kinds import TwoSprings, driven
+from garkcli.design.stable_values import (
+    StableValues,
+    Wanted,
+    has_wishes,
+    refuse_radicals,
+    stable_values,
+    too_many,
+)
+from garkcli.errors import UsageProblem
+from garkcli.exact.cells import Interval, between
+from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.projection import (
+    PLANE,
+    coefficient_of,
+    curves,
+    discriminant,
+    in_t,
+    in_y,
+    leading,
+    projected,
+    resultant,
+)
+from garkcli.exact.roots import RealRoot, real_roots, sign_at
+from garkcli.frozen import Frozen, replace
+from garkcli.tableau.family import Family
+from garkcli.upward import Shown
+
+BITS = 512
+"""Precision of the balls in which a value of |R| above 1 is proved."""
+
+
+class Branch(Frozen, eq=False):
+    """A curve p(y, t) = 0 as a function of t: its root in y of a number, from below.
+
+    Attributes:
+        curve: p.
+        number: counted from 0.
+        count: how many roots there are.
+    """
+
+    curve: fmpq_mpoly
+    number: int
+    count: int
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Branch)
+            and str(self.curve) == str(other.curve)
+            and (self.number, self.count) == (other.number, other.count)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def formula(self) -> tuple[Polynomial, Polynomial] | None:
+        """Numerator and denominator where it is a rational function of t."""
+        if self.curve.degrees()[0] > 1:
+            return None
+        return -in_t(coefficient_of(self.curve, 0)), in_t(coefficient_of(self.curve, 1))
+
+    def at(self, t: RealRoot) -> RealRoot | None:
+        """Its value at a number or at an end of the strip, as a limit; None where roots meet or
+        leave there.
+        """
+        degree = self.curve.degrees()[0]
+        critical = [leading(self.curve), *([discriminant(self.curve)] if degree > 1 else [])]
+        if any(sign_at(in_t(p), t) == 0 for p in critical):
+            return None
+        candidates = [y for y, _ in real_roots(in_y(resultant(self.curve, _of_root(t), "t")))]
+        bits = 64
+        while len(candidates) > self.count:
+            check_time()
+            with ctx.workprec(2 * bits):
+                x = t.ball(bits)
+                candidates = [
+                    y for y in candidates if _value(self.curve, [y.ball(bits), x]).overlaps(arb(0))
+                ]
+            bits *= 2
+        return candidates[self.number]
+
+
+End: TypeAlias = "Branch | RealRoot | None"
+"""An end of a set of y: a function of t, a number over a single t, or infinity."""
+
+
+class Part(Frozen):
+    """An interval of y over a strip.
+
+    Attributes:
+        start, end: its ends.
+        has_start, has_end: whether they belong to it.
+    """
+
+    start: End
+    end: End
+    has_start: bool
+    has_end: bool
+
+    def over(self, t: RealRoot) -> Interval | None:
+        """The interval over one t; None where that is not known."""
+        ends: list[RealRoot | None] = []
+        for end in (self.start, self.end):
+            value = end.at(t) if isinstance(end, Branch) else end
+            if end is not None and value is None:
+                return None
+            ends.append(value)
+        return Interval(ends[0], ends[1], self.has_start, self.has_end)
+
+
+class Strip(Frozen):
+    """Values of the first parameter, with those of the second.
+
+    Attributes:
+        base: the values of the first.
+        parts: those of the second, from below.
+    """
+
+    base: Interval
+    parts: tuple[Part, ...]
+
+
+class StablePlane(Shown, Frozen):
+    """The values of two parameters for which a family is A-stable.
+
+    Attributes:
+        family: as it was read.
+        strips: where there are such values, from the left.
+        undecided: values of the first parameter over which not everything is decided; they are in
+            no strip.
+        colour: which colour alone is driven, counted from 0; None for all of them alike.
+    """
+
+    family: Family
+    strips: tuple[Strip, ...]
+    undecided: tuple[RealRoot, ...]
+    colour: int | None = None
+
+    @property
+    def has_values(self) -> bool | None:
+        """Whether there are such values; None where that is not decided."""
+        if self.strips:
+            return True
+        return None if self.undecided else False
+
+
+def stable_set(
+    family: Family,
+    wanted: Wanted,
+    whose: Whose = "method",
+    two_springs: TwoSprings | None = None,
+    colour: int | None = None,
+) -> StableValues | StablePlane:
+    """The set of values of the free parameters: of one, of several on which the step depends
+    through one linear form, or of two for A-stability.
+
+    Args:
+        family: of methods.
+        wanted: which stability.
+        whose: of the method, its symplectic conjugate, or its symplectic pair.
+        two_springs: P-stability is meant on them.
+        colour: A- or L-stability of this colour alone, counted from 0.
+
+    Raises:
+        UsageProblem: the stability has no meaning for the method, there are other parameters, or
+            coefficients are irrational.
+        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        NotDecided: the time is not enough.
+    """
+    refuse_radicals(family)
+    if len(family.parameters) == 1:
+        return stable_values(family, wanted, whose, two_springs, colour)
+    tableau = TABLEAUS[whose](family.tableau)
+    entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
+    is_plain = common_denominator(list(entries), family.ring).is_constant()
+    is_open = all(ends == (None, None) for ends in family.ranges.values())
+    if is_plain and is_open and two_springs is None and not has_wishes(family):
+        smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
+        if len(forms) == 1:
+            found = stable_values(smaller, wanted, whose, colour=colour)
+            return replace(found, family=family, form=forms[0])
+        if len(family.parameters) == 2 and wanted == "a-stable" and whose == "method":
+            return stable_plane(family, colour)
+    raise too_many(family)
+
+
+def stable_plane(family: Family, colour: int | None = None) -> StablePlane:
+    """The set for two parameters without ranges, coefficients without denominators.
+
+    Raises:
+        UsageProblem: A-stability has no meaning for the method.
+        NotDecided: the time is not enough.
+    """
+    return _Plane(family, colour).run()
+
+
+class _Plane:
+    """One decomposition."""
+
+    def __init__(self, family: Family, colour: int | None) -> None:
+        self.family, self.colour = family, colour
+        driven(family.tableau, "a-stable", colour)
+        shares = shares_of(family.tableau, colour)
+        R = function_of(family.tableau, family.ring, "", shares)
+        self.R = R
+        self.curves = _deciding(R, family.ring)
+        self.vertical = [in_t(p) for p in self.curves if p.degrees()[0] == 0]
+        self.undecided: list[RealRoot] = []
+
+    def run(self) -> StablePlane:
+        critical = sorted({t for p in projected(self.curves, []) if p for t, _ in real_roots(p)})
+        ends: list[RealRoot | None] = [None, *critical, None]
+        opened = [
+            Strip(Interval(left, right), self._parts(between(left, right)))
+            for left, right in pairwise(ends)
+        ]
+        strips = [opened[0]]
+        for t, following in zip(critical, opened[1:], strict=True):
+            check_time()
+            strips += [self._over(t, strips[-1], following), following]
+        return StablePlane(self.family, tuple(_joined(strips)), tuple(self.undecided), self.colour)
+
+    def _stable(self, t: fmpq) -> tuple[Interval, ...]:
+        """The values of the second parameter for one of the first."""
+        first, second = self.family.ring.names
+        ring = Parameters([second])
+        values: dict[str, Any] = {first: t, second: ring.parameter(second)}
+        line = replace(
+            self.family,
+            tableau=member(self.family.tableau, self.family.ring, values),
+            ring=ring,
+            parameters=(second,),
+            ranges={second: (None, None)},
+        )
+        found = stable_values(line, "a-stable", colour=self.colour)
+        if found.undecided:
+            raise UsageProblem(
+                f"over {first} = {t} not every value of {second} is decided",
+                f"fix one of the parameters, such as --set {first}={t}",
+                code="free-parameters",
+            )
+        return found.found
+
+    def _parts(self, t: fmpq) -> tuple[Part, ...]:
+        """The set over an open strip, from one t inside."""
+        found = self._stable(t)
+        branches: list[tuple[RealRoot, Branch]] = []
+        for curve in self.curves:
+            if curve.degrees()[0]:
+                roots = real_roots(_on_line(curve, t))
+                branches += [(y, Branch(curve, k, len(roots))) for k, (y, _) in enumerate(roots)]
+
+        def end(y: RealRoot | None) -> Branch | None:
+            return None if y is None else next(x for root, x in branches if root == y)
+
+        return tuple(Part(end(x.start), end(x.end), x.has_start, x.has_end) for x in found)
+
+    def _over(self, t: RealRoot, left: Strip, right: Strip) -> Strip:
+        """The set over a critical t."""
+        base = Interval(t, t, has_start=True, has_end=True)
+        if t.exact is not None:
+            found = self._stable(t.exact)
+            for side in (left, right):
+                if _over(side, t) == list(found):
+                    return Strip(base, side.parts)
+            return Strip(base, tuple(Part(x.start, x.end, x.has_start, x.has_end) for x in found))
+        is_curve = any(sign_at(p, t) == 0 for p in self.vertical)
+        sides = [(side, _over(side, t)) for side in (left, right)]
+        for side, mine in sides:
+            others = [x for other, x in sides if other is not side]
+            if mine is None or is_curve or None in others:
+                continue
+            if all(_contain(mine, x) for x in others[0] or []) and self._nothing_else(t, mine):
+                return Strip(base, side.parts)
+        self.undecided.append(t)
+        return Strip(base, ())
+
+    def _nothing_else(self, t: RealRoot, found: Sequence[Interval]) -> bool:
+        """Whether |P| > |Q| for some z where curves meet the line outside of a set."""
+        for curve in self.curves:
+            if not curve.degrees()[0]:
+                continue
+            for y, _ in real_roots(in_y(resultant(curve, _of_root(t), "t"))):
+                inside = _contain(found, Interval(y, y, has_start=True, has_end=True))
+                if not inside and not self._is_violated(t, y):
+                    return False
+        return True
+
+    def _is_violated(self, t: RealRoot, y: RealRoot) -> bool:
+        """Whether |P| > |Q| for a simple z, Re z ≤ 0, proved in balls."""
+        with ctx.workprec(BITS):
+            at = [t.ball(BITS), y.ball(BITS)]
+            P, Q = ([_value(x, at) for x in p] for p in (self.R.numerator, self.R.denominator))
+            sizes = [arb(0), *(arb(fmpq(4) ** k) for k in range(-6, 7))]
+            points = [acb(-x, z) for x in sizes for z in sizes]
+            # next to a pole too
+            points += [z for z in _roots([x.mid() for x in Q]) if z.real < 0]
+            return any(abs(_horner(P, z)) > abs(_horner(Q, z)) for z in points)
+
+
+def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
+    """The irreducible curves in the plane of the parameters that decide."""
+    P, Q, E = (
+        joined(x, common_denominator(list(x), ring), ring)
+        for x in (R.numerator, R.denominator, R.e_polynomial or (fmpq(0),))
+    )
+    zero = P.context().constant(fmpq(0))
+    found: list[fmpq_mpoly] = []
+    crossing = []
+    for factor, _ in E.factor()[1] if E else ():
+        degree = int(factor.degrees()[0])
+        if degree == 0:
+            found.append(factor)
+            continue
+        crossing.append(factor)
+        found += [_leading(factor), factor.compose(zero, *P.context().gens()[1:])]
+        if degree > 1:
+            found.append(factor.discriminant("_z"))
+    found += [p.resultant(q, "_z") for p, q in combinations(crossing, 2)]
+    u, v = P.context().from_dict({}), P.context().from_dict({})
+    for (k, *rest), a in Q.to_dict().items():
+        term = P.context().from_dict({(int(k) // 2, *map(int, rest)): -a if int(k) % 4 > 1 else a})
+        u, v = (u, v + term) if int(k) % 2 else (u + term, v)
+    for p in (P, Q):
+        found += [_leading(p)]
+    for p, q in ((P, Q), (u, v)):
+        if p and q and (p.degrees()[0] or q.degrees()[0]):
+            found.append(p.resultant(q, "_z"))
+    return curves(_in_plane(p) for p in found if p)
+
+
+def _leading(p: fmpq_mpoly) -> fmpq_mpoly:
+    """The coefficient of the highest power of z."""
+    degree = int(p.degrees()[0])
+    return p.context().from_dict(
+        {(0, *map(int, e[1:])): a for e, a in p.to_dict().items() if int(e[0]) == degree}
+    )
+
+
+def _in_plane(p: fmpq_mpoly) -> fmpq_mpoly:
+    """A polynomial in the parameters alone, the second as y and the first as t."""
+    return PLANE.from_dict({(int(e[2]), int(e[1])): a for e, a in p.to_dict().items()})
+
+
+def _on_line(p: fmpq_mpoly, t: fmpq) -> Polynomial:
+    degree, _ = p.degrees()
+    return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(int(degree) + 1)])
+
+
+def _of_root(t: RealRoot) -> fmpq_mpoly:
+    """The polynomial of an algebraic number in the plane."""
+    powers = enumerate(t.polynomial.coeffs())
+    return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
+
+
+def _over(strip: Strip, t: RealRoot) -> list[Interval] | None:
+    """The set of a strip over an end of it, as limits; None where one is not known."""
+    found = [part.over(t) for part in strip.parts]
+    return None if None in found else [x for x in found if x is not None]
+
+
+def _contain(parts: Sequence[Interval], x: Interval) -> bool:
+    """Whether an interval is in one of some closed ones."""
+    for part in parts:
+        begins = part.start is None or (x.start is not None and not x.start < part.start)
+        ends = part.end is None or (x.end is not None and not part.end < x.end)
+        if begins and ends:
+            return True
+    return False
+
+
+def _joined(strips: Sequence[Strip]) -> list[Strip]:
+    """Strips beside each other with the same parts as one; without those of none."""
+    found: list[Strip] = []
+    for strip in strips:
+        if found and found[-1].parts == strip.parts:
+            last = found[-1].base
+            base = Interval(last.start, strip.base.end, last.has_start, strip.base.has_end)
+            found[-1] = Strip(base, strip.parts)
+        else:
+            found.append(strip)
+    return [strip for strip in found if strip.parts]
+
+
+def _roots(coefficients: Sequence[arb]) -> list[acb]:
+    """Numbers near the roots of a polynomial; none where they are multiple."""
+    try:
+        return [z.mid() for z in acb_poly(coefficients).roots()]
+    except ValueError:
+        return []
+
+
+def _horner(coefficients: Sequence[arb], x: Any) -> Any:
+    total = 0 * x
+    for a in reversed(coefficients):
+        total = total * x + a
+    return total
+
+
+def _value(x: Any, at: Sequence[arb]) -> arb:
+    """A polynomial, or a number whose numerator is one over a constant, in balls."""
+    if isinstance(x, fmpq):
+        return arb(x)
+    polynomial = x if isinstance(x, fmpq_mpoly) else x.numerator
+    total = arb(0)
+    for exponents, a in polynomial.to_dict().items():
+        term = arb(fmpq(a))
+        for ball, k in zip(at, exponents, strict=True):
+            term *= ball ** int(k)
+        total += term
+    return total

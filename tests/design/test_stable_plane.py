@@ -1,0 +1,115 @@
+"""``gark design --a-stable`` with two parameters: cells of the plane, against single methods."""
+
+from __future__ import annotations
+
+import json
+from random import Random
+
+import pytest
+from flint import fmpq
+
+from garkcli import loads
+from garkcli.design.stable_plane import StablePlane, stable_set
+from garkcli.exact.roots import RealRoot
+from garkcli.methodfile.family import loads_family
+from garkcli.stability.linear import is_a_stable, stability_function
+from garkcli.stability.two_frequencies import has
+from tests.cli.harness import gark
+
+FREE = "parameters: {g: free, d: free}\n"
+DIRK = f"{FREE}A: [[g, 0], [1 - d, d]]\nb: [1/2, 1/2]\n"
+STIFF = f"{FREE}A: [[g, 0], [1/2, d]]\nb: [1 - d, d]\n"
+SDIRK = f"{FREE}A: [[g, 0], [1 - 2*g, g]]\nb: [1 - d, d]\n"
+FULL = f"{FREE}A: [[g, d], [1/2, 1/3]]\nb: [3/4, 1/4]\n"
+
+
+def plane(text: str) -> StablePlane:
+    """The set for a family."""
+    found = stable_set(loads_family(text), "a-stable")
+    assert isinstance(found, StablePlane)
+    return found
+
+
+def contains(values: StablePlane, g: fmpq, d: fmpq) -> bool:
+    """Whether a pair of rational numbers belongs to the set."""
+    root, other = RealRoot.rational(g), RealRoot.rational(d)
+    for strip in values.strips:
+        if has([strip.base], root):
+            over = [part.over(root) for part in strip.parts]
+            return any(x is not None and has([x], other) for x in over)
+    return False
+
+
+def is_stable(text: str, g: fmpq, d: fmpq) -> bool:
+    """One method by the ordinary engine."""
+    method = loads(text, settings={"g": str(g), "d": str(d)})
+    return is_a_stable(stability_function(method.tableau))
+
+
+@pytest.mark.parametrize("text", [DIRK, STIFF, SDIRK, FULL])
+def test_random_and_critical_points(text: str) -> None:
+    """Rational points on a grid, at random, and beside the ends over some g: in the set exactly
+    where the single method is A-stable.
+    """
+    values = plane(text)
+    assert values.undecided == ()
+    dice = Random(1)
+    points = [(fmpq(i, 4), fmpq(k, 4)) for i in range(-4, 9, 2) for k in range(-6, 11)]
+    points += [
+        (fmpq(dice.randint(-20, 40), 13), fmpq(dice.randint(-30, 60), 17)) for _ in range(150)
+    ]
+    for g in (fmpq(-1), fmpq(1, 8), fmpq(1, 3), fmpq(3, 4), fmpq(6)):
+        for strip in values.strips:
+            if has([strip.base], RealRoot.rational(g)):
+                for part in strip.parts:
+                    x = part.over(RealRoot.rational(g))
+                    assert x is not None
+                    for end in (x.start, x.end):
+                        if end is not None:
+                            near = end.exact or fmpq(round(float(end) * 10**6), 10**6)
+                            points += [
+                                (g, near + shift)
+                                for shift in (-fmpq(1, 10**4), 0, fmpq(1, 10**4))
+                                if shift or end.exact
+                            ]
+    found = [is_stable(text, g, d) for g, d in points]
+    assert {*found} == {True, False}
+    assert [contains(values, g, d) for g, d in points] == found
+
+
+def test_the_report() -> None:
+    """The set of the DIRK with weights 1/2, which for 0 < g < 1/2 is (1 − g)/2 ≤ d ≤ (1 − g)/(2 − 4g)."""
+    run = gark("design", "-", "--a-stable", stdin=DIRK)
+    assert run.code == 0
+    assert run.out.splitlines()[1:] == [
+        "  0 ≤ g < 1/2  -1/2*g + 1/2 ≤ d ≤ (g - 1)/(4*g - 2)",
+        "  1/2 ≤ g < 1  -1/2*g + 1/2 ≤ d",
+        "  g = 1        every d",
+        "  1 < g        (g - 1)/(4*g - 2) ≤ d",
+    ]
+    data = json.loads(gark("design", "-", "--a-stable", "--format", "json", stdin=DIRK).out)
+    (part,) = data["strips"][0]["parts"]
+    assert part["to"] == {
+        "function": "(g - 1)/(4*g - 2)",
+        "curve": "4*g*d - g - 2*d + 1",
+        "branch": 1,
+    }
+    text = gark("design", "-", "--a-stable", stdin=STIFF).out
+    assert "g ≤ 0          d = root 2 in d of -2*g*d + 2*g + 2*d^2 - d" in text
+
+
+def test_no_values_and_explicit_methods() -> None:
+    """Explicit methods have no values, and the exit code says so."""
+    text = f"{FREE}A: [[0, 0], [g, 0]]\nb: [1 - d, d]\n"
+    run = gark("design", "-", "--a-stable", stdin=text)
+    assert run.code == 1
+    assert "A-stable for no value of g and d" in run.out
+
+
+def test_curves_that_cross_at_irrational_points() -> None:
+    """Where curves cross over an irrational g outside of the set, |R| > 1 is proved there, so that
+    the strips beside it are one: no end of a strip is irrational here.
+    """
+    for text in (DIRK, STIFF, SDIRK):
+        ends = [x for strip in plane(text).strips for x in (strip.base.start, strip.base.end)]
+        assert all(x is None or x.exact is not None for x in ends)
