@@ -5,8 +5,7 @@ from __future__ import annotations
 import ast
 import inspect
 import re
-from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
@@ -30,6 +29,8 @@ TYPES = {
 """Types of arguments: where each is defined, and as what where that differs."""
 OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
 """Those that say all of an argument: it stands in the signature alone."""
+SAID = {"the rounding of the coefficients", "what errors call it.", "of the file."}
+"""What the head of the page says of ``tolerance``, ``source`` and ``text``."""
 VALUES = (
     "order.certificate:Order",
     "order.certificate:Witness",
@@ -223,15 +224,15 @@ def told(name: str, thing: Any) -> list[tuple[str, str]]:
         for x, text in items(doc.sections.get("Args", ""))
         if type_of(x, thing) not in OWN
     ]
-    return [(x, linked(text, name)) for x, text in entries]
+    return [(x, linked(text, name)) for x, text in entries if text not in SAID]
 
 
 _DEFAULT = re.compile(r"[;,] (by default|None for|that of the method where) .*")
 """What is said of defaults, which the signature shows."""
 
 
-def described(name: str, thing: Any, common: Mapping[str, str]) -> str:
-    """The section of one name, without what is told for all: arguments, and known attributes."""
+def described(name: str, thing: Any) -> str:
+    """The section of one name."""
     doc = of_class(thing)
     is_value = isinstance(thing, type)
     parts = [f"### {name}"]
@@ -240,7 +241,7 @@ def described(name: str, thing: Any, common: Mapping[str, str]) -> str:
     general = more_general(thing) if is_value else ""
     returns = f" Returns: {brief(doc.sections['Returns'])}" if "Returns" in doc.sections else ""
     parts.append(linked(brief(doc.prose) + returns, name) + general)
-    own = [(x, text) for x, text in told(name, thing) if common.get(x) != text]
+    own = told(name, thing)
     if own:
         parts.append("\n".join(f"* `{x}`: {text.rstrip('.')}" for x, text in own))
     if "Raises" in doc.sections:
@@ -253,19 +254,6 @@ def value_row(name: str, kind: type) -> tuple[str, str, str]:
     """The row of what calls return: what it is, and the names that it has."""
     names = ", ".join(f"`{x}`" for x, _ in told(name, kind))
     return f"`{name}`", cell(linked(brief(of_class(kind).prose))), names.replace("|", "\\|")
-
-
-def commonly() -> dict[str, str]:
-    """What the arguments of several functions mean wherever nothing else is said."""
-    functions = {x: getattr(garkcli, x) for x in garkcli.__all__}
-    counts = Counter(
-        entry
-        for name, thing in functions.items()
-        if inspect.isfunction(thing)
-        for entry in told(name, thing)
-    )
-    often = [entry for entry, count in counts.most_common() if count > 2]
-    return dict(sorted(dict(reversed(often)).items()))
 
 
 def of_class(thing: Any) -> Docstring:
@@ -321,15 +309,12 @@ def page() -> str:
     """All of it, below the head that a person wrote."""
     parts = ["## Types of arguments\n"]
     parts += [f"* `{name}`: {type_text(name, place)}" for name, place in TYPES.items()]
-    common = commonly()
-    parts.append("\n## Arguments of several functions\n")
-    parts += [f"* `{name}`: {text}" for name, text in common.items()]
     shown: set[str] = set()
     for head, names in groups():
         things = {name: getattr(garkcli, name) for name in names if name not in shown}
         things |= {x: type(thing) for x, thing in things.items() if x == "catalogue"}
         shown |= {*things}
-        sections = [described(name, thing, common) for name, thing in things.items()]
+        sections = [described(name, thing) for name, thing in things.items()]
         parts.append(f"\n## {head}\n\n" + "\n\n".join(sections))
     parts.append("\n## Values\n")
     rows = (value_row(*home(place)) for place in VALUES)
