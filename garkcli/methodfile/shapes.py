@@ -166,14 +166,9 @@ def _stiffly_accurate(layout: Layout) -> Layout:
             code="not-together",
         )
     last = layout.A[-1][-1]
-    if last[-1] == ZERO:
-        raise MethodError(
-            "no explicit shape is stiffly accurate: its last weight would be zero",
-            "take dirk, sdirk, esdirk or full before it",
-            code="not-together",
-        )
     bottom = layout.stages - 1
-    # names of weights stay; what the shapes before it fixed in the last row fixes weights
+    # names of weights stay; what the shapes before it fixed in the last row fixes weights: an
+    # explicit method gets the last weight 0, and so the first slope of the next step (FSAL)
     pairs = zip(last, layout.b[0], strict=True)
     weights = tuple(b if a.startswith("a") else a for a, b in pairs)
     changed = layout.with_entries(lambda i, j, text: weights[j] if i == bottom else text)
