@@ -120,7 +120,7 @@ class TooManyTerms(MethodError):
 
 
 class ZeroWeight(MethodError):
-    """A symplectic conjugate was asked for where a weight is zero.
+    """A symplectic conjugate divides by a weight that is zero.
 
     Attributes:
         reason: the message as a value, which outputs word.
@@ -292,7 +292,7 @@ def counted(count: int, noun: str, plural: str = "") -> str:
 
 class MethodFileError(GarkError):
     """A file that cannot be read as a method or a problem; its text has every fault with its place,
-    the line it stands in, and its cure.
+    its line, and its cure.
 
     Attributes:
         source: the file as it was named.
@@ -308,7 +308,7 @@ class MethodFileError(GarkError):
         self.text = text
 
     def __str__(self) -> str:
-        """Every fault with its place, the line it stands in, and its cure."""
+        """Every fault with its place, its line, and its cure."""
         lines = self.text.splitlines()
         parts: list[str] = []
         for fault in self.faults:

@@ -61,7 +61,7 @@ def gark(
     """
     if isinstance(methods, str) or not methods:
         raise MethodError(
-            "gark takes a list of methods", "give one a colour: ['gauss-2', …]", code="arrays"
+            "gark takes a list of methods", "give one per colour: ['gauss-2', …]", code="arrays"
         )
     given = [method_of(method) for method in methods]
     diagonal = [_diagonal(method) for method in given]

@@ -73,7 +73,7 @@ def find_parameters(
         order: the order wanted; where it is not given, as far as some value reaches.
         whose: ``"method"``, ``"conjugate"`` or ``"pair"``: of the method, its symplectic conjugate
             or its symplectic pair.
-        seconds: after which what is not decided is left open; None for never.
+        seconds: after which the rest stays undecided; None for no limit.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
@@ -95,7 +95,7 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
 
     Args:
         design: what ``find_parameters`` returns, or a family as it takes it.
-        objective: what is to be small: error, error-coupling or coefficients; or large, with a
+        objective: the quantity to be small: error, error-coupling or coefficients; or large, with a
             minus sign: -ssp, -stability-interval, -real-interval, -imaginary-interval,
             -oscillator-interval.
         seconds: after which it is given up; None for never.
@@ -135,7 +135,7 @@ def search_methods(
         order: that is wanted.
         starts: how many.
         seed: of the starts; the same seed has the same finds everywhere.
-        most: methods that are looked for at most; other successes are counted.
+        most: the most methods to look for; other successes are counted.
         whose: as in ``find_parameters``.
         seconds: after which the search ends with what was found; None for never.
 
@@ -237,7 +237,7 @@ def found_methods(
     """
     if not isinstance(found, (Design, Minimum, Result)):
         raise MethodError(
-            f"what was found is expected, not {type(found).__name__}",
+            f"found methods are expected, not {type(found).__name__}",
             "give what find_parameters, minimise or search_methods returned",
             code="arrays",
         )

@@ -112,7 +112,7 @@ def loads_family(
         text: of the file.
         source: what errors call it.
         settings: values of parameters, by name, in place of those in the file.
-        is_design: whether what stands under ``design`` is meant; else it is passed over.
+        is_design: whether to use ``design`` of the file.
         deadline: as in ``load_family``.
 
     Raises:

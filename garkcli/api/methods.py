@@ -75,7 +75,7 @@ def find_order(
 def analyse(
     method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> Analysis:
-    """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
+    """Decide everything that ``gark check`` reports; up to the order ``limit``.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -108,8 +108,8 @@ def simplifying(
             none.
 
     Returns:
-        ``B`` has a number a colour, ``C`` and ``D`` one a block, None where there is no block, in
-        rows; ``bound`` and ``sharp_bound`` are what they say of the order.
+        ``B`` has a number per colour, ``C`` and ``D`` one per block, in rows, None for no block;
+        ``bound`` and ``sharp_bound`` are what they say of the order.
 
     >>> simplifying("gauss-2")
     Simplifying(B=(4,), C=((2,),), D=((2,),), limit=60)

@@ -32,7 +32,7 @@ def problem(
         name: as ``gark list problems`` shows it.
         terms: how many, one for each colour of a method.
         seed: of those with random coefficients.
-        stiffness: of those that have one; 1 by default.
+        stiffness: if the problem has one; 1 by default.
 
     Raises:
         UsageProblem: there is no such problem, it cannot be split so, or it has no stiffness.

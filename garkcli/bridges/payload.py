@@ -33,7 +33,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         kind: which form it has.
         tableau: with one coordinate a stage where the nodes have simple radicals.
         entries: c, A and b of each colour: exact numbers, or enclosures fine enough to be rounded.
-        embedded: the embedded weights, a row a colour.
+        embedded: the embedded weights, a row per colour.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         orders: what was proved.
         tolerance: the rounding that the coefficients of the file admit; None where they are exact.
@@ -77,12 +77,12 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @property
     def b(self) -> tuple[Row, ...]:
-        """The weights, a row a colour."""
+        """The weights, a row per colour."""
         return self.entries.b
 
     @property
     def c(self) -> tuple[Row, ...]:
-        """The nodes, a row a colour."""
+        """The nodes, a row per colour."""
         return self.entries.c
 
     @property

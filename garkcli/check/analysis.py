@@ -94,7 +94,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def subject(self) -> Subject:
-        """The method as its properties are decided, each when it is asked for."""
+        """The method whose properties are decided on demand."""
         from garkcli.properties.subject import Subject
 
         tolerance = ZERO if self.tolerance is None else self.tolerance

@@ -37,7 +37,7 @@ def analyse(
     units: Units | None = None,
     further: Further = NOTHING,
 ) -> Analysis:
-    """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
+    """Decide everything that ``gark check`` reports; up to the order ``limit``.
 
     Args:
         tableau: the method.

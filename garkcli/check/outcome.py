@@ -57,11 +57,11 @@ class Outcome(Shown, Frozen):
         text: the file as read, for showing lines of it.
         blame: where the order falls short of a claim, what the failing conditions tell; None
             otherwise.
-        constants: the error constants at the first failing order, where they were asked for.
+        constants: the error constants at the first failing order, if wanted.
         needs_claims: whether a file that makes no claim fails.
         needed: claims without which a file fails.
         is_crash: whether the program failed, not the file; ``faults`` say how.
-        wants_properties: whether all properties were asked for.
+        wants_properties: whether to show all properties.
         every: what holds for every value, of a file with free parameters; it has no analysis.
         left_behind: further weights of the methods that it is made from, in words.
         rules: what made blocks between diagonal methods.

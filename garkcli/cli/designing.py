@@ -327,7 +327,7 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
     try:
         return walk_down(known, values)
     except NotDecided:
-        message = "--choose: what is left is not decided in the time of --seconds"
+        message = "--choose: the rest is not decided in the time of --seconds"
         raise UsageProblem(message, "choose with --set", code="not-found") from None
 
 

@@ -47,7 +47,7 @@ def _check_test(bridge: Bridge, output: Output) -> None:
     """
     if bridge.test_driver is None:
         raise UsageProblem(
-            f"{bridge.name} is data, which nothing runs", "leave out --test", code="cannot-export"
+            f"{bridge.name} is data, not a program", "leave out --test", code="cannot-export"
         )
     if output.path is None:
         raise UsageProblem(

@@ -115,7 +115,7 @@ def _filters() -> list[click.Option]:
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }
     structures = "Which vector fields the problem has: general, separable, nystrom ..."
-    judging = "Judge methods of one's own as gark check does; else they are as they claim."
+    judging = "Judge your own methods as gark check does, instead of taking their claims."
     return [
         *(click.Option([f"--{key}"], type=RangeType(), help=x) for key, x in counts.items()),
         *(click.Option([f"--{key}/--no-{key}"], default=None, help=x) for key, x in truths.items()),

@@ -23,9 +23,8 @@ EXAMPLE = "gark new midpoint.gark.yaml --tableau '0 |; 1/2 | 1/2; | 0 1'"
 def new(given: Given, output: Output) -> None:
     """A method file with comments and claims, from a tableau or from families.
 
-    Paste a tableau as a book prints it: a line a stage, with or without a bar after the node, and a
-    line of weights below; leave out zeros to the right if you like. Without options gark asks for
-    it.
+    Paste a tableau as a book prints it: a line per stage, with or without a bar after the node,
+    and a line of weights below. You may leave out zeros on the right. Without options gark asks.
     """
     from garkcli.api.calls import with_claims
     from garkcli.methodfile.load import loads

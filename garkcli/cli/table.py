@@ -88,48 +88,48 @@ report -o --output FILE written
 import -v --verbose | Show the method files.
 --color words=auto,always,never default=auto
 --set pairs name=settings
-    | A value for a parameter of FILE, in place of the one in it; repeatable.
+    | Give a parameter of FILE a value; repeatable.
 --catalogue folders
-    | Method files below DIR have names too, as those of GARK_PATH; repeatable.
+    | Add the method files below DIR to the catalogue; repeatable.
 
 --conjugate | Take the symplectic conjugate of FILE instead.
 --pair | Take the symplectic pair of FILE instead, 2N colours.
 --digits N 1..1000
-    | Numbers in decimals of N digits; by default exact, where they have simple radicals.
---document | With --format latex: a document that compiles as it stands.
+    | Decimals with N digits; by default numbers with simple radicals are exact.
+--document | With --format latex: a complete document that compiles.
 -j --jobs N 0..256 jobs default=1
-    | Processes side by side; 0 for as many as there are processors.
+    | The number of processes; 0 is one per processor.
 --scheduler ADDRESS = run_sweep.scheduler
---plot FILE picture | Draw what is found into FILE: .png, .svg or .pdf.
+--plot FILE picture | Draw a plot into FILE: .png, .svg or .pdf.
 
 --max-order N 1..400 = check_file.limit
 --error-constants = check_file.want_constants
---properties | Every property that a file may claim, with what decides it.
---explain KEY | What a claim means, with its source; no FILE is needed.
---baseline REPORT read | Fail only on what is worse than in an earlier JSON report.
---require-claims | A file that makes no claim under `expect` fails.
+--properties | List every property with its reason.
+--explain KEY | Explain a claim, with its source; needs no FILE.
+--baseline REPORT read | Fail only if something got worse since an earlier JSON report.
+--require-claims | Fail a file without claims under `expect`.
 
 --tableau TEXT
     | A Butcher tableau, its lines parted by ; or line ends; @FILE reads it from a file, - from
       standard input.
---family NAME-STAGES many name=families | A member of a family, one a colour; repeatable.
+--family NAME-STAGES many name=families | A family with its stages, one per colour; repeatable.
 --transfer RULE default= = gark.transfer
-    | How the blocks between families are made; collocation where none is named.
---name TEXT = from_arrays.name | What the method is called.
---force | Write over a file that is there.
---write | Put the claims into the files; nothing else of their text is touched.
---all | Everything that a file may claim and that is decided.
+    | The rule for the blocks between families; by default collocation.
+--name TEXT = from_arrays.name | The name of the method.
+--force | Overwrite an existing file.
+--write | Put the claims into the files, and change nothing else.
+--all | Every decided claim.
 --key KEY many name=keys = claims_of.keys
-    | This claim, besides those that the file makes; repeatable.
+    | Add this claim; repeatable.
 
 --colours -N N 1..1000 default= = all_trees.colours
-    | How many colours there are; with --symplectic, terms of the split.
+    | The number of colours; with --symplectic, of terms of the split.
 trees --order -n n 1..10000 = all_trees.order
 --upto | Every order from 1 to n.
 --root L 1.. | Only trees whose root has colour L.
 --colours-used L,M,... | Only trees in which each of these colours occurs.
 --count | Count without generating, for any order.
---yes | List them also where they are millions.
+--yes | List the trees even if there are millions.
 --tree TEXT = parse_tree.text | One tree, such as [[]_2,[]_1]_1, instead of an order.
 --svg FILE written | Draw a sheet of all the trees into FILE.
 --symplectic | Independent conditions of symplectic methods: free trees.
@@ -138,14 +138,14 @@ trees --order -n n 1..10000 = all_trees.order
 conditions --order -n n 1..100 default=4 = all_conditions.order | Every order up to n.
 --only | Order n alone.
 --coloured/--shapes default=
-    | A row for each colouring, or a row for all of them (without FILE).
---failing | Only conditions of FILE that do not hold.
+    | A row per colouring, or one row for all (without FILE).
+--failing | Only conditions that FILE does not meet.
 conditions --sort words=tree,worst default=tree
     | Order of the rows; worst: the largest residual first.
 
 convert --to words=forms = convert.to
 --stages N 1..1000 = convert.stages
---strict | Exit with 1 unless every entry is the same as it stands.
+--strict | Exit with 1 unless every entry is identical.
 
 --slow A = two_springs.slow
     | The slow one of two springs: its (hω)², or A..B for all of them; with --fast.
@@ -155,14 +155,14 @@ stability --digits N 1..1000 default=12 | Digits of numbers that have no simple 
 --order-star = plot.is_order_star | With --plot: |R(z)| > |exp z| instead.
 
 modified --order -n n 1..100 default=5 = backward_analysis.max_order
---equation | Rooted trees too, where there is a modified Hamiltonian.
+--equation | Show rooted trees too if there is a modified Hamiltonian.
 modified --problem problem = modified_formula.problem
-    | The formula on a problem: a name that gark list shows, or a file.
+    | The formula on a problem: a name of gark list problems, or a file.
 converge --problem problem = converge.problem
-    | What to solve: a name that gark list shows, or a problem file; by default a random
-      polynomial that sees every tree of the methods.
+    | The problem to solve: a name of gark list problems, or a file; by default a random
+      polynomial that sees every tree.
 energy --problem problem default=oscillator = long_run.problem
-    | What to follow: a name that gark list shows, or a problem file.
+    | The problem to follow: a name of gark list problems, or a file.
 --omega W positive = Oscillator.omega | The frequency of the oscillator; 1 by default.
 --split K:V,... = Oscillator.shares | The oscillator's shares of kinetic and potential energy.
 --seed N 0.. default= = problem.seed | The coefficients of random problems; 1 by default.
@@ -175,7 +175,7 @@ design --seed N 0.. default= = search_methods.seed | With --search: of the start
 --work = converge.is_timed
     | Count evaluations, measure time, and plot the errors against them.
 --against words=h,evaluations,seconds default= = plot.against
-    | What plots have below: h, or evaluations with --work; seconds depend on the machine.
+    | The horizontal axis of plots: h, or evaluations with --work; seconds depend on the machine.
 --step H positive = long_run.step
 energy --digits N 1..200 default= = long_run.digits | Step with N digits instead of floats.
 --points N 10..1000000 = long_run.points
@@ -183,61 +183,61 @@ energy --digits N 1..200 default= = long_run.digits | Step with N digits instead
 --bounded | Claim that nothing drifts, as far as this run can tell.
 --max-error E positive | Claim that no energy error is larger than E.
 --modified [ORDER] 1..100 alone=5 = modified_run.max_order
-    | Measure in the modified Hamiltonian of trees up to ORDER, 5 by default, too.
+    | Measure the modified Hamiltonian of trees up to ORDER (by default 5) too.
 
 design --order P 1..60 = find_parameters.order
 design --digits N 1..1000 default=12 | Digits of numbers without simple radicals.
 --seconds T seconds = find_parameters.seconds
-    | After so many what is not decided is left open, or a search ends; {SECONDS:.0f} by default, of
+    | Seconds after which the rest stays undecided, or a search ends; {SECONDS:.0f} by default, of
       a search none.
---emit FILE written | Write the first method found as a method file with its claim.
+--emit FILE written | Write the first method into a file, with its claim.
 --minimise WHAT words=objectives = minimise.objective
 --p-stable value=p-stable name=stability = stable_values.wanted
     | The exact set of values of the parameters for which the method is P-stable.
 --a-stable value=a-stable name=stability = stable_values.wanted | The same for A-stability.
 --l-stable value=l-stable name=stability = stable_values.wanted | The same for L-stability.
 --colour N 1.. = stable_values.colour
-    | With --a-stable or --l-stable: of colour N alone, in place of all with one λ.
+    | With --a-stable or --l-stable: for colour N alone, instead of one λ for all.
 design --slow A square = stable_values.slow
     | With --p-stable: a slow and a fast spring, the slow one of (hω)² = A.
 --up-to X square = stable_values.up_to | With --slow: fast springs of (hω)² up to X only.
 --search N 1..10000000 default= = search_methods.starts
-    | Search from N random starts instead, and prove what is found.
+    | Search from N random starts instead, and prove the finds.
 --most K 1..100000 default= = search_methods.most
-    | With --search: methods to find at most; 5 by default.
+    | With --search: the most methods to find; by default 5.
 design -j --jobs N 0..1000 jobs
-    | With --search: processes side by side; 0 for as many as there are processors.
+    | With --search: the number of processes; 0 is one per processor.
 design --scheduler ADDRESS
     | With --search: work on the Dask cluster there; needs garkcli[cluster].
---choose pairs | As --set, and say what each choice leaves; repeatable.
+--choose pairs | Like --set, and show the values that remain; repeatable.
 
 --rows FILE written = run_sweep.rows
-    | Where the rows go, a line of JSON each; by default SPEC with .jsonl.
---resume = run_sweep.is_resumed | Do what is missing in the rows.
+    | The file of rows, a line of JSON each; by default SPEC with .jsonl.
+--resume = run_sweep.is_resumed | Continue: add the missing rows.
 sweep -j --jobs N 0..60 jobs = run_sweep.jobs
-    | Processes side by side; 0 for as many as there are processors.
---top N 1.. default=10 | How many of the best are shown; CSV and JSON lines have all.
+    | The number of processes; 0 is one per processor.
+--top N 1.. default=10 | Show the N best; CSV and JSON lines have all.
 --parquet FILE written
-    | Write the methods that are kept as Parquet too; needs garkcli[parquet].
+    | Write the kept methods as Parquet too; needs garkcli[parquet].
 
 export --to TARGET target = export.target
-    | What to write for; gark list exports names the targets.
+    | The target; gark list exports shows them.
 export --digits N 1..1000 = export.digits
 --test
-    | With -o: write beside it a program that runs the method in TARGET, and the problem file on
+    | With -o: also write a program that runs the method in TARGET, and a problem file with
       which gark converge prints the same errors.
 --from FORMAT name=source_format = import_methods.format
-    | What SOURCE is; else the ending of its name says, or what is found in it.
+    | The format of SOURCE; by default gark goes by its name or content.
 --recognise = import_methods.is_recognising
-    | Exact numbers in place of decimals, where the order does not fall.
-audit --strict | Fail where something looks like a table and was not read.
+    | Replace decimals by exact numbers if the order does not fall.
+audit --strict | Fail if gark could not read a possible table.
 
 report --order -n n 1..100 = report_page.order
 --pictures/--no-pictures = report_page.pictures
-schema --problem | Of problem files, instead.
---sweep | Of spec files of gark sweep, instead.
+schema --problem | The schema of problem files.
+--sweep | The schema of spec files of gark sweep.
 --report [COMMAND] report alone=check = report_schema.command
-    | Of what a command writes with --format json, instead; gark check where none is named.
+    | The schema of the JSON report of COMMAND; by default gark check.
 """
 """A row an option: the command where another has one of the same name, its flags, what its value is
 called in the help, what it is (``options.KINDS``; a range, or words), ``=`` the argument that it is

@@ -68,13 +68,13 @@ class PropertyPair(Frozen):
 
 
 class Comparison(Shown, Frozen):
-    """What is the same of two methods, and what is not.
+    """What two methods have in common, and where they differ.
 
     Attributes:
         one: a method.
         other: another.
         forms: what kind of tableau each is.
-        gaps: where entries differ as they stand; empty where the numbers of colours differ.
+        gaps: where entries differ; empty where the numbers of colours differ.
         sameness: in what sense they are the same method; None where they are not.
         obstacle: why that is not known; empty where it is.
         allowed: how far the rounding that the files admit may move equal entries apart.

@@ -22,7 +22,7 @@ from garkcli.tableau.pointwise import Block, Cell, Row, entries
 DIGITS = 60
 """Digits of entries that have no simple radicals."""
 CellRows: TypeAlias = tuple[Row, ...]
-"""A row a colour."""
+"""A row per colour."""
 
 
 class Grid(Frozen):
@@ -30,7 +30,7 @@ class Grid(Frozen):
 
     Attributes:
         A: ``A[l][m]`` is a block, or None.
-        b, c: a row a colour.
+        b, c: a row per colour.
         embedded: the embedded weights, or None.
         powers: what stands before θ, θ², … in the dense weights.
         linear: for each colour whether it is linear.

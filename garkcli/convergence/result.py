@@ -128,7 +128,7 @@ class Convergence(Shown, Frozen):
             it, and for rounded coefficients, whose errors are then all rounding.
         short_order: the order observed then.
         has_settled: whether the slopes before the plateau have.
-        are_given: whether the step sizes were asked for: then it is these that have to show the
+        are_given: whether the caller chose the step sizes: then these have to show the
             order.
         stiff: where no step size resolves the problem.
         is_at_rest: whether there are no errors because nothing moves: the solution ends where it

@@ -41,7 +41,7 @@ class Cleared(Frozen):
     Attributes:
         tableau: its entries are rational numbers and rational functions, or exact numbers.
         blocks: D A.
-        weights: E b, a row a colour.
+        weights: E b, a row per colour.
         D, E: the common denominators.
         one: 1 among the entries.
     """

@@ -141,7 +141,7 @@ class Design(Shown, Frozen):
 
     @property
     def last(self) -> Step:
-        """The step of the highest order that was looked at."""
+        """The step of the highest order."""
         return self.steps[-1]
 
     def reaches(self, order: int = 1) -> bool | None:
@@ -180,7 +180,7 @@ def find_parameters(
         family: of methods.
         order: the order wanted; where it is not given, as far as some value reaches.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        seconds: after which what is not decided is left open; None for never.
+        seconds: after which the rest stays undecided; None for no limit.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.

@@ -107,7 +107,7 @@ def has_wishes(family: Family) -> bool:
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """Where every value has the highest order that was looked at: the values that have each kind
+    """Where every value has the highest order: the values that have each kind
     of stability that is wanted; nothing where solutions are looked at one by one.
     """
     family = design.family

@@ -34,15 +34,15 @@ ARK = with_coefficients(
     Key(
         "A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]]",
         Kind(lambda: rows_of(defined("matrix").schema())),
-        "One matrix a colour, all of the same size.",
+        "One matrix per colour, all of the same size.",
     ),
-    Key("b: [0, 1]", _ROWS, "The weights: one row a colour, or a single shared row."),
+    Key("b: [0, 1]", _ROWS, "The weights: one row per colour, or a single shared row."),
     Key(
         "c: [0, 1]",
         defined("row"),
         "The nodes, which all colours share; the row sums of the first matrix where left out.",
     ),
-    Key("embedded: [1, 0]", _ROWS, "Embedded weights: one row a colour, or a single shared row."),
+    Key("embedded: [1, 0]", _ROWS, "Embedded weights: one row per colour, or a single shared row."),
     Key(
         "dense: {degree: 1, weights: [[[0], [1]], [[0], [1]]]}",
         defined("dense"),
@@ -72,7 +72,7 @@ PRK = mapping(
 
 
 def ark(at: Reading, node: Node) -> ArkText | None:
-    """The form ``ark``: a matrix a colour on one set of stages; None where it makes no method."""
+    """The form ``ark``: a matrix per colour on one set of stages; None where it makes no method."""
     entries: Found | None = ARK.read(at, node, "ark")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
@@ -82,7 +82,7 @@ def ark(at: Reading, node: Node) -> ArkText | None:
     colours = len(matrices)
     b = _weights(at, entries["b"], colours)
     c = at.numbers.row(entries["c"], "c") if "c" in entries else None
-    cure = "give a row a colour, or a single shared row"
+    cure = "give a row per colour, or a single shared row"
     if not one_each(at, entries["b"], "b", b, "row", "colour", colours, cure):
         return None
     if not matrices or not all(matrices) or not all(b):
@@ -96,7 +96,7 @@ def ark(at: Reading, node: Node) -> ArkText | None:
     is_shared = all(row is b[0] for row in b)
     for m, row in enumerate(b[:1] if is_shared else b):
         name = "b" if is_shared else of_colour("b", m)
-        one_each(at, entries["b"], name, row, "entry", "stage", stages, "give a weight a stage")
+        one_each(at, entries["b"], name, row, "entry", "stage", stages, "give a weight per stage")
     if c is not None:
         nodes_fit(at, entries["c"], "c", c, stages)
     return ArkText(A, b, c, further_of_colours(at, entries, [stages] * colours, is_shared=True))
@@ -106,7 +106,7 @@ def _matrices(at: Reading, node: Node) -> list[Rows] | None:
     """The matrices as they stand; None where A is no list of matrices."""
     items = colours_in(at, node, "A")
     if items and depth_of_lists(node) == 2:
-        message = "A is one matrix, and an ark has one a colour"
+        message = "A is one matrix, and an ark has one per colour"
         cure = "write A: [AE, AI]; or tableau: for one colour"
         at.source.fault(node, message, cure, code="wrong-size")
         return None

@@ -67,14 +67,14 @@ _REFERENCE = mapping(
         word(lambda: WORKS),
         "What kind of work it is, where the other fields do not tell.",
     ),
-    Key("journal: J. Comput. Appl. Math.", _ONE, "The journal that an article stands in."),
+    Key("journal: J. Comput. Appl. Math.", _ONE, "The journal of an article."),
     Key("volume: 6", _ONE, "The volume of the journal or of the book."),
     Key("number: 1", _ONE, "The issue of the journal."),
     Key("pages: 19-26", _ONE, "The first and the last page."),
     Key(
         "book: Numerical Analysis 1995",
         _ONE,
-        "The title of the book or of the proceedings that a chapter stands in.",
+        "The title of the book or the proceedings of a chapter.",
     ),
     Key(
         "editors: [D. F. Griffiths, G. A. Watson]",
@@ -88,7 +88,7 @@ _REFERENCE = mapping(
         _ONE,
         "The university of a thesis, or the institution of a report.",
     ),
-    Key("where: table 2", _ONE, "Where in the work the method stands."),
+    Key("where: table 2", _ONE, "The place of the method in the work."),
     Key(
         "doi: 10.1016/0771-050X(80)90013-3",
         _ONE,
@@ -166,7 +166,7 @@ def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str, str] | 
         message = f"aliases: {shown} has a separator of paths in it"
         return message, "a name with one would mean a file: write a hyphen", "name-taken"
     if alias in before:
-        return f"aliases: {shown} stands here twice", "keep one of them", "doubled"
+        return f"aliases: {shown} appears twice", "keep one of them", "doubled"
     return None
 
 

@@ -59,7 +59,7 @@ class FurtherText(Frozen):
     """Further weights of one colour, each None where the file has none.
 
     Attributes:
-        embedded: one a stage.
+        embedded: one per stage.
         dense: of dense output, the coefficients of θ, θ², … a stage.
         node: where the first of them stands.
     """
@@ -99,7 +99,7 @@ class FamilyText(Frozen):
 
 
 class ButcherText(Frozen):
-    """A spelled-out method: A with a row a stage, b, and c where the file gives it."""
+    """A spelled-out method: A with a row per stage, b, and c where the file gives it."""
 
     node: Node
     name: str
@@ -146,7 +146,7 @@ class MethodsText(Frozen):
 
 
 class TableauText(Frozen):
-    """Every block spelled out; None for an absent one. ``further`` has one a colour."""
+    """Every block spelled out; None for an absent one. ``further`` has one per colour."""
 
     A: tuple[tuple[Rows | None, ...], ...]
     b: tuple[Row, ...]
@@ -156,7 +156,7 @@ class TableauText(Frozen):
 
 
 class ArkText(Frozen):
-    """Shared stages, one matrix a colour; ``further`` has one a colour."""
+    """Shared stages, one matrix per colour; ``further`` has one per colour."""
 
     A: tuple[Rows, ...]
     b: tuple[Row, ...]

@@ -134,7 +134,7 @@ def _table(item: Kind) -> Kind:
     def read(at: Any, node: Node, where: str) -> Wanted:
         if isinstance(node, SequenceNode):
             return [item.read(at, x, where) for x in node.value]
-        cure = "one number a colour, for C and D a row a colour"
+        cure = "one number per colour, for C and D a row per colour"
         at.source.fault(node, f"{where}: a list is expected", cure, code="list-expected")
         return None
 

@@ -27,10 +27,10 @@ class FamilyFile(Family, kw_only=True):
         source: the path as given.
         text: the file as it was read.
         settings: values that were given for other parameters.
-        places: where in the text the value of each parameter stands, from and to.
+        places: the place of the value of each parameter in the text, from and to.
         shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
             None where the file has no shape.
-        wanted_at: where ``design: …`` stands; None where there is none.
+        wanted_at: the place of ``design: …``; None where there is none.
         structure: which vector fields the problem has.
         claims: what ``expect`` says.
         left_behind: further weights of methods inside of a construction, which it has not.
@@ -87,7 +87,7 @@ def loads_family(
         text: of the file.
         source: what to call it.
         settings: as in ``load_family``.
-        is_design: whether what stands under ``design`` is meant; else it is passed over.
+        is_design: whether to use ``design`` of the file.
         deadline: as in ``load_family``.
 
     Raises:

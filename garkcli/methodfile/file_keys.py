@@ -93,7 +93,7 @@ KEYS = {
         g.Key(
             "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]",
             g.Kind(_methods, inside=_inside_methods),
-            "The diagonal methods of the paper's construction, one a colour: families with their "
+            "The diagonal methods of the paper's construction, one per colour: families with their "
             "stages, or Butcher tableaus. One method on its own needs no list.",
             page=_PAPER,
             also=("method",),
@@ -257,7 +257,7 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
     *(
         g.Beside(
             key,
-            f"{key} stands beside b, and here is none",
+            f"{key} belongs beside b, which is missing",
             {
                 "methods": "write it in each of the methods",
                 **_SPELL_OUT,

@@ -257,7 +257,7 @@ class Numbers(Mutable):
         items = self.source.items(node, where, cure)
         deep = first_list_in_rows(items)
         if deep is not None:
-            message = f"{where}: a list stands where a coefficient is expected"
+            message = f"{where}: a list in place of a coefficient"
             cure = "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
             self.source.fault(deep, message, cure, code="value-expected")
             return ()

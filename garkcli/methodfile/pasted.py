@@ -106,7 +106,7 @@ def read_pasted(text: str) -> Pasted:
     r"""A tableau from text.
 
     Args:
-        text: a line a stage, then a line of weights, and another of embedded ones.
+        text: a line per stage, then a line of weights, and another of embedded ones.
 
     Raises:
         MethodError: the lines make no tableau.
@@ -121,7 +121,7 @@ def read_pasted(text: str) -> Pasted:
         raise MethodError("the tableau has too many lines", "paste one", code="too-many")
     if len(lines) < 2:
         raise MethodError(
-            "no tableau: a line a stage and a line of weights are expected",
+            "no tableau: a line per stage and a line of weights are expected",
             _IN_BRACKETS if "[" in text else _EXAMPLE,
             code="pasted-tableau",
         )
@@ -212,7 +212,7 @@ def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> 
         )
     if len(weights) > 2:
         raise MethodError(
-            f"{len(weights)} lines stand below the stages",
+            f"{len(weights)} lines follow the stages",
             "one of weights, and another of embedded ones",
             code="pasted-tableau",
         )
@@ -221,14 +221,14 @@ def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> 
         if len(row) > stages:
             raise MethodError(
                 f"row {i} has {len(row)} entries, for {of_stages}",
-                "a line a stage, and a line of weights below",
+                "a line per stage, and a line of weights below",
                 code="pasted-tableau",
             )
     for row in weights:
         if len(row) != stages:
             raise MethodError(
                 f"{counted(len(row), 'weight')} for {of_stages}",
-                "a weight a stage, zeros too",
+                "a weight per stage, zeros too",
                 code="pasted-tableau",
             )
     return Pasted(tuple(_filled(row, stages) for row in rows), weights[0], nodes, *weights[1:])

@@ -277,7 +277,7 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
         shape = SHAPES[name]
         if shape.begins and place:
             raise MethodError(
-                f"{name} stands after {names[0]}", f"begin with {name}", code="not-together"
+                f"{name} comes after {names[0]}", f"begin with {name}", code="not-together"
             )
         layout = shape.applied(layout)
     return with_nodes(layout)

@@ -294,7 +294,7 @@ class Source:
                 continue
             key = key_node.value
             if key in entries:
-                twice = f"the key {shortened(key)} stands here twice"
+                twice = f"the key {shortened(key)} appears twice"
                 self.fault(key_node, f"{where}: {twice}", "keep one of them", code="doubled")
             elif not known or key in known:
                 entries[key] = value

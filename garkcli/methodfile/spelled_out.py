@@ -28,14 +28,14 @@ from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.source import Entries, Home
 
 Weights: TypeAlias = tuple[Row, ...]
-"""A row a colour."""
+"""A row per colour."""
 Names: TypeAlias = tuple[str, str, str]
 """What A, b and c are called in messages."""
 MAX_DEGREE = 60
 """Largest degree of dense output; its order is no larger."""
 FORM_OF_DENSE = (
     "write dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}, "
-    "a row a stage: the coefficients of θ, θ², …"
+    "a row per stage: the coefficients of θ, θ², …"
 )
 DENSE = g.mapping(
     g.Key(
@@ -44,7 +44,7 @@ DENSE = g.mapping(
     g.Key(
         "weights: [[1, -1/2], [0, 1/2]]",
         g.Kind(lambda: {"type": "array", "minItems": 1}),
-        "A row a stage with the coefficients of θ, θ², …; of several colours a block for each.",
+        "A row per stage with the coefficients of θ, θ², …; of several colours a block for each.",
         is_needed=True,
     ),
     form=FORM_OF_DENSE,
@@ -85,13 +85,13 @@ TABLEAU_KEYS = (
     g.Key(
         "b: [0, 1]",
         _all_of(_ROW, rows_of(_ROW)),
-        "The weights, one a stage; of several colours a row each.",
+        "The weights, one per stage; of several colours a row each.",
         also=("weights", "weight"),
     ),
     g.Key(
         "c: [0, 1/2]",
         _all_of(_ROW, rows_of({"anyOf": [_ROW, {"type": "null"}]})),
-        "The nodes, one a stage; of several colours a row each. Where they are left out they are "
+        "The nodes, one per stage; of several colours a row each. Where they are left out they are "
         "the row sums of A. Order conditions do not depend on them, B, C, D and the "
         "non-autonomous order do.",
         also=("nodes", "abscissae", "abscissas"),
@@ -99,7 +99,7 @@ TABLEAU_KEYS = (
     g.Key(
         "embedded: [1, 0]",
         _all_of(_ROW, rows_of(_ROW)),
-        "Embedded weights, one a stage; of several colours a row each. They stand beside b.",
+        "Embedded weights, one per stage; of several colours a row each. They stand beside b.",
         page=_PAGE,
         also=(
             *("bhat", "b_hat", "b-hat", "bh", "b2", "b*", "b^", "btilde", "be"),
@@ -146,7 +146,7 @@ BUTCHER_KEYS = (
         g.defined("matrix"),
         "The matrix of this diagonal method, row by row.",
     ),
-    g.Key("b: [1/2, 1/2]", g.defined("row"), "The weights of this diagonal method, one a stage."),
+    g.Key("b: [1/2, 1/2]", g.defined("row"), "The weights of this diagonal method, one per stage."),
     g.Key(
         "c: [0, 1]",
         g.defined("row"),
@@ -155,7 +155,7 @@ BUTCHER_KEYS = (
     g.Key(
         "embedded: [1, 0]",
         g.defined("row"),
-        "Embedded weights of this diagonal method, one a stage.",
+        "Embedded weights of this diagonal method, one per stage.",
     ),
     g.Key(
         "dense: {degree: 1, weights: [[1/2], [1/2]]}",
@@ -211,7 +211,7 @@ def _holds_a_number(node: Node) -> bool:
 
 
 def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
-    """What a list has, one a colour; None, with a fault noted, where these are too many."""
+    """What a list has, one per colour; None, with a fault noted, where these are too many."""
     items = at.source.items(node, name)
     if isinstance(node, SequenceNode) and not items:
         at.source.fault(node, f"{name} is empty", "give one for each colour", code="empty")
@@ -253,7 +253,7 @@ def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row
     if is_square and rows != stages and (c is None or len(c) == rows):
         # A and c agree with each other, so the mistake is in b
         message = f"{name_of_b} has {entries_of(stages)}, {name_of_A} is {rows} by {rows}"
-        at.source.fault(entries["b"], message, "both have one a stage", code="wrong-size")
+        at.source.fault(entries["b"], message, "both have one per stage", code="wrong-size")
         return None
     A = at.numbers.fitted(A, entries["A"], name_of_A, (stages, stages), why)
     if c is not None:
@@ -319,7 +319,7 @@ def _blocks(at: Reading, entries: Entries, linear: Node | None) -> TableauText |
         return None  # said above
     if len(rows) != len(b):
         message = f"A has {counted(len(rows), 'row')} of blocks and b {len(b)} of weights"
-        at.source.fault(entries["A"], message, "both have one a colour", code="wrong-size")
+        at.source.fault(entries["A"], message, "both have one per colour", code="wrong-size")
         return None
     A = tuple(_block_row(at, l, row, b) for l, row in enumerate(rows))
     c = _node_rows(at, entries.get("c"), b)
@@ -353,7 +353,7 @@ def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
 def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, ...]:
     """The nodes of each colour, as many as it has weights; None where they are left out."""
     items = [] if node is None else at.source.items(node, "c")
-    cure = "give a row a colour, null where they are left out"
+    cure = "give a row per colour, null where they are left out"
     if node is None or not one_each(at, node, "c", items, "row", "colour", len(b), cure):
         return (None,) * len(b)
     found: list[Row | None] = []
@@ -442,7 +442,7 @@ def _a_colour(
         yield from ((l, node, where) for l in range(colours))
         return
     noun = "row" if depth == 1 else "block"
-    cure = f"give a {noun} a colour, each with a {'weight' if depth == 1 else 'row'} a stage"
+    cure = f"give a {noun} per colour, each with a {'weight' if depth == 1 else 'row'} per stage"
     if is_shared:
         cure += f", or a single shared {noun}"
     items = at.source.items(node, where, cure)
@@ -469,10 +469,10 @@ def _is_of_several(at: Reading, node: Node, where: str, depth: int) -> bool:
 
 
 def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
-    """A weight a stage."""
+    """A weight per stage."""
     row = at.numbers.row(node, where)
     if row and stages:
-        one_each(at, node, where, row, "entry", "stage", stages, "give a weight a stage, as in b")
+        one_each(at, node, where, row, "entry", "stage", stages, "give a weight per stage, as in b")
     return row or None
 
 
@@ -485,11 +485,11 @@ def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]
 
 
 def _polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -> Rows | None:
-    """A row a stage, a coefficient a power of θ."""
+    """A row per stage, a coefficient per power of θ."""
     rows = at.numbers.matrix(node, where)
     if not rows or not stages:
         return None
-    cure = "give a row a stage: the coefficients of θ, θ², …"
+    cure = "give a row per stage: the coefficients of θ, θ², …"
     if not one_each(at, node, where, rows, "row", "stage", stages, cure):
         return None
     for i, row in enumerate(rows):

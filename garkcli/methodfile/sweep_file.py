@@ -218,7 +218,7 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
         g.Key(
             "methods: [{family: [gauss, radau-iia], stages: 1..3}]",
             METHODS,
-            "The diagonal methods, one entry a colour: every family with every number of stages. "
+            "The diagonal methods, one entry per colour: every family with every number of stages. "
             "Members that do not exist are left out.",
         ),
         g.Key(
@@ -251,7 +251,7 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
         g.Key(
             "columns: [order, p-stable]",
             columns,
-            "What is told of each method: one criterion or a list.",
+            "The columns of each method: one criterion or a list.",
             is_needed=True,
         ),
         g.Key(
@@ -290,7 +290,7 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> g.Schema:
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark sweep file",
-        "description": "Which methods are swept, and what is told of each.",
+        "description": "The methods of a sweep and their columns.",
         **file_of(kinds).schema(),
     }
 

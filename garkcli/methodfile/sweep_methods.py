@@ -136,7 +136,7 @@ _METHOD = g.mapping(
     form="write {family: gauss, stages: 1..4}",
 )
 METHODS = g.list_of(_METHOD, "methods", each="methods", form="name at least one family")
-"""Families × stages, an entry a colour."""
+"""Families × stages, an entry per colour."""
 
 
 def _weight(at: MethodsReader, node: Node, where: str) -> str | None:

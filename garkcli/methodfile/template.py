@@ -65,7 +65,7 @@ def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
 
     Args:
         name: of the method.
-        members: one a colour.
+        members: one per colour.
         transfer: the rule for the blocks between them.
     """
     between = {"transfer": transfer} if len(members) > 1 else {}

@@ -92,7 +92,7 @@ def rules_of(at: Reading, node: Node, colours: int) -> TransferText:
         # without quotes {1,2: rule} has the keys 1 and 2
         for key in key_nodes(node).values():
             if _BLOCK_OR_COLOUR.fullmatch(key.value):
-                message = "transfer: single blocks stand under blocks"
+                message = "transfer: single blocks go under blocks"
                 cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
                 at.source.fault(key, message, cure, code="given-twice")
                 return TransferText(None, {})

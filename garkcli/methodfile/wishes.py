@@ -86,8 +86,7 @@ DESIGN = mapping(
     Key(
         "order: 3",
         _COUNT,
-        "The order of the method, the conjugate or the pair that is looked for; --order goes "
-        "before it.",
+        "The order wanted of the method, the conjugate or the pair; --order goes before it.",
     ),
     Key(
         "fix: {c2: 2*gamma}",
@@ -97,7 +96,7 @@ DESIGN = mapping(
     Key(
         "range: {gamma: [1/4, 1]}",
         Kind(by_name(RANGE).schema, _ranges),
-        "Between which numbers unknowns are; solutions outside are told and not taken.",
+        "The range of the unknowns; gark lists solutions outside but does not take them.",
     ),
     more=_wanted,
     form=FORM,

@@ -162,7 +162,7 @@ def _is_complete(tableau: Tableau) -> bool:
 
 
 def _ark(tableau: Tableau, text: NumberText) -> list[str]:
-    """The form ``ark``: one matrix a colour, all on the same stages."""
+    """The form ``ark``: one matrix per colour, all on the same stages."""
     lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
     for m in range(tableau.size):
         lines += [f"    -  # A^{{{m + 1}}}", *_items(tableau.blocks[0, m], 6, text)]

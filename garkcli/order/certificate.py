@@ -173,7 +173,7 @@ class Proof(Frozen):
 
 
 def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
-    """The exact order of a tableau and what decides it; no order beyond ``limit`` is looked for."""
+    """The exact order of a tableau and what decides it; up to the order ``limit``."""
     order = find_order(tableau, limit)
     orders = range(1, order.order + 1)
     return Proof(tableau, order, tuple(all_spanning_trees(tableau, orders)))

@@ -166,7 +166,7 @@ def _with_ends(tableau: Tableau) -> Tableau:
 
 
 def _slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
-    """b'(1) = Σ_k k B_k, a row a colour."""
+    """b'(1) = Σ_k k B_k, a row per colour."""
     rows = []
     for of_colour in weights:
         row = []

@@ -41,7 +41,7 @@ class Functional(Frozen):
     """Weights at the stages, and what they should give.
 
     Attributes:
-        weights: a row a colour.
+        weights: a row per colour.
         exact_at: the order at which their elementary weights should be 1/γ(u); at all others, and
             everywhere where it is None, they should be zero.
         terms: of how many coefficients that are not 0 each weight is the sum: it is rounded by so

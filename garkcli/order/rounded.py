@@ -52,7 +52,7 @@ class Sizes(Frozen, eq=False):
 class TreeResiduals(StageVectors[Rows]):
     """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of every admissible tree in balls, order after order.
 
-    A row a tree; what orders share is kept. Trees share their branches, as in the tree table: u =
+    A row per tree; what orders share is kept. Trees share their branches, as in the tree table: u =
     stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
 
         b_lᵀ 𝒜^[u] = (b_l ⊙ 𝒜^[stem])ᵀ (A 𝒜^[branch]),

@@ -32,7 +32,7 @@ class _Shown(Frozen):
     Attributes:
         entries: of the tableau.
         text: an entry in LaTeX.
-        feet: the rows of weights below the line, each with a row a colour.
+        feet: the rows of weights below the line, each with a row per colour.
     """
 
     entries: Entries

@@ -125,7 +125,7 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
 
 
 def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
-    """The polynomials of dense output, a block a colour with a row a stage."""
+    """The polynomials of dense output, a block per colour with a row per stage."""
     if entries.dense is None:
         return []
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]

@@ -92,7 +92,7 @@ def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None)
         name: a key of ``PROBLEMS``.
         terms: how many.
         seed: of those with random coefficients.
-        stiffness: of those that have one; 1 by default.
+        stiffness: if the problem has one; 1 by default.
 
     Raises:
         UsageProblem: there is no such problem, or it has no stiffness.
@@ -328,7 +328,7 @@ _ENTRIES = (
     ),
     BuiltIn(
         "generic-rhs",
-        "random right-hand sides, one a colour; sees every tree",
+        "random right-hand sides, one per colour; sees every tree",
         "ẏ = Σ v (1 + a·y)⁷ in three unknowns, three powers a term, random rational v, a",
         "all, with at most 7 branches at a vertex",
         generic_rhs,

@@ -64,7 +64,7 @@ def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
 
 
 def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) -> bool:
-    """Whether stage i of a family, nodes ascending, has the rows wanted, one a colour."""
+    """Whether stage i of a family, nodes ascending, has the rows wanted, one per colour."""
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)
     common = common_nodes(tableau, k, wanted)

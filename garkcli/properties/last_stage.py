@@ -81,7 +81,7 @@ def is_first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
 
 
 def new_value(tableau: Tableau) -> list[Vector]:
-    """The rows, one a colour, of a stage that is the new value: the weights."""
+    """The rows, one per colour, of a stage that is the new value: the weights."""
     return [tuple(colour.b) for colour in tableau.colours]
 
 

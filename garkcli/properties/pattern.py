@@ -38,7 +38,7 @@ class StageGraph(Frozen):
         is_certain: whether all zeros are proved; entries that may be zero are no edges, and make it
             false.
         loops: for each stage value that depends on itself directly the entries ≠ 0 by which it
-            does, one a colour; None for one that is not known exactly.
+            does, one per colour; None for one that is not known exactly.
     """
 
     successors: Mapping[Vertex, frozenset[Vertex]]

@@ -84,7 +84,7 @@ class Verdict(Frozen):
 
     @classmethod
     def undecided(cls, why: str) -> Verdict:
-        """It has a meaning, and is left open."""
+        """It has a meaning, and is undecided."""
         return cls(None, Reason(why), is_undecided=True)
 
     @classmethod

@@ -83,7 +83,7 @@ class Subject(Frozen):
 
     @cached_property
     def shapes(self) -> tuple[Shape | None, ...]:
-        """The shapes of the diagonal methods, one a colour; None where a colour does not see
+        """The shapes of the diagonal methods, one per colour; None where a colour does not see
         itself.
         """
         if self.tableau.size == 1:

@@ -124,7 +124,7 @@ def _order_words(entry: Entry, _: Plain) -> str:
 
 
 def _stages_words(entry: Entry, _: Plain) -> str:
-    """How many, a number a colour where colours have stages of their own."""
+    """How many, a number per colour where colours have stages of their own."""
     own = [entry["stages"]] if entry["kind"] == "ark" else entry["stages_by_colour"]
     return "+".join(map(str, own))
 

@@ -29,7 +29,7 @@ WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"
 
 
 class SweepReport(Shown, Frozen):
-    """What is told of a sweep.
+    """The report of a sweep.
 
     Attributes:
         source: the spec file.

@@ -416,7 +416,7 @@ _DIAGONALS = ("A", "A_2", "A_3", "A_4")
 
 
 def _is_pair_of_rows(row: Row, stages: int) -> bool:
-    """Whether a row has a number a stage, and is no matrix that is written out flat."""
+    """Whether a row has a number per stage, and is no matrix that is written out flat."""
     if stages == 3 and len(row) == 3:
         return is_zero(row[0])
     return stages > 2 - (len(row) == stages) and len(row) in (stages - 1, stages)

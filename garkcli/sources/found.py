@@ -59,7 +59,7 @@ class FoundTable(Frozen):
             Colours that share their stages have one row of blocks.
         b: the weights of each colour.
         c: the nodes of each row of blocks, None where the source has none.
-        embedded: the weights of the embedded method, a row a colour.
+        embedded: the weights of the embedded method, a row per colour.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         order: the order that the source declares.
         embedded_order: the order of the embedded weights that the source declares.

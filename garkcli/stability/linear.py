@@ -125,7 +125,7 @@ def stability_function(
 
     Args:
         tableau: the method; every stage that is used sees every colour with w_l ≠ 0.
-        shares: the w_l, one a colour; None for 1 each, the problem with all parts equal.
+        shares: the w_l, one per colour; None for 1 each, the problem with all parts equal.
     """
     weights = [ONE] * tableau.size if shares is None else list(shares)
     fields = [((w,),) for w in weights]

@@ -73,8 +73,8 @@ def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadiu
 
     Args:
         tableau: the method.
-        ratios: the direction, one number a colour; colours with 0 have a vector field all the same,
-            for which no step size is admitted by itself.
+        ratios: the direction, one number per colour; colours with 0 have a vector field
+            all the same, for which no step size is admitted by itself.
     """
     return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 

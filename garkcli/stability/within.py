@@ -60,7 +60,7 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
 
     Args:
         tableau: the method, one coordinate a stage.
-        shares: w_l with λ_l = w_l λ, one a colour.
+        shares: w_l with λ_l = w_l λ, one per colour.
         tolerance: the largest error of a coefficient that is not zero.
     """
     fields = [((w,),) for w in shares]
@@ -192,7 +192,7 @@ def stability_within(
 
     Args:
         tableau: the method, one coordinate a stage.
-        shares: w_l with λ_l = w_l λ, one a colour.
+        shares: w_l with λ_l = w_l λ, one per colour.
         tolerance: the largest error of a coefficient that is not zero.
         order: the order that the method has within the tolerance.
     """

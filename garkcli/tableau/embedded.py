@@ -17,7 +17,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Weights: TypeAlias = tuple[Vector, ...]
-"""A row of weights a colour, one number a stage."""
+"""A row of weights a colour, one number per stage."""
 
 
 class DenseOutput(Frozen):
@@ -36,7 +36,7 @@ class DenseOutput(Frozen):
         return len(self.weights[0][0])
 
     def coefficients(self, power: int) -> Weights:
-        """What stands before a power of θ, 1 at least: a row a colour."""
+        """The coefficients of a power of θ, 1 at least: a row per colour."""
 
         def rows(of_colour: Sequence[Vector]) -> Vector:
             return tuple(row[power - 1] for row in of_colour)
@@ -44,7 +44,7 @@ class DenseOutput(Frozen):
         return tuple(map(rows, self.weights))
 
     def at(self, theta: Number) -> Weights:
-        """The weights at one θ: a row a colour."""
+        """The weights at one θ: a row per colour."""
 
         def rows(of_colour: Sequence[Vector]) -> Vector:
             return tuple(_value(row, theta) for row in of_colour)
@@ -56,7 +56,7 @@ class Further(Frozen):
     """Further weights of a method, each None where there are none.
 
     Attributes:
-        embedded: a row a colour.
+        embedded: a row per colour.
         dense: of dense output.
     """
 
@@ -129,8 +129,8 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     """The tableau with other weights at the same stages.
 
     Raises:
-        ShapeMismatch: not a row a colour, or not one weight a stage; or the stages are those of a
-            family in its algebra, where weights are no numbers a stage.
+        ShapeMismatch: not a row per colour, or not one weight per stage; or the stages are those
+            of a family in its algebra, where weights are no numbers per stage.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -184,7 +184,7 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
     if further.dense is not None:
         blocks = []
         for of_colour in zip(*rows, strict=True):
-            # from a row a power of θ to a row a stage
+            # from a row per power of θ to a row per stage
             stages = zip(*of_colour, strict=True)
             blocks.append(tuple(stages))
         dense = DenseOutput(tuple(blocks))

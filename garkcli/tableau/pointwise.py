@@ -42,14 +42,14 @@ class Entries(Frozen):
     """The entries of a tableau, colour by colour.
 
     Attributes:
-        c: the nodes, one row a colour.
+        c: the nodes, one row per colour.
         A: ``A[l][m]`` is a matrix, or None where the block does not exist.
-        b: the weights, one row a colour.
+        b: the weights, one row per colour.
         is_exact: whether the entries are exact numbers; otherwise enclosures.
         digits: the decimal digits that enclosures are good for.
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
-        embedded: the embedded weights, one row a colour; None where there are none.
-        dense: the coefficients of dense output, for each colour a row a stage; likewise.
+        embedded: the embedded weights, one row per colour; None where there are none.
+        dense: the coefficients of dense output, for each colour a row per stage; likewise.
     """
 
     c: tuple[Row, ...]

@@ -73,7 +73,7 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
 
 
 def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
-    """The nodes to ``bits`` bits, a row a colour; those of families as ``enclose_tableau`` has
+    """The nodes to ``bits`` bits, a row per colour; those of families as ``enclose_tableau`` has
     them.
     """
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
@@ -128,8 +128,8 @@ class RoundedTableau(Frozen, eq=False):
         tableau: as it is printed.
         tolerance: t, the rounding of its coefficients, or of those that it is made of.
         A: radii of the blocks, with the keys of ``Tableau.blocks``.
-        b: radii of the weights, a row a colour.
-        c: radii of the nodes, a row a colour.
+        b: radii of the weights, a row per colour.
+        c: radii of the nodes, a row per colour.
         obstacle: why nothing is known of the radii, so that only what holds exactly holds; empty
             where they are known.
     """
@@ -209,7 +209,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @cached_property
     def nodes(self) -> Rows:
-        """The nodes as balls, a row a colour."""
+        """The nodes as balls, a row per colour."""
         with ctx.workprec(self.bits):
             return _widened(enclose_nodes(self.tableau, self.bits), self.c)
 
@@ -275,7 +275,7 @@ class RoundedTableau(Frozen, eq=False):
         """The same stages with other weights.
 
         Args:
-            weights: a row a colour.
+            weights: a row per colour.
             terms: of how many coefficients each is the sum; None where each is one that is rounded
                 like the others, or 0.
         """

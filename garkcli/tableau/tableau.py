@@ -124,7 +124,7 @@ class Tableau(Frozen):
                     yield l, m
 
     def stages_of(self, part: Part) -> tuple[int, ...]:
-        """The numbers of stages at which a part of the unknowns is computed, one a stage space.
+        """The numbers of stages at which a part of the unknowns is computed, one per stage space.
 
         These are the rows of the paper's tableaus Q and P: in eq. (rectangular) three stages for q
         and two for p, although two velocities and three forces are evaluated.

@@ -166,7 +166,7 @@ def _check(
 
 
 class _FloatVectors(StageVectors["Floats"]):
-    """One row a tree."""
+    """One row per tree."""
 
     def __init__(
         self, table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]

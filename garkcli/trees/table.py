@@ -46,7 +46,7 @@ def exact_dtype(order: int) -> DTypeLike:
 
 
 class Columns(Frozen):
-    """Trees as columns of equal length, one entry a tree.
+    """Trees as columns of equal length, one entry per tree.
 
     ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root
     colour, from 0; ``order``: ρ(u); ``multiplicity``: how often the last branch occurs at the root

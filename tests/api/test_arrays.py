@@ -161,7 +161,7 @@ def test_embedded_weights_stand_beside_b(
 
 
 def test_embedded_weights_of_every_kind() -> None:
-    """NumPy's arrays, matrices of SymPy, a row a colour; a wrong one has its place."""
+    """NumPy's arrays, matrices of SymPy, a row per colour; a wrong one has its place."""
     import numpy as np
     import sympy
 

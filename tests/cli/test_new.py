@@ -142,7 +142,7 @@ def test_families(tmp_path: Path) -> None:
         (["--tableau", "0 | 0;1 | 1"], "no line of weights"),
         (["--tableau", "0 | 0 1;| 1"], "row 1 has 2 entries"),
         (["--tableau", "0 | 0;| 1 2"], "2 weights for 1 stage"),
-        (["--tableau", "0 | 0;|1;|1;|1"], "3 lines stand below"),
+        (["--tableau", "0 | 0;|1;|1;|1"], "3 lines follow"),
         (["--tableau", "0 | 0;| y"], "'y' is not a parameter"),
         (["--tableau", "0 | 0;| 1", "--family", "gauss:2"], "at once"),
         (["--tableau", "0 | 0;| 1", "--transfer", "x"], "goes with --family"),

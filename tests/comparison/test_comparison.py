@@ -63,7 +63,7 @@ def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
 @given(st.data())
 @settings(max_examples=12)
 def test_doubled_stages_and_other_colours_are_seen_through(data: st.DataObject) -> None:
-    """A stage that stands there twice, stages and colours in another order: the same method."""
+    """A stage that appears twice, stages and colours in another order: the same method."""
     sheet = each_its_own(sheet_of(GarkMethod(tableau=data.draw(tableaus()))))
     turned = renumbered(sheet, data.draw(orders_of(sheet)))
     twice = with_stage_twice(turned, 0)

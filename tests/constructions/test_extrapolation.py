@@ -101,7 +101,7 @@ def test_free_parameters() -> None:
         ("{order: 4}", "of missing"),
         ("{of: heun}", "how far is missing"),
         ("{of: heun, order: 2}", "has order 2 already"),
-        ("{of: heun, sequence: [2, 2]}", "2 stands there twice"),
+        ("{of: heun, sequence: [2, 2]}", "2 appears twice"),
         ("{of: heun, sequence: [2]}", "two numbers are needed"),
         ("{of: heun, sequence: harmonc, order: 3}", "is not known"),
         ("{of: heun, sequence: [1, 2], order: 3}", "say the order"),

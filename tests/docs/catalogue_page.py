@@ -51,7 +51,7 @@ _HEAD = """\
 
 
 def entries() -> list[Entry]:
-    """The index, an entry a method, each with the claim on its embedded order."""
+    """The index, an entry per method, each with the claim on its embedded order."""
     text = (CATALOGUE / "index.json").read_text(encoding="utf-8")
     methods: list[Entry] = json.loads(text)["methods"]
     for entry in methods:
@@ -62,7 +62,7 @@ def entries() -> list[Entry]:
 
 
 def tables(methods: list[Entry]) -> str:
-    """A section a folder, a row a method."""
+    """A section a folder, a row per method."""
     return "\n".join(_sections(methods))
 
 

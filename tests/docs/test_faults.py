@@ -187,7 +187,7 @@ def test_names_that_read_like_messages_are_quoted() -> None:
         ("parameters: pi has a meaning already", "name-taken"),
         ("f{1}: right-hand sides by the names of variables are expected", "mapping-expected"),
         ("aliases: an empty name", "name-taken"),
-        ("aliases: 'a' stands here twice", "doubled"),
+        ("aliases: 'a' appears twice", "doubled"),
         ("rhs: the problem is given by hamiltonian already", "given-twice"),
         ("hamiltonian: a coefficient of about 9000 digits", "number-too-large"),
     ],

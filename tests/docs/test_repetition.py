@@ -23,9 +23,9 @@ TITLES = (
 )
 """Works that several pages cite."""
 
-ELSEWHERE = {"index.md", "package-page.md", "glossary.md"}
+ELSEWHERE = {"index.md", "package-page.md", "glossary.md", "style.md"}
 """The landing page, which begins as the README does; the page of a package index; a page that is
-made.
+made; the page of style, which quotes.
 """
 
 

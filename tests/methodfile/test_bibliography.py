@@ -99,7 +99,7 @@ def test_the_line_of_other_works(reference: Reference, text: str) -> None:
         ("reference: {title: T, type: poem}", "'poem'", "article"),
         ("reference: [a, b]", "a single value", ""),
         ("reference: {title: [T]}", "a single value", ""),
-        ("aliases: [a, a]", "'a' stands here twice", "keep one"),
+        ("aliases: [a, a]", "'a' appears twice", "keep one"),
         ("aliases: [a/b]", "'a/b' has a separator", "hyphen"),
         ('aliases: [""]', "an empty name", "leave it out"),
         ("aliases: [[a]]", "a single value", ""),

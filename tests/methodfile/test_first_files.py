@@ -124,7 +124,7 @@ ONE_FAULT = {
     "one matrix in an ark": (
         "ark: {A: [[0, 0], [1, 0]], b: [0, 1]}",
         "[[0",
-        "one a colour",
+        "one per colour",
         "tableau:",
     ),
     "no b": (TWO, "[[0", "b missing", "give A, b"),

@@ -43,7 +43,7 @@ FORMS = {
         "tableau: {A: [[[[0]], null], [[[1]], [[1/2]]]], b: [[1], [1]], embedded: [[2], [3]]}",
         [["2"], ["3"]],
     ),
-    "ark, a row a colour": (
+    "ark, a row per colour": (
         "ark: {A: [[[0]], [[1]]], b: [1], embedded: [[2], [3]]}",
         [["2"], ["3"]],
     ),

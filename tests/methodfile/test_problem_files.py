@@ -163,7 +163,7 @@ def test_momenta_of_a_lagrangian() -> None:
             [(1, 1, "variables missing"), (1, 1, "no hamiltonian, no"), (1, 1, "initial missing")],
         ),
         (ONE + "inital: {}", [(4, 1, "the file: unknown key 'inital'")]),
-        (ONE + "initial: {}", [(4, 1, "the file: the key 'initial' stands here twice")]),
+        (ONE + "initial: {}", [(4, 1, "the file: the key 'initial' appears twice")]),
         (ONE + "lagrangian: vx**2", [(4, 13, "given by hamiltonian already")]),
         (ONE + "gark: 2", [(4, 7, "gark: this program reads version 1")]),
         (ONE + "name: [a]", [(4, 7, "name: a single value is expected here")]),

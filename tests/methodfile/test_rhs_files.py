@@ -32,7 +32,7 @@ def faults(text: str, stiffness: fmpq | None = None) -> list[tuple[int, int, str
 
 
 def test_terms_by_names() -> None:
-    """A mapping is one term, a list has one a colour; what is left out is 0."""
+    """A mapping is one term, a list has one per colour; what is left out is 0."""
     x, y, t = (sympy.Symbol(name, real=True) for name in "xyt")
     one = read(HEAD + "rhs: {x: y, y: -x}\n" + TAIL)
     assert one.terms == ((y, -x),)

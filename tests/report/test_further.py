@@ -188,7 +188,7 @@ def test_dense_claims_of_a_family_need_values(tmp_path: Path) -> None:
 
 
 def test_tableaus_show_them_in_every_format() -> None:
-    """Text has a row under b and a block a colour, JSON both with floats, LaTeX a row and the
+    """Text has a row under b and a block per colour, JSON both with floats, LaTeX a row and the
     polynomials.
     """
     method = load(str(FILE))

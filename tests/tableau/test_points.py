@@ -1,4 +1,4 @@
-"""Two models of one method: polynomials modulo M, and one number a stage."""
+"""Two models of one method: polynomials modulo M, and one number per stage."""
 
 from __future__ import annotations
 

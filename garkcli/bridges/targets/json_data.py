@@ -56,7 +56,7 @@ def _row(payload: Payload, cells: Row) -> list[str]:
 
 
 def _rows(payload: Payload, found: Sequence[Row] | None) -> Any:
-    """A row a colour; of one vector field the row itself."""
+    """A row per colour; of one vector field the row itself."""
     if found is None:
         return None
     listed = [_row(payload, cells) for cells in found]

@@ -216,7 +216,7 @@ def search_methods(
         order: that is wanted.
         starts: how many.
         seed: of the starts; the same seed has the same finds everywhere.
-        most: methods that are looked for at most; other successes are counted.
+        most: the most methods to look for; other successes are counted.
         whose: order is meant: of the method, its symplectic conjugate or its pair.
         seconds: after which the search ends with what was found; None for never.
 
@@ -253,7 +253,7 @@ def results(
         search: what is looked for.
         starts: how many.
         seed: of the starts.
-        most: methods that are looked for at most; other successes are counted.
+        most: the most methods to look for; other successes are counted.
         workers: who does the work; what is found does not hang on that.
     """
     workers = workers or Alone(partial(do, search))

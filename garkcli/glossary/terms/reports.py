@@ -167,7 +167,7 @@ TERMS = (
     Term(
         "work",
         "What a run costs: evaluations of vector fields, iterations of Newton's method, Jacobians,"
-        " and seconds of the processor, which hang on the machine.",
+        " and seconds of the processor, which depend on the machine.",
         "",
         _CONVERGENCE,
         ("evaluations", "iterations", "Jacobians", "seconds", "newton iterations"),

@@ -38,7 +38,7 @@ def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
     for item in items[:_MOST_ROWS]:
         number = source.whole(item, where, 1, MAX_PARTS)
         if number in numbers:
-            message = f"{where}: {number} stands there twice"
+            message = f"{where}: {number} appears twice"
             source.fault(item, message, "take different numbers", code="doubled")
         elif number is not None:
             numbers.append(number)

@@ -139,7 +139,7 @@ def a_stable(subject: Subject) -> Verdict:
 
 @claimed("B. L. Ehle, thesis, Waterloo (1969)", meaning=SEES_ALL, is_cheap=False)
 def l_stable(subject: Subject) -> Verdict:
-    """A-stable with R(∞) = 0: what is infinitely stiff is damped in one step."""
+    """A-stable with R(∞) = 0: one step damps infinitely stiff parts."""
     if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:

@@ -308,8 +308,8 @@ def nodes_in_unit_interval(subject: Subject) -> Verdict:
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.12")
 def positive_weights(subject: Subject) -> Verdict:
-    """All weights b_i^{l} are larger than 0. In the stage algebra of a family that says that the
-    quadratic form f ↦ b^{l}(f²) is positive definite.
+    """All weights b_i^{l} are larger than 0. In the stage algebra of a family the quadratic
+    form f ↦ b^{l}(f²) is positive definite.
     """
     tableau, tolerance = subject.tableau, subject.tolerance
     is_open = False

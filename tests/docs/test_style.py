@@ -1,0 +1,127 @@
+"""The English of everything a user reads: the list of patterns in docs/contributing/style.md."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+from click.testing import CliRunner
+
+from garkcli.cli.main import gark
+from garkcli.cli.table import COMMANDS
+from tests.cli.harness import ROOT
+from tests.docs.blocks import pages
+from tests.docs.test_links import prose
+
+STYLE = ROOT / "docs" / "contributing" / "style.md"
+DATA = ROOT / "garkcli" / "glossary" / "data"
+_BE = r"(?:is|are|was|were|be|been)"
+REFUSED = {
+    "is told": rf"\b{_BE} told\b",
+    "is asked for": rf"\b{_BE} asked for\b",
+    "is said of": rf"\b{_BE} said (?:of|so|to be)\b",
+    "hangs on": r"\bhangs? on\b",
+    "stands": r"\bstands?\b(?! for\b)",
+    "what is …ed is": rf"\bwhat (?:\w+ ){{0,3}}{_BE} (?:\w+ ){{1,2}}{_BE}\b",
+    "what is not": r"\bwhat (?:is|are) not\b",
+    "which nothing": r", which (?:nothing|nobody)\b",
+    "of … that … that": r"\bof (?:\w+ ){1,3}that (?:\w+ ){1,5}that\b",
+    "one's own": r"\bone's own\b",
+    "whatever": r"\bwhatever (?:becomes|stands|is)\b",
+    "is left open": rf"\b{_BE} left open\b",
+    "goes for": r"\bgoes for\b",
+    "there is none": r"\band here is (?:none|no)\b",
+    "of those that": r"\bof those that\b",
+    "as many as there are": r"\bas many as there are\b",
+    "is looked for": rf"\b{_BE} (?:looked (?:at|for|into)|thought of|taken for)\b",
+    "a row a colour": (
+        r"\b(?:an?|one) (?:row|entry|number|matrix|block|weight|line|object|condition)"
+        r" an? (?:colour|stage|power|block|tree|method|row)\b"
+    ),
+}
+"""What no text says, by the name in the table of the style page."""
+
+
+def texts() -> Iterator[tuple[str, str]]:
+    """Every text, with where it is: pages, help, and the data of faults, fields and keys."""
+    for page in pages():
+        if page != STYLE:
+            yield page.relative_to(ROOT).as_posix(), plain(prose(page))
+    runner = CliRunner()
+    for name in ("", *COMMANDS):
+        words = [name, "--help"] if name else ["--help"]
+        yield f"gark {' '.join(words)}", plain(runner.invoke(gark, words).output)
+    for path in sorted(DATA.glob("*.toml")):
+        for number, text in enumerate(strings(tomllib.loads(path.read_text(encoding="utf-8")))):
+            yield f"{path.name}, text {number}", plain(text)
+
+
+def strings(value: Any) -> Iterator[str]:
+    """Every text in a value of TOML."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for inner in value.values():
+            yield from strings(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from strings(inner)
+
+
+def plain(text: str) -> str:
+    """A text in one line, without code."""
+    return " ".join(re.sub(r"`[^`\n]*`", "`x`", text).split())
+
+
+def refused(text: str) -> list[str]:
+    """The patterns in a text, each with what is around it."""
+    return [
+        f"{name}: …{text[max(0, found.start() - 40) : found.end() + 30]}…"
+        for name, pattern in REFUSED.items()
+        for found in re.finditer(pattern, text, re.IGNORECASE)
+    ]
+
+
+def test_no_text_has_a_pattern_that_is_refused() -> None:
+    """Say it in the active voice, with a concrete subject: the style page has pairs."""
+    assert [f"{where}: {x}" for where, text in texts() for x in refused(text)] == []
+
+
+PAIRS = re.compile(r"^\| (?!not |---)(.+?) \| (.+?) \|$", re.MULTILINE)
+
+
+def pairs() -> list[tuple[str, str]]:
+    """The sentences of the style page: before, after."""
+    table = STYLE.read_text(encoding="utf-8").partition("## English")[2]
+    return PAIRS.findall(table)
+
+
+def test_the_page_has_pairs_and_they_teach_the_patterns() -> None:
+    """Twenty at least; what it recommends is not refused, and of what it discourages much is."""
+    found = pairs()
+    assert len(found) >= 20
+    assert [after for _, after in found if refused(plain(after))] == []
+    assert sum(bool(refused(plain(before))) for before, _ in found) >= len(found) // 2
+
+
+def test_every_pattern_finds_something() -> None:
+    """Each refuses a sentence that the project once had."""
+    once = [
+        *(before for before, _ in pairs()),
+        "the family has what is said of each, whatever is asked for",
+        "no file, which nobody reads, goes for one",
+        "one of those that are looked for",
+        "of a file that is named that is told",
+        "what is found is no method, and here is none",
+        "a row a colour",
+    ]
+    text = " ".join(map(plain, once))
+    assert [name for name, pattern in REFUSED.items() if not re.search(pattern, text)] == []
+
+
+def test_what_is_refused_and_what_is_not() -> None:
+    """``stands for`` and questions are English."""
+    assert refused("the key stands here") == ["stands: …the key stands here…"]
+    assert refused("x stands for y; what is the order?") == []
