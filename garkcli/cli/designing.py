@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.family import Stability
 
 _STANDARD_INPUT = {STDIN, "<stdin>"}
+_PLOT = "--plot draws the A-stable values of two parameters"
 PROOFS = ("exact", "exists", "numerical")
 """What is known of a method that was found, the most first."""
 
@@ -76,6 +77,8 @@ def design(given: Given, output: Output) -> int:
         _refuse_unsettled(family)
         _refuse_other_wishes(family, asked, is_of_springs)
         return _stable_values(family, given, output)
+    if given.plot is not None:
+        raise UsageProblem(_PLOT, "ask for --a-stable alone", code="option-alone")
     family = _as_stable(family, asked)
     _check_one_by_one(family, given)
     _prepare_places(given)
@@ -367,6 +370,12 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
     except NotDecided as error:
         say_problem(error)
         return EXIT_CODES[None]
+    if given.plot is not None:
+        from garkcli.plots.stable_plane import stable_plane_scene
+
+        if not isinstance(found, StablePlane):
+            raise UsageProblem(_PLOT, "free a second parameter", code="option-alone")
+        output.save_plot(stable_plane_scene(found, family.name), given.plot)
     if isinstance(found, StablePlane):
         output.tell(planes.REPORT, planes.PlaneReport(family.source, found, given.digits))
     else:

@@ -308,7 +308,7 @@ designing: design FILE | the parameter values that give a method an order
     = load_family find_parameters minimise search_methods found_methods stable_values
     --order --conjugate --pair --seconds --digits --emit --minimise --p-stable --a-stable
     --l-stable --colour --slow --fast --up-to --search --seed --most --jobs --scheduler
-    --output-dir --set --choose
+    --output-dir --plot --set --choose
 designing: sweep SPEC | many methods compared: which are best?
     = run_sweep
     --rows --resume --jobs --scheduler --top --parquet --plot --catalogue

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -12,6 +13,8 @@ from garkcli import loads
 from garkcli.design.stable_plane import StablePlane, stable_set
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
+from garkcli.plots.scene import Area
+from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.stability.linear import is_a_stable, stability_function
 from garkcli.stability.two_frequencies import has
 from tests.cli.harness import gark
@@ -113,3 +116,34 @@ def test_curves_that_cross_at_irrational_points() -> None:
     for text in (DIRK, STIFF, SDIRK):
         ends = [x for strip in plane(text).strips for x in (strip.base.start, strip.base.end)]
         assert all(x is None or x.exact is not None for x in ends)
+
+
+def test_the_picture() -> None:
+    """Inside of the drawn areas are the values of the set, up to the breadth of a column; a single g
+    is a line.
+    """
+    values = plane(DIRK)
+    (panel,) = stable_plane_scene(values, "DIRK").panels
+    kinds = [type(shape).__name__ for shape in panel.shapes]
+    assert kinds == ["Area", "Area", "Curve", "Area"]
+    area = panel.shapes[0]
+    assert isinstance(area, Area)
+    (loop,) = area.loops
+    for g, d in loop:
+        if d < panel.y.high:
+            # (1 − g)/2 and (1 − g)/(2 − 4g)
+            assert min(abs(d - (1 - g) / 2), abs(d - (1 - g) / (2 - 4 * g))) < 1e-6
+
+
+def test_the_picture_in_a_file(tmp_path: Path) -> None:
+    """``--plot`` writes it, and is refused where there is no plane."""
+    file = str(tmp_path / "plane.svg")
+    assert gark("design", "-", "--a-stable", "--plot", file, stdin=DIRK).code == 0
+    assert "<svg" in Path(file).read_text(encoding="utf-8")
+    for options, text in (
+        (("--a-stable",), DIRK.replace("d: free", "d: 1/2")),
+        (("--order", "2"), DIRK),
+    ):
+        run = gark("design", "-", *options, "--plot", file, stdin=text)
+        assert run.code == 2
+        assert "two parameters" in run.err

@@ -1,0 +1,88 @@
+"""For which values of two parameters a family is A-stable, as a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import fmpq
+
+from garkcli.design.stable_plane import End, Part, StablePlane, Strip
+from garkcli.exact.cells import Interval, between
+from garkcli.exact.roots import RealRoot
+from garkcli.plots.scene import Area, Axis, Curve, Panel, Point, Scene, Shape
+
+_COLUMNS = 120
+"""Values of the first parameter at which a strip is drawn."""
+
+
+def stable_plane_scene(values: StablePlane, title: str) -> Scene:
+    """The set around the ends of its strips."""
+    x_name, y_name = values.family.ring.names
+    ends = [x for strip in values.strips for x in (strip.base.start, strip.base.end)]
+    x = Axis.around(x_name, _widened([float(end) for end in ends if end is not None]))
+    heights = [
+        float(end)
+        for strip in values.strips
+        if not strip.base.is_point
+        for part in strip.parts
+        for over in [part.over(RealRoot.rational(between(strip.base.start, strip.base.end)))]
+        if over is not None
+        for end in (over.start, over.end)
+        if end is not None
+    ]
+    y = Axis.around(y_name, _widened(heights))
+    shapes = [_shape(strip, part, x, y) for strip in values.strips for part in strip.parts]
+    panel = Panel(
+        "A-stability",
+        f"The values of {x_name} and {y_name} for which the method is A-stable.",
+        x,
+        y,
+        shapes,
+        height=260,
+        has_grid=True,
+    )
+    return Scene(title, [panel])
+
+
+def _widened(numbers: Sequence[float]) -> list[float]:
+    found = [*numbers] or [0.0]
+    return [min(found) - 1, max(found) + 1]
+
+
+def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
+    """A part over a strip: an area, or a line where it has no breadth."""
+    base = strip.base
+    if base.is_point:
+        assert base.start is not None
+        at = float(base.start)
+        low, high = (_within(_number(e, None), y, k) for k, e in enumerate((part.start, part.end)))
+        return Curve(0, [(at, low), (at, high)])
+    left = x.low if base.start is None else max(x.low, float(base.start))
+    right = x.high if base.end is None else min(x.high, float(base.end))
+    # beside the ends, where branches may leave
+    places = [left + (right - left) * (k + 0.5) / _COLUMNS for k in range(_COLUMNS)]
+    lower: list[Point] = []
+    upper: list[Point] = []
+    for place in places:
+        over = part.over(RealRoot.rational(fmpq(round(place * 2**30), 2**30)))
+        if over is not None:
+            lower.append((place, _within(_end(over, 0), y, 0)))
+            upper.append((place, _within(_end(over, 1), y, 1)))
+    if part.start is not None and part.start == part.end:
+        return Curve(0, lower)
+    return Area(0, [[*lower, *reversed(upper)]], 0.25, has_outline=False)
+
+
+def _end(over: Interval, which: int) -> float | None:
+    return _number((over.start, over.end)[which], None)
+
+
+def _number(end: End, unknown: float | None) -> float | None:
+    return float(end) if isinstance(end, RealRoot) else unknown
+
+
+def _within(number: float | None, y: Axis, which: int) -> float:
+    """A number inside of the picture; its lower or upper end for infinity."""
+    if number is None:
+        return (y.low, y.high)[which]
+    return min(max(number, y.low), y.high)
