@@ -79,7 +79,9 @@ __all__ = sorted(HOMES)
 ANSWERS = {
     "api.asserting": "GarkMethod.orders=find_orders",
     "api.methods": "GarkMethod.order=find_order GarkMethod.symplectic=is_symplectic "
-    "GarkMethod.conjugate=conjugate GarkMethod.pair=pair",
+    "GarkMethod.conjugate=conjugate GarkMethod.pair=pair GarkMethod.check=analyse",
+    "api.calls": "GarkMethod.stability=find_stability",
+    "api.runs": "GarkMethod.converge=converge",
     "backward.formulas": "Algebraic.sympy=in_sympy",
     "cli.project": "Files.project=told",
     "exact.display": "Algebraic.float=nearest_float",
@@ -95,10 +97,12 @@ ANSWERS = {
     "report.notebook_texts": "Stability.latex=stability_latex "
     "StabilityFunction.latex=function_latex",
     "report.modified": "ModifiedFormula.latex=formula_latex",
-    "report.rendering": "Analysis.html=html Outcome.html=html Stability.html=html "
-    "Comparison.html=html Design.html=html Minimum.html=html StableValues.html=html "
-    "StablePlane.html=html SweepReport.html=html MethodProof.html=html ModifiedRun.html=html "
+    "report.rendering": "GarkMethod.to_latex=latex Analysis.html=html Outcome.html=html "
+    "Stability.html=html Comparison.html=html Design.html=html Minimum.html=html "
+    "StableValues.html=html StablePlane.html=html SweepReport.html=html MethodProof.html=html "
+    "ModifiedRun.html=html "
     "BackwardAnalysis.html=html",
+    "plots.calls": "GarkMethod.plot=plot_method",
     "webpage.notebook": "Convergence.html=convergence_html LongRun.html=long_run_html",
 }
 """What values of lower rooms show and answer: the question, and the function that answers it."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any, TypeAlias
 
-    Answering: TypeAlias = Callable[[str, str], Callable[[Any], Any] | None]
+    Answering: TypeAlias = Callable[[str, str], Callable[..., Any] | None]
 
 _handed_down: list[Answering] = []
 
@@ -27,8 +27,8 @@ def hand_down(answering: Answering) -> None:
     _handed_down[:] = [answering]
 
 
-def answered(value: object, question: str) -> Any:
-    """What is answered of a value; None where nothing is.
+def answered(value: object, question: str, **options: Any) -> Any:
+    """What is answered of a value, with some options; None where nothing is.
 
     >>> from garkcli.trees.tree import Tree
     >>> answered(Tree(0, [Tree(0)]), "text")
@@ -38,7 +38,7 @@ def answered(value: object, question: str) -> Any:
     for kind in type(value).__mro__:
         answer = answering(kind.__name__, question)
         if answer is not None:
-            return answer(value)
+            return answer(value, **options)
     return None
 
 

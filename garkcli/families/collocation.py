@@ -17,6 +17,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Vector, add, apply, dot, multiply, outer, scale, subtract
 from garkcli.exact.nodes import Expression
 from garkcli.families.family import MAX_STAGES, Family, Option, Options, Recipe, of_stages
+from garkcli.reference import Reference
 from garkcli.tableau.polynomial_space import PolynomialSpace, integral, integration
 from garkcli.tableau.tableau import Method
 
@@ -168,18 +169,40 @@ def lobatto_iiis(s: int, options: Options) -> Recipe:
 
 
 _ORDER = "2s - 2"
+STIFF = Reference(
+    authors=("E. Hairer", "G. Wanner"),
+    title="Solving Ordinary Differential Equations II",
+    publisher="Springer",
+    year="1996",
+    where="section IV.5",
+    doi="10.1007/978-3-642-05221-7",
+)
+SUN = Reference(
+    authors=("G. Sun",),
+    title="A simple way constructing symplectic Runge-Kutta methods",
+    journal="J. Comput. Math.",
+    volume="18",
+    year="2000",
+)
+JAY = Reference(
+    authors=("L. O. Jay",),
+    title="Lobatto methods",
+    book="Encyclopedia of Applied and Computational Mathematics",
+    publisher="Springer",
+    year="2015",
+)
 FAMILIES = (
-    of_stages("gauss", gauss, 1, "2s", "collocation at the Gauss nodes; symplectic"),
-    of_stages("radau-ia", radau_ia, 1, "2s - 1", "first node 0, D(s)"),
-    of_stages("radau-iia", radau_iia, 1, "2s - 1", "collocation, last node 1"),
-    of_stages("radau-ib", radau_ib, 2, "2s - 1", "of IA; symplectic"),
-    of_stages("radau-iib", radau_iib, 2, "2s - 1", "of IIA; symplectic"),
-    of_stages("lobatto-iiia", lobatto_iiia, 2, _ORDER, "collocation, nodes 0 and 1"),
-    of_stages("lobatto-iiib", lobatto_iiib, 2, _ORDER, "symplectic conjugate of IIIA"),
-    of_stages("lobatto-iiic", lobatto_iiic, 2, _ORDER, "a_i1 = b_1, stiffly accurate"),
-    of_stages("lobatto-iiic*", lobatto_iiic_star, 2, _ORDER, "conjugate of IIIC"),
-    of_stages("lobatto-iiid", lobatto_iiid, 2, _ORDER, "mean of IIIC and IIIC*; symplectic"),
-    of_stages("lobatto-iiie", lobatto_iiie, 2, _ORDER, "mean of IIIA and IIIB; symplectic"),
+    of_stages("gauss", gauss, 1, "2s", "collocation at the Gauss nodes; symplectic", STIFF),
+    of_stages("radau-ia", radau_ia, 1, "2s - 1", "first node 0, D(s)", STIFF),
+    of_stages("radau-iia", radau_iia, 1, "2s - 1", "collocation, last node 1", STIFF),
+    of_stages("radau-ib", radau_ib, 2, "2s - 1", "of IA; symplectic", SUN),
+    of_stages("radau-iib", radau_iib, 2, "2s - 1", "of IIA; symplectic", SUN),
+    of_stages("lobatto-iiia", lobatto_iiia, 2, _ORDER, "collocation, nodes 0 and 1", STIFF),
+    of_stages("lobatto-iiib", lobatto_iiib, 2, _ORDER, "symplectic conjugate of IIIA", STIFF),
+    of_stages("lobatto-iiic", lobatto_iiic, 2, _ORDER, "a_i1 = b_1, stiffly accurate", STIFF),
+    of_stages("lobatto-iiic*", lobatto_iiic_star, 2, _ORDER, "conjugate of IIIC", JAY),
+    of_stages("lobatto-iiid", lobatto_iiid, 2, _ORDER, "mean of IIIC and IIIC*; symplectic", JAY),
+    of_stages("lobatto-iiie", lobatto_iiie, 2, _ORDER, "mean of IIIA and IIIB; symplectic", JAY),
     Family(
         "lobatto-iiis",
         lobatto_iiis,
@@ -188,5 +211,6 @@ FAMILIES = (
         _ORDER,
         "IIIE for sigma: 1/2, IIID for 1",
         options=(SIGMA,),
+        reference=JAY,
     ),
 )

@@ -21,6 +21,7 @@ from garkcli.exact.nodes import Expression, Literal
 from garkcli.families.collocation import gauss, lobatto_iiia, radau_ia, radau_iia
 from garkcli.families.family import Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
+from garkcli.reference import Reference
 from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative, simple_nodes
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Method
@@ -184,5 +185,12 @@ FAMILIES = (
         "spectral deferred corrections",
         POINTS,
         (NODES, SWEEPS, SWEEP),
+        Reference(
+            authors=("A. Dutt", "L. Greengard", "V. Rokhlin"),
+            title="Spectral deferred correction methods for ordinary differential equations",
+            journal="BIT",
+            volume="40",
+            year="2000",
+        ),
     ),
 )

@@ -16,8 +16,17 @@ from flint import fmpq
 from garkcli.errors import UnknownFamily
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.families.family import MAX_STAGES, Family, Options, Recipe, by_stages, of_stages
+from garkcli.families.family import (
+    MAX_STAGES,
+    NONSTIFF,
+    Family,
+    Options,
+    Recipe,
+    by_stages,
+    of_stages,
+)
 from garkcli.families.stagelist import START, StageList, Weights, combined
+from garkcli.reference import Reference
 from garkcli.tableau.tableau import Method, butcher
 
 _ROWS: dict[str, tuple[str, str]] = {
@@ -65,7 +74,8 @@ def _lower(rows: Sequence[Vector]) -> Matrix:
 
 def _single(name: str, order: str, summary: str) -> Family:
     stages = STAGES[name]
-    return Family(name, by_stages(lambda _: named(name)), stages, stages, order, summary)
+    recipe = by_stages(lambda _: named(name))
+    return Family(name, recipe, stages, stages, order, summary, reference=NONSTIFF)
 
 
 def ssp3(s: int, _: Options) -> Recipe:
@@ -101,12 +111,22 @@ def _ssp3(n: int) -> Method:
     return stages.method(f"SSPRK({s},3)", values[-1])
 
 
+SSP = Reference(
+    authors=("D. I. Ketcheson",),
+    title="Highly efficient strong stability-preserving Runge-Kutta methods with low-storage "
+    "implementations",
+    journal="SIAM J. Sci. Comput.",
+    volume="30",
+    pages="2113-2136",
+    year="2008",
+    doi="10.1137/07070485X",
+)
 FAMILIES = (
     _single("explicit-euler", "1", "one explicit stage"),
     _single("explicit-midpoint", "2", "Runge's method"),
     _single("heun", "2", "the explicit trapezoidal rule"),
     _single("kutta", "3", "Kutta's method of order 3"),
     _single("rk4", "4", "the classical Runge-Kutta method"),
-    of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving"),
-    Family("ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving"),
+    of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving", SSP),
+    Family("ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving", reference=SSP),
 )

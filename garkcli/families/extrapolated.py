@@ -15,7 +15,7 @@ from flint import fmpq
 
 from garkcli.errors import UnknownFamily
 from garkcli.exact.matrix import solve
-from garkcli.families.family import Family, Option, Options, Recipe
+from garkcli.families.family import NONSTIFF, Family, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.tableau import Method
 
@@ -141,7 +141,7 @@ def midpoint(order: int, options: Options) -> Recipe:
 def _family(
     name: str, recipe: Callable[[int, Options], Recipe], smallest: int, summary: str
 ) -> Family:
-    return Family(name, recipe, smallest, 60, "order", summary, ORDER, (SEQUENCE,))
+    return Family(name, recipe, smallest, 60, "order", summary, ORDER, (SEQUENCE,), NONSTIFF)
 
 
 FAMILIES = (

@@ -8,6 +8,7 @@ from typing import TypeAlias
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
 from garkcli.frozen import Frozen
+from garkcli.reference import Reference
 from garkcli.tableau.tableau import Method
 
 Given: TypeAlias = "str | int | Expression"
@@ -74,6 +75,7 @@ class Family(Frozen):
         summary: one line.
         counted: what its size is.
         options: what else a member is chosen by.
+        reference: where it was published.
     """
 
     name: str
@@ -84,6 +86,7 @@ class Family(Frozen):
     summary: str
     counted: Option = STAGES
     options: tuple[Option, ...] = ()
+    reference: Reference = Reference()
 
     @property
     def size(self) -> str:
@@ -106,6 +109,13 @@ class Family(Frozen):
         return (self.counted, *self.options)
 
 
+NONSTIFF = Reference(
+    authors=("E. Hairer", "S. P. Nørsett", "G. Wanner"),
+    title="Solving Ordinary Differential Equations I",
+    publisher="Springer",
+    year="1993",
+)
+"""The book that has most of the explicit families."""
 MAX_STAGES = 200
 """Most stages of a member."""
 
@@ -120,7 +130,13 @@ def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:
 
 
 def of_stages(
-    name: str, make: Callable[[int], Method], smallest: int, order: str, summary: str
+    name: str,
+    make: Callable[[int], Method],
+    smallest: int,
+    order: str,
+    summary: str,
+    reference: Reference = Reference(),  # noqa: B008 -- a value that does not change
 ) -> Family:
     """A family whose members have any number of stages and no options."""
-    return Family(name, by_stages(make), smallest, MAX_STAGES, order, summary)
+    recipe = by_stages(make)
+    return Family(name, recipe, smallest, MAX_STAGES, order, summary, reference=reference)

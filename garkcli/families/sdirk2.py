@@ -13,7 +13,7 @@ from flint import fmpq
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
-from garkcli.families.family import Family, Option, Options, Recipe
+from garkcli.families.family import NONSTIFF, Family, Option, Options, Recipe
 from garkcli.tableau.tableau import Method, butcher
 
 GAMMA = Option(
@@ -34,5 +34,14 @@ def _method(values: Vector) -> Method:
 
 
 FAMILIES = (
-    Family("sdirk2", sdirk2, 2, 2, "2", "order 3 for gamma: (3 + sqrt(3))/6", options=(GAMMA,)),
+    Family(
+        "sdirk2",
+        sdirk2,
+        2,
+        2,
+        "2",
+        "order 3 for gamma: (3 + sqrt(3))/6",
+        options=(GAMMA,),
+        reference=NONSTIFF,
+    ),
 )

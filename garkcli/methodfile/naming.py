@@ -8,13 +8,16 @@ digits: ``ARS(2,2,2)`` is ``ARS222``.
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from itertools import chain
+from typing import TYPE_CHECKING
 
 from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
 from garkcli.files import STDIN
+from garkcli.frozen import fields
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.shelves import (
     Found,
@@ -27,6 +30,9 @@ from garkcli.methodfile.shelves import (
     package,
 )
 from garkcli.methodfile.source import METHOD_FILE
+
+if TYPE_CHECKING:
+    from garkcli.reference import Reference
 
 FAMILY = "the families"
 """The shelf of methods that are made when they are named."""
@@ -126,7 +132,7 @@ def look_up(name: str) -> Shelved | None:
 
 def _of_family(name: str) -> Shelved | None:
     """A member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
-    from garkcli.families.registry import member_named
+    from garkcli.families.registry import FAMILIES, member_named
 
     text = name.strip()
     if text.startswith("{") and text.endswith("}") and "family" in text:
@@ -136,11 +142,18 @@ def _of_family(name: str) -> Shelved | None:
         return None
     family, size = member
     called = family if size is None else f"{family}-{size}"
-    return _made(called)
+    return _made(called, FAMILIES[family].reference)
 
 
-def _made(name: str) -> Shelved:
-    return Shelved(name, "", name, FAMILY, lambda: f"methods: {name}\n")
+def _made(name: str, reference: Reference | None = None) -> Shelved:
+    """The file of a member of a family, with the reference of the family."""
+
+    def written() -> str:
+        known = {key: getattr(reference, key) for key in fields(reference)} if reference else {}
+        told = json.dumps({key: x for key, x in known.items() if x}, ensure_ascii=False)
+        return f"methods: {name}\n" + (f"reference: {told}\n" if reference else "")
+
+    return Shelved(name, "", name, FAMILY, written)
 
 
 def _in_turn() -> Iterator[Sequence[Shelf]]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from garkcli.api.calls import find_stability
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
@@ -21,6 +22,8 @@ from garkcli.stability.summary import Stability
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from garkcli.tableau.garkmethod import GarkMethod
 
 _CURE = "give what converge, long_run, find_stability or run_sweep returned"
 
@@ -63,6 +66,11 @@ def plot(
     if path is not None:
         save(drawn, Path(path))
     return drawn
+
+
+def plot_method(method: GarkMethod, path: str | os.PathLike[str] | None = None) -> Figure:
+    """The region of stability of a method, saved where a path is given."""
+    return plot(find_stability(method), path=path, names=[method.name])
 
 
 def _scene(

@@ -14,6 +14,8 @@ from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.families.registry import FAMILIES
+from garkcli.reference import Reference
 from garkcli.report import citation
 from garkcli.report.certificate import REPORT
 from garkcli.report.coq import coq_proof
@@ -22,6 +24,7 @@ from garkcli.report.sweep import SweepReport
 from garkcli.sweep.plan import Plan, load_plan
 from garkcli.sweep.run import Progress, sweep
 from garkcli.sweep.store import RowStore
+from garkcli.version import __version__
 
 
 def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
@@ -44,12 +47,44 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
 
 def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
-    """The publications of some methods, each once. Of a file no more is read than its reference."""
-    return citation.together([_cited(method) for method in methods])
+    """The publications of some methods, each once. Of a file no more is read than its reference.
+
+    The name of a family is a method here, and ``gark`` is this program and the paper behind it.
+    """
+    cited: list[citation.Cited] = []
+    for method in methods:
+        if method == GARK:
+            cited += [citation.Cited((GARK,), str(work), work) for work in WORKS]
+        else:
+            cited.append(_cited(method))
+    return citation.together(cited)
+
+
+GARK = "gark"
+WORKS = (
+    Reference(
+        authors=("The gark authors",),
+        title="gark: order conditions and design of generalized additive Runge-Kutta methods",
+        type="software",
+        year="2026",
+        note=f"version {__version__}",
+    ),
+    Reference(
+        authors=("A. Zanna",),
+        title="Discrete Variational Methods and Symplectic Generalized Additive Runge-Kutta "
+        "Methods",
+        year="2020",
+        url=f"{citation.ARXIV}2001.07185",
+    ),
+)
+"""This program, and the paper that it implements."""
 
 
 def _cited(given: AnyMethod) -> citation.Cited:
     """A method with its reference; without one where it is not from a file."""
+    if isinstance(given, str) and given in FAMILIES and not FAMILIES[given].is_single:
+        reference = FAMILIES[given].reference
+        return citation.Cited((given,), str(reference), reference)
     if isinstance(given, (str, os.PathLike)):
         source, reference, fields = reference_in(given)
         return citation.Cited((source,), reference, fields)

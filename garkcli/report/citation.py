@@ -26,6 +26,8 @@ _ENTRY_TYPES = {
     "web": "misc",
 }
 """The kinds of BibTeX entries, by what ``type`` says of a publication."""
+ARXIV = "https://arxiv.org/abs/"
+"""Where preprints are."""
 _BETWEEN_WORDS = re.compile(r"([\s–—-]+)")
 _DASHES = re.compile(r"\s*[-–—]+\s*")
 """Between the first page and the last."""
@@ -175,8 +177,11 @@ def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
         "year": reference.year,
         "note": note,
         "doi": reference.doi,
-        "url": reference.url,
     }
+    if reference.url.startswith(ARXIV):
+        found |= {"eprint": reference.url.removeprefix(ARXIV), "archiveprefix": "arXiv"}
+    else:
+        found["url"] = reference.url
     for name, value in found.items():
         if value:
             yield name, value

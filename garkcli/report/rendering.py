@@ -81,6 +81,11 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     return write(value, format, name)
 
 
+def latex(method: GarkMethod) -> str:
+    """The tableau of a method in LaTeX."""
+    return render(method, "latex")
+
+
 def html(value: Any) -> str:
     """A value that rows tell, as notebooks show it."""
     report, whole = _told_by(TOLD_BY[_kind(value, TOLD_BY)])

@@ -16,6 +16,8 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
+    import os
+
     from garkcli.tableau.pointwise import Entries
 
 
@@ -208,6 +210,29 @@ class GarkMethod(Shown, Frozen, kw_only=True):
         """
         is_so: bool = answered(self, "symplectic")
         return is_so
+
+    def check(self) -> Any:
+        """All that ``gark check`` finds, as ``analyse`` has it."""
+        return answered(self, "check")
+
+    def stability(self) -> Any:
+        """All that ``gark stability`` finds, as ``find_stability`` has it."""
+        return answered(self, "stability")
+
+    def converge(self, problem: Any = None) -> Any:
+        """A convergence test, on a generic problem if none is named, as ``converge`` has it."""
+        return answered(self, "converge", problem=problem)
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """The region of stability as a figure of matplotlib, saved at ``path`` where it is given;
+        ``plot`` draws other results.
+        """
+        return answered(self, "plot", path=path)
+
+    def to_latex(self) -> str:
+        """The tableau in LaTeX, as ``gark tableau --format latex`` prints it."""
+        text: str = answered(self, "to_latex")
+        return text
 
     @property
     def further(self) -> Further:

@@ -12,6 +12,7 @@ from flint import fmpq
 import garkcli
 from garkcli import (
     GarkMethod,
+    MethodError,
     Tableau,
     analyse,
     conditions,
@@ -195,3 +196,22 @@ def test_the_example_of_a_file_on_disk(tmp_path: Path) -> None:
     assert loaded.tableau == made.tableau
     assert loaded.name == made.name == "midpoint"
     assert isinstance(loaded, GarkMethod)
+
+
+@pytest.mark.parametrize("name", ["rk4", "collocation"])
+def test_a_method_answers_by_itself(name: str, tmp_path: Path) -> None:
+    """What the functions find, asked of one colour and of several alike."""
+    method = load(name)
+    assert method.check().order == find_order(method)
+    assert repr(method.stability()) == repr(garkcli.find_stability(method))
+    assert method.converge().observed_order == garkcli.converge(method).observed_order
+    assert method.converge("pendulum").observed_order is not None
+    assert method.to_latex() == garkcli.render(method, "latex")
+    assert method.plot(tmp_path / "region.svg").axes
+    assert (tmp_path / "region.svg").stat().st_size > 1000
+
+
+def test_load_says_what_it_takes() -> None:
+    """A number is neither a path nor a name."""
+    with pytest.raises(MethodError, match="a path or a name is expected, not int"):
+        load(3)  # type: ignore[arg-type]

@@ -7,14 +7,16 @@ import re
 from pathlib import Path
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
 from garkcli.page.latex_letters import ascii_letters, letters
 from garkcli.reference import Reference
 from garkcli.report.citation import Cited, keys, render, title, together
-from tests.cli.harness import gark
+from tests.cli.harness import ROOT, gark
 
 DORMAND = """
 name: DP
@@ -202,3 +204,26 @@ def test_a_folder_of_the_catalogue_has_entries() -> None:
     assert sorted(names) == sorted(entry["name"] for entry in listed)
     kept = [one["key"] for one in found if one["bibtex"]]
     assert len(kept) == len(set(kept))
+
+
+def test_the_program_and_its_paper() -> None:
+    """``gark cite gark``: what CITATION.cff says, and the paper with its number in the archive."""
+    data = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    found = json.loads(gark("cite", "gark", "--format", "json").out)["references"]
+    program, paper = (x["reference"] for x in found)
+    assert program["title"] == data["title"]
+    assert program["note"] == f"version {data['version']}"
+    [cited] = data["references"]
+    assert paper["title"] == cited["title"]
+    assert "eprint = {2001.07185}" in found[1]["bibtex"]
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_every_family_has_a_reference(name: str) -> None:
+    """By its name alone, and by a member that the catalogue does not have."""
+    [found] = json.loads(gark("cite", name, "--format", "json").out)["references"]
+    assert found["reference"]["authors"]
+    member = FAMILIES[name]
+    if member.keys == ("stages",) and not member.is_single:
+        again = gark("cite", f"{name}-{49 if name == 'ssp3' else 31}").out
+        assert again.splitlines()[1:] == found["bibtex"].splitlines()[1:]
