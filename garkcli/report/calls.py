@@ -83,8 +83,8 @@ WORKS = (
 def _cited(given: AnyMethod) -> citation.Cited:
     """A method with its reference; without one where it is not from a file."""
     if isinstance(given, str) and given in FAMILIES and not FAMILIES[given].is_single:
-        reference = FAMILIES[given].reference
-        return citation.Cited((given,), str(reference), reference)
+        work = FAMILIES[given].reference
+        return citation.Cited((given,), str(work), work)
     if isinstance(given, (str, os.PathLike)):
         source, reference, fields = reference_in(given)
         return citation.Cited((source,), reference, fields)

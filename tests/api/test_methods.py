@@ -12,7 +12,6 @@ from flint import fmpq
 import garkcli
 from garkcli import (
     GarkMethod,
-    MethodError,
     Tableau,
     analyse,
     conditions,

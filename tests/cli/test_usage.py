@@ -44,14 +44,12 @@ def test_words_that_are_meant_are_commands() -> None:
     assert {*MEANT.values()} <= COMMANDS.keys()
 
 
-@pytest.mark.skipif(os.name != "posix", reason="there are no pseudo-terminals")
 @pytest.mark.parametrize("arguments", [["convert", "rk4", "--to", "tableau"], ["new", "--zzz"]])
 def test_a_mistake_fits_the_terminal(arguments: list[str]) -> None:
     """Its lines are as long as those of the terminal, with the same words that a pipe gets in one
     line; arguments are no options.
     """
-    import pty
-
+    pty = pytest.importorskip("pty", reason="there are no pseudo-terminals")
     ours, theirs = pty.openpty()
     command = [sys.executable, "-m", "garkcli", *arguments]
     environment = {**os.environ, "COLUMNS": "60"}
