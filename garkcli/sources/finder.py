@@ -27,6 +27,8 @@ _NUMBERED = re.compile(
 _ARRAY = re.compile(r"(?P<stem>\w{1,200}?)_(?P<role>a[0-9]{1,2}|b|db|c)")
 """Names of classes that are arrays."""
 _TABLE = "ARKodeButcherTable_Alloc"
+_MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
+"""Records that are filled after they are made."""
 _WHOLE_QUOTIENTS = frozenset({"c", "fortran"})
 
 
@@ -85,7 +87,7 @@ class TableFinder:
         made = list(space.calls)
         if isinstance(space.returned, Record) and space.returned not in made:
             made.append(space.returned)
-        made += [x for x in space.values() if isinstance(x, Record) and x.kind in {"", _TABLE}]
+        made += [x for x in space.values() if isinstance(x, Record) and x.kind in _MADE]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count = len(self._meant) + len(self._other)
@@ -212,7 +214,7 @@ class TableFinder:
             name = first.reason.removeprefix("the name ")
             if name != first.reason and " " not in name:
                 return name
-        is_entry = scope.kind == "entry" and scope.name
+        is_entry = (scope.kind == "entry" or record.kind in _MADE - {""}) and scope.name
         return scope.name if is_entry else record.key or scope.title
 
     # arrays by their names

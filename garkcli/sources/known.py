@@ -347,6 +347,17 @@ def _butcher_table(call: Call) -> Value | None:
     return Record(call.name, {**fields, "q": FILL, "p": FILL}, (), call.line)
 
 
+def _symplectic_table(call: Call) -> Value | None:
+    """``ARKodeSPRKTable_Alloc(stages)``: arrays of zeros."""
+    stages = whole(call.args[0]) if call.args else None
+    if stages is None or not 0 < stages <= MAX_STAGES:
+        return call.evaluator.unknown("the number of stages is not written out")
+    array = call.evaluator.array
+    call.evaluator.allowance.spend(2 * stages)
+    fields: dict[str, Value] = {x: array([FILL] * stages) for x in ("a", "ahat")}
+    return Record(call.name, {**fields, "q": FILL, "stages": integer(stages)}, (), call.line)
+
+
 _BY_FUNCTION: Mapping[Known, str] = {
     _converted: """
         convert big BigFloat BigInt Rational float Float64 Float32 Float16 Double64 Int Int128
@@ -372,13 +383,14 @@ _BY_FUNCTION: Mapping[Known, str] = {
     _reshaped: "reshape",
     _stacked: "vcat concatenate hstack vstack",
     _mapped: "map",
-    _power: "power pow Power",
+    _power: "power pow Power SUNRpowerR",
     _quotient: "rdivide Rational",
     _square: "PetscSqr SUNSQR",
     _length: "length len size",
     _diagonal: "diag",
     _record: "struct",
     _butcher_table: "ARKodeButcherTable_Alloc",
+    _symplectic_table: "ARKodeSPRKTable_Alloc",
 }
 CONVERSIONS = frozenset(_BY_FUNCTION[_converted].split())
 """Types, and functions that give back the number, the list or the matrix that they get."""

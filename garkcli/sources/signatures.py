@@ -59,6 +59,9 @@ SIGNATURES: Mapping[str, Signature] = {
     PRINTED: Signature([], is_guess=True),
     NDSOLVE: Signature(["A", "b", "c", "error"], is_guess=True),
     "ARKodeButcherTable_Create": _rk("stages order embedded_order c A b embedded", 7),
+    "ARKodeSPRKTable_Alloc": Signature(
+        [], "force-first", named={"a": "drifts", "ahat": "kicks", "q": "order", "stages": "stages"}
+    ),
     "ARKodeSPRKTable_Create": Signature(
         ["stages", "order", "drifts", "kicks"], "force-first", counts=(4,)
     ),

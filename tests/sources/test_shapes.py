@@ -120,6 +120,16 @@ ars233b_hat = np.array([0, 0.5, 0.5])
 ars233c = np.array([gamma, 1 - gamma])
 ars233c_hat = np.array([0, gamma, 1 - gamma])
 """
+FILLED = """
+static ARKodeSPRKTable arkodeSymplecticRuth3(void) {
+  ARKodeSPRKTable t = ARKodeSPRKTable_Alloc(3);
+  if (!t) { return NULL; }
+  t->q = 3; t->stages = 3;
+  t->a[0] = 2.0 / 3.0; t->a[1] = -2.0 / 3.0; t->a[2] = 1.0;
+  t->ahat[0] = 7.0 / 24.0; t->ahat[1] = 3.0 / 4.0; t->ahat[2] = -1.0 / 24.0;
+  return t;
+}
+"""
 WRITTEN = {
     "b1 and b2": (c.find, TWO_WEIGHTS, 3, 2),
     "the last row": (c.find, LAST_ROW, 3, None),
@@ -130,6 +140,7 @@ WRITTEN = {
     "two parts": (julia.find, TWO_PARTS, 1, None),
     "arrays that are classes": (c.find, OF_CLASSES, 3, None),
     "a part with a hat": (python.find, HATS, 3, None),
+    "kicks and drifts that are filled in": (c.find, FILLED, 3, None),
     "further stages": (julia.find, FURTHER, 3, None),
     "weights that are no stage": (julia.find, NO_STAGE, 2, None),
     "the last entry of the diagonal": (julia.find, LAST_DIAGONAL, 4, None),
@@ -176,3 +187,25 @@ def test_a_node_of_a_row_with_an_entry_left_out_is_none() -> None:
     text = LAST_DIAGONAL.replace("a42 = convert(T, -137 // 2720); ", "").replace("a42, ", "")
     (table,) = julia.find(text, "x")
     assert table.trouble == "rows and nodes that do not fit together"
+
+
+def test_kicks_for_second_order_equations() -> None:
+    """McLachlan and Atela's method of order 4 has order 3 where q' is not p: a warning. As drifts
+    for kicks it has order 3 for these, too: an error.
+    """
+    a = "0.515352837431122936 -0.085782019412973646 0.441583023616466524 0.128846158365384185"
+    b = "0.134496199277431089 -0.224819803079420806 0.756320000515668291 0.334003603286321425"
+    entries = [
+        f"t->{name}[{i}] = {x};"
+        for name, row in (("a", a), ("ahat", b))
+        for i, x in enumerate(row.split())
+    ]
+    head = "ARKodeSPRKTable t = ARKodeSPRKTable_Alloc(4); t->q = 4; t->stages = 4;"
+    text = f"static ARKodeSPRKTable four(void) {{ {head} {' '.join(entries)} return t; }}"
+    table, found = only(c.find, text)
+    assert table.name == "four"
+    assert [(x.code, x.level) for x in found.findings] == [("order", "warning")]
+    _, found = only(
+        c.find, text.replace("t->ahat", "t->x").replace("t->a[", "t->ahat[").replace("t->x", "t->a")
+    )
+    assert [(x.code, x.level) for x in found.findings] == [("order", "error")]

@@ -144,10 +144,11 @@ class PythonLowering(Lowering):
             case "parenthesized_expression" if inside:
                 return self.expr(inside[0])
             case "list_comprehension" if len(inside) == 2 and inside[1].type == "for_in_clause":
-                left, over = (inside[1].child_by_field_name(x) for x in ("left", "right"))
-                if left is not None and left.type == "identifier":
-                    each = ir.Lambda((self.text(left),), self.expr(inside[0]))
-                    return ir.Call(ir.Name("list of each"), (each, self.expr(over)))
+                each_one = inside[1].child_by_field_name("left")
+                if each_one is not None and each_one.type == "identifier":
+                    each = ir.Lambda((self.text(each_one),), self.expr(inside[0]))
+                    over = self.expr(inside[1].child_by_field_name("right"))
+                    return ir.Call(ir.Name("list of each"), (each, over))
             case "list" | "tuple" | "expression_list":
                 return ir.Items(self.exprs(inside))
             case "dictionary":
