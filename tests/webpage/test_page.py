@@ -328,7 +328,7 @@ def test_properties_are_those_of_the_check(method: str) -> None:
             assert answer == answers[value], key
         elif isinstance(value, int):
             assert answer.removeprefix("at least ") == str(value), key
-    assert len(shown) == 21
+    assert len(shown) == len(KEYS)
     said = text_of(section(method, "properties"))
     assert f"symplectic {answers[data['symplectic']]}" in said
 
