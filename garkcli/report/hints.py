@@ -36,9 +36,9 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
         culprit = Place(letter, names_of(blame.culprit, names))
         texts.append(Reason("{} takes part in every one of them: look there first", culprit))
     elif len(blame.in_every) > 1:
-        texts.append(Reason("in every one of them: {}", _blocks(letter, blame.in_every, names)))
+        texts.append(_take_part(letter, blame.in_every, names, "all"))
     if blame.in_none:
-        texts.append(Reason("in none of them: {}", _blocks(letter, blame.in_none, names)))
+        texts.append(_take_part(letter, blame.in_none, names, "none"))
     if blame.repairs:
         also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
         mended = _repairs(blame.repairs, own)
@@ -46,8 +46,12 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
     return joined("; ", texts)
 
 
-def _blocks(letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str]) -> Reason:
-    return joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
+def _take_part(
+    letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str], which: str
+) -> Reason:
+    """Which blocks take part in all of the conditions that fail, or in none."""
+    places = joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
+    return Reason(f"{{}} {'takes' if len(blocks) == 1 else 'take'} part in {which} of them", places)
 
 
 def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
