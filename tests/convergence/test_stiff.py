@@ -59,6 +59,12 @@ WEAK = {
     "DIRK(12,5,5)": "wso-1255",
 }
 """Stages, order and weak stage order, and names in the catalogue of gark."""
+SHOWN = (
+    "RK4", "Gauss 2", "Gauss 3", "Radau IIA 2", "Radau IIA 3", "Lobatto IIIA 3", "Lobatto IIIC 3",
+    "SDIRK 4 of Hairer and Wanner", "IMEX ARS(2,2,2)", "IMEX ARS(3,4,3)", "IMEX ARS(4,4,3)",
+    "IMEX SSP3(4,3,3)", "DIRK(4,3,3)", "DIRK(7,4,4)", "DIRK(12,5,5)",
+)  # fmt: skip
+"""The rows of the page."""
 TESTS = [
     (name, stiffness) for name in ("prothero-robinson", "van-der-pol") for stiffness in (1, 10**6)
 ]
@@ -124,7 +130,7 @@ def test_the_page_is_measured() -> None:
     table, end, tail = rest.partition(END)
     assert begin
     assert end
-    rows = [row(name) for name in (*FAMILIES, *CATALOGUE, *WEAK)]
+    rows = [row(name) for name in SHOWN]
     if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
         made = HEAD + "".join(f"| {' | '.join(cells)} |\n" for cells in rows)
         PAGE.write_text(head + begin + made + end + tail, encoding="utf-8")

@@ -37,15 +37,15 @@ def declared() -> Iterator[tuple[str, Option]]:
 
 
 def arguments() -> str:
-    """The table of options that are arguments: a function a row."""
+    """The table of options that are arguments of another name: a function a row."""
     found: dict[str, dict[str, None]] = {}
     for _, option in declared():
         if option.of:
             flag = option.key.split()[-1]
             function, _, name = option.of.partition(".")
             is_same = flag.removeprefix("--").replace("-", "_") == name
-            written = f"`{flag}`" if is_same else f"`{flag}` (`{name}=`)"
-            found.setdefault(function, {})[written] = None
+            if not is_same:
+                found.setdefault(function, {})[f"`{flag}` (`{name}=`)"] = None
     lines = ["| function | options |", "|---|---|"]
     for function, options in sorted(found.items()):
         lines.append(f"| `{function}` | {', '.join(sorted(options))} |")
