@@ -9,7 +9,7 @@ rational values there. With one parameter the finitely many others are looked at
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Sized
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import fmpq_mpoly
 
@@ -21,9 +21,13 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, Mutable, replace
+from garkcli.properties.property import Size, size_reason
+from garkcli.reason import NO_REASON, Formula, Reason, Value, joined
 from garkcli.tableau.family import ring_of
 from garkcli.tableau.tableau import Tableau
 
+Worded: TypeAlias = "Value | str"
+"""What a reason has in it."""
 MOST_SPECIAL = 60
 """Most single values that are looked at."""
 
@@ -58,7 +62,7 @@ class Fact(Frozen):
     where: tuple[Interval, ...] | None = None
     is_undecided: bool = False
     differs: bool = False
-    why: str = ""
+    why: Reason | str = ""
 
     @property
     def is_everywhere(self) -> bool:
@@ -214,22 +218,26 @@ def _one_by_one(
 
 def by_samples(family: EveryFamily, question: Question) -> Fact:
     """That the answers differ is known from two of them; that they do not is not."""
-    first: tuple[str, Any] | None = None
+    first: tuple[Reason, Any] | None = None
     for values, method in family.samples():
         found = question.at(method)
-        at = ", ".join(f"{name} = {x}" for name, x in values.items())
+        at = joined(
+            ", ", [Reason("{} = {}", Formula(x), Formula(str(y))) for x, y in values.items()]
+        )
         if first is None:
             first = at, found
         elif found != first[1]:
-            why = f"{told(first[1])} at {first[0]}, {told(found)} at {at}"
+            why = Reason("{} at {}, {} at {}", told(first[1]), first[0], told(found), at)
             return Fact(None, is_undecided=True, differs=True, why=why)
     return Fact(None, is_undecided=True, why=NOT_DECIDED)
 
 
-def told(value: object) -> str:
-    """An answer in a word."""
+def told(value: object) -> Worded:
+    """An answer in a word, or the number."""
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, (Size, str)):
+        return size_reason(str(value))
     return "no meaning" if value is None else str(value)
 
 
@@ -255,7 +263,7 @@ MOST = 4
 """Most single values and polynomials that are named; the others are counted."""
 
 
-def fact_text(fact: Fact, name: str, text: Callable[[object], str] = told) -> str:
+def fact_reason(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
     """An answer with its exceptions.
 
     Args:
@@ -264,36 +272,45 @@ def fact_text(fact: Fact, name: str, text: Callable[[object], str] = told) -> st
         text: a value in words.
     """
     if fact.where is not None:
-        where = " or ".join(interval_text(x, name) for x in fact.where)
-        return f"{text(True)} for {where} alone{_unknown(fact, name)}"
+        where = joined(" or ", [_interval(x, name) for x in fact.where])
+        return Reason("{} for {} alone{}", text(True), where, _unknown(fact, name))
     if fact.differs:
-        return f"not the same for every value: {fact.why}"
+        return Reason("not the same for every value: {}", fact.why)
     if fact.is_undecided:
-        return f"not decided for every value: {fact.why}"
-    parts = [_text(fact.value, text)]
-    for value, roots in _grouped(fact):
-        parts.append(f"{_text(value, text)} where {values_text(roots, name)}")
+        return Reason("not decided for every value: {}", fact.why)
+    return Reason(
+        "{}{}{}", _text(fact.value, text), exceptions(fact, name, text), _unknown(fact, name)
+    )
+
+
+def exceptions(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
+    """Where the answer is another one, each after a semicolon."""
+    parts = [
+        Reason("; {} where {}", _text(value, text), values_reason(roots, name))
+        for value, roots in _grouped(fact)
+    ]
     for polynomial, value in fact.elsewhere:
-        parts.append(f"{_text(value, text)} where {polynomial} = 0")
+        parts.append(Reason("; {} where {}", _text(value, text), _zero(polynomial)))
     if fact.zeros:
-        beyond = _beyond(fact, text)
-        parts.append(f"{beyond} where {zeros_text(fact.zeros)}")
+        parts.append(Reason("; {} where {}", _beyond(fact, text), zeros_reason(fact.zeros)))
     if fact.open:
-        parts.append(f"not decided where {any_zero_text(fact.open)}")
-    return "; ".join(parts) + _unknown(fact, name)
+        parts.append(Reason("; not decided where {}", _any_zero(fact.open)))
+    return joined("", parts)
 
 
-def _text(value: object, text: Callable[[object], str]) -> str:
+def _text(value: object, text: Callable[[object], Worded]) -> Worded:
     return "none" if value is None else text(value)
 
 
-def _beyond(fact: Fact, text: Callable[[object], str]) -> str:
+def _beyond(fact: Fact, text: Callable[[object], Worded]) -> Worded:
     """What there is at the common zeros of polynomials."""
     return text(not fact.value) if isinstance(fact.value, bool) else f"{fact.value + 1} or more"
 
 
-def _unknown(fact: Fact, name: str) -> str:
-    return "" if not fact.unknown else f"; not decided where {values_text(fact.unknown, name)}"
+def _unknown(fact: Fact, name: str) -> Reason:
+    if not fact.unknown:
+        return NO_REASON
+    return Reason("; not decided where {}", values_reason(fact.unknown, name))
 
 
 def _grouped(fact: Fact) -> list[tuple[object, list[RealRoot]]]:
@@ -304,23 +321,23 @@ def _grouped(fact: Fact) -> list[tuple[object, list[RealRoot]]]:
     return list(groups.values())
 
 
-def values_text(roots: Sequence[RealRoot], name: str) -> str:
+def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:
     """Some values of the parameter, those of one polynomial together."""
     groups: dict[str, list[RealRoot]] = {}
     for root in roots:
         groups.setdefault(str(root.polynomial), []).append(root)
-    named = list(groups.values())[:MOST]
-    return " or ".join([_roots_text(same, name) for same in named]) + _others(groups)
+    named = [_roots(same, name) for same in [*groups.values()][:MOST]]
+    return Reason("{}{}", joined(" or ", named), _others(groups))
 
 
-def _roots_text(same: Sequence[RealRoot], name: str) -> str:
+def _roots(same: Sequence[RealRoot], name: str) -> Reason:
     """Some roots of one polynomial, which is told where they have no simple form."""
     first = same[0]
-    numbers = " or ".join(map(_number, same))
-    values = f"{name} = {numbers}"
+    values = Reason("{} = {}", Formula(name), joined(" or ", [_number(x) for x in same]))
     if first.exact is not None:
         return values
-    return f"{polynomial_text(Polynomial.from_flint(first.polynomial), name)} = 0, {values}"
+    polynomial = polynomial_text(Polynomial.from_flint(first.polynomial), name)
+    return Reason("{}, {}", _zero(polynomial), values)
 
 
 def _others(everything: Sized) -> str:
@@ -329,34 +346,37 @@ def _others(everything: Sized) -> str:
     return f" and {more} more" if more > 0 else ""
 
 
-def zeros_text(polynomials: Sequence[str]) -> str:
+def _zero(polynomial: str) -> Reason:
+    return Reason("{} = 0", Formula(polynomial))
+
+
+def zeros_reason(polynomials: Sequence[str]) -> Reason:
     """That polynomials are zero, all of them."""
-    return ", ".join([f"{p} = 0" for p in polynomials[:MOST]]) + _others(polynomials)
+    return Reason("{}{}", joined(", ", [*map(_zero, polynomials[:MOST])]), _others(polynomials))
 
 
-def any_zero_text(polynomials: Sequence[str]) -> str:
+def _any_zero(polynomials: Sequence[str]) -> Reason:
     """That one of some polynomials is zero."""
     if len(polynomials) == 1:
-        return zeros_text(polynomials)
-    shown = ", ".join(polynomials[:MOST])
-    return f"one of {shown}{_others(polynomials)} is 0"
+        return zeros_reason(polynomials)
+    shown = joined(", ", [*map(Formula, polynomials[:MOST])])
+    return Reason("one of {}{} is 0", shown, _others(polynomials))
 
 
-def interval_text(interval: Interval, name: str) -> str:
+def _interval(interval: Interval, name: str) -> Reason:
     """The values of the parameter in an interval."""
     start, end = interval.start, interval.end
     if interval.is_point:
         assert start is not None
-        return values_text([start], name)
-    text = name
+        return values_reason([start], name)
+    found = Reason("{}", Formula(name))
     if start is not None:
-        sign = "≤" if interval.has_start else "<"
-        text = f"{_number(start)} {sign} {text}"
+        found = Reason(f"{{}} {'≤' if interval.has_start else '<'} {{}}", _number(start), found)
     if end is not None:
-        sign = "≤" if interval.has_end else "<"
-        text = f"{text} {sign} {_number(end)}"
-    return text
+        found = Reason(f"{{}} {'≤' if interval.has_end else '<'} {{}}", found, _number(end))
+    return found
 
 
-def _number(root: RealRoot) -> str:
-    return root_text(root) or f"{root_decimal(root, DIGITS)}…"
+def _number(root: RealRoot) -> Value:
+    simple = root_text(root)
+    return Reason(f"{root_decimal(root, DIGITS)}…") if simple is None else Formula(simple)

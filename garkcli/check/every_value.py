@@ -10,7 +10,7 @@ from flint import fmpq_mpoly
 
 from garkcli.check.analysis import inconsistent_blocks
 from garkcli.check.claims import agrees, capped, claim_of, claimed_text
-from garkcli.check.every_facts import Fact, fact_text, find
+from garkcli.check.every_facts import Fact, fact_reason, find
 from garkcli.check.every_family import EveryFamily, every_family
 from garkcli.check.every_orders import EveryOrder, every_order
 from garkcli.check.every_properties import find_property
@@ -256,7 +256,7 @@ def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim,
 
 def _held_against(claim: ClaimText, found: EveryValue) -> Claim:
     fact = _fact(claim.key, found)
-    text = fact_text(fact, next(iter(found.parameters), ""), claimed_text)
+    text = str(fact_reason(fact, next(iter(found.parameters), ""), claimed_text))
     return claim_of(claim, text, _holds(claim, fact, found.limit))
 
 

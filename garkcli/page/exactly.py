@@ -10,7 +10,13 @@ from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.parametric import Parametric
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import polynomial_text, power_text, root_decimal, root_text
+from garkcli.exact.polynomial_text import (
+    integral,
+    polynomial_text,
+    power_text,
+    root_decimal,
+    root_text,
+)
 from garkcli.exact.roots import RealRoot
 from garkcli.page.schema import TEXT, Schema, one_of
 
@@ -47,6 +53,12 @@ def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
         named = zip(variables, exponents, strict=True)
         terms.append((a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named)))
     return sum_latex(terms)
+
+
+def quotient_latex(p: Polynomial, q: Polynomial, variable: str) -> str:
+    """A rational function in LaTeX, with whole coefficients."""
+    over, under = (polynomial_latex(x, variable) for x in integral([p, q]))
+    return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
 
 
 def sum_latex(terms: Iterable[tuple[Number | Parametric, str]]) -> str:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from garkcli.frozen import Frozen
-from garkcli.reason import NO_REASON, Reason
+from garkcli.reason import NO_REASON, Formula, Reason
 
 if TYPE_CHECKING:
     from garkcli.exact.roots import RealRoot
@@ -57,6 +57,18 @@ class Size(Frozen):
         if len(polynomial) > _LONG:
             return decimal
         return f"{decimal}, a root of {polynomial}"
+
+    def words(self, dialect: Any) -> str:
+        """The number in the signs of a dialect."""
+        return size_reason(str(self)).words(dialect)
+
+
+def size_reason(text: str) -> Reason:
+    """The text of a ``Size``, its formulas told from its words."""
+    number, sign, polynomial = text.partition(", a root of ")
+    if sign:
+        return Reason(f"{number}{sign}{{}}", Formula(polynomial))
+    return Reason(text) if text == "infinity" else Reason("{}", Formula(text))
 
 
 Value: TypeAlias = "bool | int | Size"

@@ -12,6 +12,7 @@ from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import counted, folded
+from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.failure import FAULT
@@ -819,13 +820,14 @@ def verdict_data(v: Any, _: Plain) -> Any:
     return "infinity" if v.value.root is None else root_data(v.value.root)
 
 
-def verdict_words(v: Any) -> str:
+def verdict_words(v: Any) -> Reason:
     """A property in a word or a number."""
     if v.value is None:
-        return "not decided" if v.is_undecided else "no meaning"
+        return Reason("not decided" if v.is_undecided else "no meaning")
     if isinstance(v.value, bool):
-        return "yes" if v.value else "no"
-    return f"at least {v.value}" if v.is_at_least else str(v.value)
+        return Reason("yes" if v.value else "no")
+    number = v.value if isinstance(v.value, Size) else str(v.value)
+    return Reason("at least {}" if v.is_at_least else "{}", number)
 
 
 VERDICT = Section(
@@ -847,7 +849,7 @@ def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
     rows = []
     for key, v in found:
         why = f": {d.reason(v.reason)}" if v.reason and v.value is not True else ""
-        rows.append((key, d.prose(verdict_words(v)) + why))
+        rows.append((key, d.reason(verdict_words(v)) + why))
     return rows
 
 

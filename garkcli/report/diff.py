@@ -92,14 +92,14 @@ def _verdict_cell(verdict: Any, d: Plain) -> str:
     value = verdict.value
     if isinstance(value, Size) and value.root is not None and not verdict.is_at_least:
         return d.root(value.root)
-    return d.prose(verdict_words(verdict).partition(", a root of ")[0])
+    return d.prose(str(verdict_words(verdict)).partition(", a root of ")[0])
 
 
 RELATION = Kind({"enum": [*RELATIONS]}, phrase=_relation_phrase)
 ENTRY = Kind(S.NUMERAL, _entry_data, _entry_words)
 VALUE = Kind(S.EXACT, kinds.EXACT.data, _entry_words)
 ORDER_ALONE = Kind(S.COUNT, lambda x, _: x.order, kinds.order_cell)
-VERDICT = Kind(S.TEXT, lambda x, _: verdict_words(x), _verdict_cell)
+VERDICT = Kind(S.TEXT, lambda x, _: str(verdict_words(x)), _verdict_cell)
 IMAGES = Kind(S.array(S.array(S.POSITION)), lambda x, _: [[i + 1 for i in row] for row in x])
 COLOURS = Kind(S.array(S.POSITION), lambda x, _: [l + 1 for l in x])
 SHAPES = Kind(S.array(S.TEXT), lambda x, _: list(x))

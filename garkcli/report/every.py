@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from garkcli.check.every_facts import Fact, fact_text
+from garkcli.check.every_facts import Fact, exceptions, fact_reason, zeros_reason
 from garkcli.check.every_facts import told as told_value
 from garkcli.check.every_family import EveryFamily
 from garkcli.check.every_properties import find_property
@@ -18,7 +18,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data, sum_latex
 from garkcli.properties.registry import KEYS
-from garkcli.reason import NO_REASON
+from garkcli.reason import NO_REASON, Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, rows_of
@@ -68,7 +68,7 @@ def fact_data(f: Fact, inner: Kind, d: Plain) -> dict[str, Any]:
     }
     if f.where is not None:
         found["where"] = [kinds.interval_data(x, d) for x in f.where]
-    return {**found, "why": f.why} if f.why else found
+    return {**found, "why": str(f.why)} if f.why else found
 
 
 def lifted(inner: Kind) -> Kind:
@@ -79,12 +79,12 @@ def lifted(inner: Kind) -> Kind:
 
         assert inner.words is not None
         inner_words, plain = inner.words, Plain(colours=d.colours)
-        return d.prose(fact_text(f, d.parameter, lambda x: inner_words(x, plain)))
+        return d.reason(fact_reason(f, d.parameter, lambda x: inner_words(x, plain)))
 
     return Kind(FACT, lambda f, d: fact_data(f, inner, d), words)
 
 
-ANY = Kind(VALUE, words=lambda x, _: told_value(x))
+ANY = Kind(VALUE, words=lambda x, d: d.reason(Reason("{}", told_value(x))))
 WITNESS = kinds.record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
 
 
@@ -104,19 +104,17 @@ ORDER_PARTS = Section(
 )
 
 
-def _higher_text(o: EveryOrder, name: str) -> str:
+def _higher(o: EveryOrder, name: str) -> Reason:
     """For which values the order is higher."""
     higher = o.order + 1
     if o.dimension is not None and o.dimension < 0:
-        return f"no value has order {higher}"
+        return Reason(f"; no value has order {higher}")
     special = tuple(x for x in o.fact.special if x[1] is not None)
     if special:
-        text = fact_text(Fact(o.order, special), name, lambda x: f"order {x}")
-    elif o.fact.zeros:
-        text = "; order " + fact_text(Fact(o.order, zeros=o.fact.zeros), "").split("; ", 1)[1]
-    else:
-        return f"no real value of the file has order {higher}"
-    return text.split("; ", 1)[1]
+        return exceptions(Fact(o.order, special), name, lambda x: f"order {x}")
+    if o.fact.zeros:
+        return Reason(f"; order {higher} or more where {{}}", zeros_reason(o.fact.zeros))
+    return Reason(f"; no real value of the file has order {higher}")
 
 
 def _order_words(answer: Answer, d: Plain) -> str:
@@ -124,11 +122,10 @@ def _order_words(answer: Answer, d: Plain) -> str:
     o = answer.value
     if o.witness is None:
         return f"{d.known(str(o.order), Status(at_least=True))}: no further was looked"
-    higher = d.prose(_higher_text(o, d.parameter))
-    text = f"{o.order}; {d.failure(o.witness)}; {higher}"
+    text = f"{o.order}; {d.failure(o.witness)}{d.reason(_higher(o, d.parameter))}"
     if o.poles:
-        zero = " or ".join(f"{p} = 0" for p in o.poles[:MOST])
-        text += f"; none where a weight is zero: {d.prose(zero)}"
+        zero = joined(" or ", [Reason("{} = 0", Formula(p)) for p in o.poles[:MOST]])
+        text += f"; none where a weight is zero: {d.reason(zero)}"
     return text
 
 
@@ -211,7 +208,7 @@ VERDICTS = Kind(
     {"type": "object", "properties": dict.fromkeys(KEYS, FACT), "additionalProperties": False},
     lambda found, d: {key: fact_data(x, ANY, d) for key, x in found.items()},
     rows=lambda found, d: [
-        (key, d.prose(fact_text(x, d.parameter, told_value))) for key, x in found.items()
+        (key, d.reason(fact_reason(x, d.parameter, told_value))) for key, x in found.items()
     ],
 )
 EVERY = Section(
@@ -306,12 +303,12 @@ def _stability_rows(x: Any, d: Plain) -> list[tuple[str, str]]:
     """For which values each kind of stability holds, or what decides it."""
     rows = []
     for key, fact in x.facts.items():
-        text = fact_text(fact, d.parameter, told_value)
+        text = fact_reason(fact, d.parameter, told_value)
         if fact.is_undecided and not fact.differs:
-            text = f"for one parameter: --set, then gark design --{key}"
+            text = Reason(f"for one parameter: --set, then gark design --{key}")
             if x.family.has_one or key == "algebraically-stable":
-                text = f"not decided for every value: --set {d.parameter}=1/2"
-        rows.append((key, d.prose(text)))
+                text = Reason(f"not decided for every value: --set {d.parameter}=1/2")
+        rows.append((key, d.reason(text)))
     return [*rows, ("intervals, SSP", d.prose(f"numbers: --set {d.parameter}=1/2"))]
 
 

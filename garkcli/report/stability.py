@@ -323,10 +323,18 @@ def _zone(x: Any, d: Plain) -> str:
     return d.interval(x, "x") + end
 
 
+def discriminant(o: Any) -> Answer:
+    """4D² − N², and what that is."""
+    meaning = "tr M = N/D for a step M"
+    if o.determinant.is_one:
+        meaning += ", which is stable where this is positive"
+    return Answer(o.discriminant, reason=Reason(meaning))
+
+
 OSCILLATOR = [
     Row("trace", kinds.ratio("x"), level=DETAIL),
     Row("determinant", kinds.ratio("x"), level=DETAIL),
-    Row("discriminant", kinds.polynomial("x"), level=DETAIL),
+    Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
     Row("stable", STABLE, label="oscillator stable, x = (hω)²"),
     Row("p_stable", kinds.TRUTH, p_stable, has_null=True),
     Row("phase_order", PHASE, phase, has_null=True),
@@ -378,7 +386,8 @@ def _radii_words(found: Any, d: Plain) -> str:
         if r.radius is None:
             return "not decided: the nodes have no simple radicals"
         direction = ", ".join({0: "0", 1: "r"}.get(q, f"{q} r") for q in r.ratios)
-        texts.append(f"({direction}), {d.prose('r ≤')} {_radius_words(r.radius, d)}")
+        direction = d.formula(f"({direction})", f"({direction})")
+        texts.append(f"{direction}, {d.prose('r ≤')} {_radius_words(r.radius, d)}")
     return "; ".join(texts)
 
 
@@ -500,7 +509,11 @@ SPRINGS = Section(
             Row("slow", SQUARE, label="two springs, x = (hω_fast)²"),
             Row("trace", kinds.ratio("x"), level=DETAIL),
             Row("determinant", kinds.ratio("x"), level=DETAIL),
-            Row("factors", parts(FACTOR, _factors_words), lambda s: factors(s.discriminant)),
+            Row(
+                "factors",
+                parts(FACTOR, _factors_words),
+                lambda s: Answer(factors(s.discriminant), reason=Reason("tr M = N/D for a step M")),
+            ),
             Row("stable", STABLE),
         ],
     ),
@@ -552,13 +565,10 @@ def whole(found: Stability, name: str) -> StabilityReport:
 
 def formulas(found: Stability) -> Iterator[tuple[str, str]]:
     """Names and values in LaTeX of what decides stability."""
-    from garkcli.page.exactly import multivariate_latex, polynomial_latex
+    from garkcli.page.exactly import multivariate_latex, quotient_latex
 
     def quotient(x: Any, variable: str) -> str:
-        over, under = (
-            polynomial_latex(p, variable) for p in integral([x.numerator, x.denominator])
-        )
-        return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+        return quotient_latex(x.numerator, x.denominator, variable)
 
     if found.colours is not None and found.colours.R is not None:
         names = [f"z_{{{k + 1}}}" for k in range(found.colours.size)]

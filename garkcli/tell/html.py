@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from garkcli.exact.display import to_latex
-from garkcli.page.exactly import polynomial_latex
+from garkcli.exact.display import to_latex, to_text
+from garkcli.exact.polynomial_text import polynomial_text
+from garkcli.page.exactly import polynomial_latex, quotient_latex
 from garkcli.page.plain import printable
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, Plain
 from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
@@ -47,13 +48,21 @@ class Html(Plain):
         return f"<strong>{text}</strong>"
 
     def number(self, x: Any) -> str:
-        return self.formula(to_latex(x), "")
+        text = to_text(x)
+        return super().number(x) if len(text) > LONG else self.formula(to_latex(x), text)
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
-        return self.formula(polynomial_latex(p, variable), "")
+        text = polynomial_text(p, variable)
+        if len(text) > LONG_POLYNOMIAL:
+            return super().polynomial(p, variable)
+        return self.formula(polynomial_latex(p, variable), text)
+
+    def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
+        return self.formula(quotient_latex(p, q, variable), Plain().quotient(p, q, variable))
 
     def interval(self, x: Interval, variable: str) -> str:
-        return super().interval(x, variable).replace(" < ", " &lt; ")
+        found = super().interval(x, self.formula(variable, variable))
+        return found.replace(" < ", " &lt; ")
 
     def code(self, text: str) -> str:
         return f"<code>{self.prose(text)}</code>"

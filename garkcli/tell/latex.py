@@ -50,6 +50,16 @@ def expression_latex(text: str) -> str | None:
         return None
 
 
+def place_latex(place: Place, name: Callable[[str], str] = str) -> str:
+    """An entry of a block, the names of colours as ``name`` has them."""
+    base = {"â": r"\hat a", "Â": r"\hat A"}.get(place.letter, place.letter)
+    if place.colours:
+        base += rf"^{{({','.join(map(name, place.colours))})}}"
+    if place.indices:
+        base += f"_{{{','.join(str(i + 1) for i in place.indices)}}}"
+    return base
+
+
 class Latex(Plain):
     """LaTeX."""
 
@@ -94,12 +104,7 @@ class Latex(Plain):
         return super().root(root).replace("…", r"\dots") if text is None else self.expression(text)
 
     def place(self, place: Place) -> str:
-        base = {"â": r"\hat a", "Â": r"\hat A"}.get(place.letter, place.letter)
-        if place.colours:
-            base += rf"^{{({','.join(map(self.prose, place.colours))})}}"
-        if place.indices:
-            base += f"_{{{','.join(str(i + 1) for i in place.indices)}}}"
-        return f"${base}$"
+        return f"${place_latex(place, self.prose)}$"
 
     def tree(self, tree: Tree | str) -> str:
         found = parse_tree(tree) if isinstance(tree, str) else tree

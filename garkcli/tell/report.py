@@ -192,11 +192,12 @@ class Report(Frozen, Generic[Whole]):
         """A fragment of a page, for notebooks."""
         return self._told(whole, "html", Level.USUAL)
 
-    def labelled(self, whole: Whole, without: Collection[str] = ()) -> list[Labelled]:
+    def labelled(
+        self, whole: Whole, signs: type[Plain], without: Collection[str] = ()
+    ) -> list[Labelled]:
         """Titles of parts, each with labels and words, for pages with a look of their own."""
-        return list(
-            labelled(self.form(whole), whole, Plain(**self.signs(whole)), Level.DETAIL, without)
-        )
+        d = signs(**self.signs(whole))
+        return list(labelled(self.form(whole), whole, d, Level.DETAIL, without))
 
     def data(self, whole: Whole) -> dict[str, Any]:
         """A result as plain data."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from markupsafe import Markup
+
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
 from garkcli.frozen import Frozen
@@ -11,6 +13,7 @@ from garkcli.report.check import METHOD, verdict_words
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.outputs import cell, phrase, words
+from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.sections.orders import how
 
@@ -45,7 +48,7 @@ def heading(method: Reported) -> Heading:
         outcome.name,
         outcome.file,
         words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
-        _verdict(outcome),
+        Markup(_verdict(outcome)),
         _mark(outcome),
         method.description,
     )
@@ -65,10 +68,11 @@ def _verdict(outcome: Outcome) -> str:
 
 def _found(outcome: Outcome) -> str:
     """The order and whether the method is symplectic, as ``gark check`` tells it."""
-    d = REPORT.dialect(outcome, "text")
+    d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, ("order", "symplectic"))
     if outcome.every is not None:
-        return f"Order {cell(facts['order'], d)} of {', '.join(outcome.every.parameters)}."
+        parameters = ", ".join(map(d.expression, outcome.every.parameters))
+        return f"Order {cell(facts['order'], d)} of {parameters}."
     said, symplectic = phrase(facts["order"], d), phrase(facts["symplectic"], d)
     return f"{said[:1].upper()}{said[1:]}. {symplectic[:1].upper()}{symplectic[1:]}."
 
@@ -116,7 +120,7 @@ def comparison_row(method: Reported) -> dict[str, Any]:
         cells["how"] = how(facts["order"])
         cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
     if outcome.analysis is not None:
-        cells["symmetric"] = verdict_words(outcome.analysis.subject.verdict("symmetric"))
+        cells["symmetric"] = str(verdict_words(outcome.analysis.subject.verdict("symmetric")))
     mark = "none" if outcome.makes_no_claim else _mark(outcome)
     return {"title": outcome.name, "mark": mark, "cells": cells}
 

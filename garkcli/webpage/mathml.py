@@ -17,7 +17,10 @@ from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text
 from garkcli.page.latex import number
+from garkcli.reason import Place
 from garkcli.tableau.pointwise import Cell
+from garkcli.tell.html import Html
+from garkcli.tell.latex import place_latex
 from garkcli.trees.notation import condition_latex
 from garkcli.trees.tree import Tree
 
@@ -37,20 +40,59 @@ _LONGEST = 60
 _DIGITS = 8
 
 
+_IN_WORDS = {
+    "4D² − N²": r"4D^2-N^2", "A(α)": r"A(\alpha)", "B(r)": "B(r)", "C(η)": r"C(\eta)",
+    "D(ζ)": r"D(\zeta)", "R(z)": "R(z)", "R(∞)": r"R(\infty)", "cos α": r"\cos\alpha",
+    "|R(z)| ≤ 1": r"\lvert R(z)\rvert\le 1", "q̈ = −ω²q": r"\ddot{q}=-\omega^2q", "r ≤": r"r\le",
+    "|R(iy)| > 1": r"\lvert R(iy)\rvert\gt 1", "E(y²)": "E(y^2)", "x = y²": "x=y^2", "y²": "y^2",
+    "x = (hω)²": r"x=(h\omega)^2", "(hω)²": r"(h\omega)^2", "x = (hω_fast)²":
+    r"x=(h\omega_{\mathrm{fast}})^2", "(ωq)²": r"(\omega q)^2", "ωq p": r"\omega q\,p", "p²": "p^2",
+    "B A + Aᵀ B − b bᵀ": r"BA+A^TB-bb^T", "tr M = N/D": r"\operatorname{tr}M=N/D",
+    "|y|": r"\lvert y\rvert", "−z": "-z", "α": r"\alpha", "θ": r"\theta", "γ": r"\gamma",
+    "z ≤ 0": r"z\le 0", "y = 0": "y=0", "z = 0": "z=0",
+}  # fmt: skip
+"""Formulas in sentences of ours, as LaTeX."""
+_ANY_IN_WORDS = re.compile("|".join(map(re.escape, sorted(_IN_WORDS, key=len, reverse=True))))
+
+
+class Typeset(Html):
+    """The signs of the page: those of HTML, formulas as MathML."""
+
+    def prose(self, text: str) -> str:
+        parts = _ANY_IN_WORDS.split(text)
+        formulas = [str(typeset(_IN_WORDS[x], x)) for x in _ANY_IN_WORDS.findall(text)]
+        return "".join(
+            super(Typeset, self).prose(x) + y for x, y in zip(parts, [*formulas, ""], strict=True)
+        )
+
+    def formula(self, latex: str, text: str) -> str:
+        return str(typeset(latex, text))
+
+    def place(self, place: Place) -> str:
+        if not all(name.isalnum() for name in place.colours):
+            return super().place(place)
+        return self.formula(place_latex(place), str(place))
+
+
 @lru_cache(maxsize=_MOST_KEPT)
-def typeset(latex: str) -> Markup:
+def typeset(latex: str, text: str = "") -> Markup:
     r"""A formula within a line.
 
-    >>> print(typeset(r"\frac{1}{2}"))
-    <math><mfrac><mn>1</mn><mn>2</mn></mfrac></math>
+    Args:
+        latex: what is seen.
+        text: what is read in its place where formulas are not, and copied.
+
+    >>> print(typeset(r"\frac{1}{2}", "1/2"))
+    <math alttext="1/2"><mfrac><mn>1</mn><mn>2</mn></mfrac></math>
     """
     if set(latex) & _MARKUP:  # which the converter would hand through
         return Markup("<math><mtext>{}</mtext></math>").format(latex)
-    text = convert(_ONES.sub(_DOUBLE_ONE, latex))
-    text = _OPENING.sub("<math>", text, count=1)
-    text = text.replace("<math><mrow>", "<math>", 1)
-    text = text.removesuffix("</mrow></math>") + "</math>"
-    return Markup(_NEEDLESS.sub(r"\1", text))
+    found = convert(_ONES.sub(_DOUBLE_ONE, latex))
+    found = _OPENING.sub("", found, count=1).removeprefix("<mrow>").removesuffix("</mrow></math>")
+    inside = Markup(_NEEDLESS.sub(r"\1", found))
+    if not text:
+        return Markup("<math>{}</math>").format(inside)
+    return Markup('<math alttext="{}">{}</math>').format(text, inside)
 
 
 def typeset_condition(tree: Tree, has_colours: bool) -> Markup:
@@ -62,12 +104,13 @@ def typeset_cell(cell: Cell, digits: int) -> Markup:
     """An entry of a tableau: exact, or as a decimal of so many digits."""
     if isinstance(cell, arb):
         return typeset(number(cell_text(cell, digits)))
-    return typeset(to_latex(cell))
+    return typeset(to_latex(cell), to_text(cell))
 
 
 def typeset_number(value: Number | Parametric) -> Markup:
     """A weight or a residual: exact where it is short, else about how large it is."""
-    if isinstance(value, Parametric) or len(to_text(value)) <= _LONGEST:
-        return typeset(to_latex(value))
+    text = str(value) if isinstance(value, Parametric) else to_text(value)
+    if isinstance(value, Parametric) or len(text) <= _LONGEST:
+        return typeset(to_latex(value), text)
     about = number(to_decimal(value, _DIGITS))
     return typeset(rf"\approx {about}")

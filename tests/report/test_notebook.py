@@ -185,7 +185,7 @@ def test_a_file_with_free_parameters_says_what_holds_for_all(tmp_path: Path) -> 
     html = found._repr_html_()
     answer = sentences(html)[0]
     assert f"{path}, every value of t: order 1; order 2 fails at [[]] by " in answer
-    assert answer.endswith("; order 2 where t = 1")
+    assert answer.endswith(r"; order 2 where \(t\) = \(1\)")
     rows = {row[0]: row[1] for row in cells(html)}
     assert rows["CLAIM FAILS"].startswith("order: expected 1, found 1; 2 where t = 1")
     assert rows["symplectic"] == "no"

@@ -33,8 +33,18 @@ def elements(root: Element, *names: str) -> Iterator[Element]:
 
 
 def text_of(element: Element) -> str:
-    """What is read, in one line."""
-    return " ".join("".join(element.itertext()).split())
+    """What is read, in one line; of a formula what stands for it where there is such."""
+    return " ".join("".join(_texts(element)).split())
+
+
+def _texts(element: Element) -> Iterator[str]:
+    if (instead := element.get("alttext")) is not None:
+        yield instead
+        return
+    yield element.text or ""
+    for part in element:
+        yield from _texts(part)
+        yield part.tail or ""
 
 
 def by_id(root: Element, place: str) -> Element:

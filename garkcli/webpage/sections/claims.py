@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
+from markupsafe import Markup
+
 from garkcli.check.findings import claim_hint, claim_witness
 from garkcli.check.outcome import Claim, Outcome
+from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
+
+_FORMULA = re.compile(r"sqrt|/")
 
 
 def _content(method: Reported) -> Content | None:
@@ -15,11 +22,23 @@ def _content(method: Reported) -> Content | None:
 
 def _shown(outcome: Outcome, claim: Claim) -> Content:
     """A claim; of one that fails, what speaks against it and what would mend it."""
-    why = hint = ""
-    if not claim.holds:
-        why = str(claim_witness(outcome, claim.claim))
-        hint = str(claim_hint(outcome, claim.claim))
-    return {"claim": claim, "why": why, "hint": hint}
+    told = (
+        []
+        if claim.holds
+        else [claim_witness(outcome, claim.claim), claim_hint(outcome, claim.claim)]
+    )
+    d = Typeset()
+    return {
+        "claim": claim,
+        "why": Markup("; ".join(d.reason(x) for x in told if x)),
+        "expected": Markup(_value(claim.expected, d)),
+        "found": Markup(_value(claim.found, d)),
+    }
+
+
+def _value(text: str, d: Typeset) -> str:
+    """A value as it is claimed; what has a root or a fraction is a formula."""
+    return d.expression(text) if _FORMULA.search(text) else d.prose(text)
 
 
 SECTION = Section("claims", "Claims", _content)

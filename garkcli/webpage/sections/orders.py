@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from markupsafe import Markup
+
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
@@ -13,7 +15,7 @@ from garkcli.report.checked import REPORT
 from garkcli.tell.facts import Fact, Level
 from garkcli.tell.outputs import cell, label, words
 from garkcli.trees.notation import format_tree
-from garkcli.webpage.mathml import typeset_condition, typeset_number
+from garkcli.webpage.mathml import Typeset, typeset, typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.tree_picture import tree_picture
@@ -57,14 +59,14 @@ def _content(method: Reported) -> Content | None:
     left_behind = " and ".join(outcome.left_behind)
     return {
         "orders": list(_orders(outcome)),
-        "hints": list(map(str, told)),
+        "hints": [Markup(Typeset().reason(x)) for x in told],
         "left_behind": left_behind,
     }
 
 
 def _orders(outcome: Outcome) -> Iterator[Shown]:
     """Every order that there is, in the order of ``gark check``."""
-    d = REPORT.dialect(outcome, "text")
+    d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, {*ORDERS, *NOTES.values()})
     met: set[tuple[str, str]] = set()
     for key, fact in facts.items():
@@ -74,16 +76,18 @@ def _orders(outcome: Outcome) -> Iterator[Shown]:
         if is_with_time and fact.level > Level.USUAL:
             continue
         note = facts.get(NOTES.get(key, ""))
-        notes = [] if note is None else [f"{label(note, d)}: {words(note, d)}."]
+        notes = [] if note is None else [Markup(f"{label(note, d)}: {words(note, d)}.")]
         if is_with_time:
-            notes.append("On y' = f(t, y) with the nodes as printed; the last colour is time.")
+            problem = typeset("y'=f(t,y)", "y' = f(t, y)")
+            text = Markup("On {} with the nodes as printed; the last colour is time.")
+            notes.append(text.format(problem))
         witness = fact.answer.more or getattr(fact.value, "witness", None)
         has_colours = len(d.colours) > 1 or key == "pair_order" or is_with_time
         shown = None if witness is None else _witness(witness, has_colours)
         where = ("", "") if witness is None else (str(witness.tree), str(witness.residual))
-        number = "none" if fact.value is None else cell(fact, d)
-        text = words(fact, d)
-        yield Shown(label(fact, d), number, how(fact), text, shown, tuple(notes), where in met)
+        number = Markup("none" if fact.value is None else cell(fact, d))
+        name, text = Markup(label(fact, d)), Markup(words(fact, d))
+        yield Shown(name, number, how(fact), text, shown, tuple(notes), where in met)
         met |= {where} - {("", "")}
 
 

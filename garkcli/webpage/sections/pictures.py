@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
+from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.pictures import Picture, compared_pictures, pictures
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
@@ -29,7 +30,8 @@ def of_several(methods: Sequence[Reported]) -> list[Content]:
 
 def _shown(picture: Picture) -> Content:
     """A picture, whose SVG is made of numbers and of text that is escaped there."""
-    return {"about": picture, "svg": Markup(picture.svg)}
+    note = Markup(Typeset().prose(picture.note))
+    return {"about": picture, "svg": Markup(picture.svg), "note": note}
 
 
 SECTION = Section("pictures", "Pictures", _content)

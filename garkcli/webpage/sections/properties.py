@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from garkcli.check.every_facts import fact_text, told
+from markupsafe import Markup
+
+from garkcli.check.every_facts import fact_reason
 from garkcli.check.outcome import Outcome
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS, every_property
 from garkcli.report.check import CHECKED, verdict_words
 from garkcli.report.checked import REPORT
 from garkcli.tell.outputs import label, words
+from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -28,22 +31,25 @@ def _content(method: Reported) -> Content | None:
     }
 
 
-def _lines(outcome: Outcome) -> list[tuple[str, str]]:
+def _lines(outcome: Outcome) -> list[tuple[Markup, Markup]]:
     """What the method is like, in lines of ``gark check``."""
-    d = REPORT.dialect(outcome, "text")
+    d = Typeset(**REPORT.signs(outcome))
     facts = CHECKED.named(outcome, ("symplectic", "consistent", "method", "by_colour"))
-    return [(label(x, d), words(x, d)) for x in facts.values() if x.is_something]
+    found = [x for x in facts.values() if x.is_something]
+    return [(Markup(label(x, d)), Markup(words(x, d))) for x in found]
 
 
 def _verdict(outcome: Outcome, key: str) -> Content:
     """A property, what is true of it, and why."""
+    d = Typeset()
     if outcome.analysis is None:
         assert outcome.every is not None
-        text = fact_text(outcome.every.verdict(key), outcome.every.parameters[0], told)
-        return {"key": key, "text": text, "why": "", "mark": "value"}
+        fact = fact_reason(outcome.every.verdict(key), outcome.every.parameters[0])
+        return {"key": key, "text": Markup(fact.words(d)), "why": "", "mark": "value"}
     verdict = outcome.analysis.subject.verdict(key)
-    why = "" if verdict.value is True else verdict.why
-    return {"key": key, "text": verdict_words(verdict), "why": why, "mark": _mark(verdict)}
+    text = Markup(verdict_words(verdict).words(d))
+    why = Markup("" if verdict.value is True else d.reason(verdict.reason))
+    return {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
 
 
 def _mark(verdict: Verdict) -> str:

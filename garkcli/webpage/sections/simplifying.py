@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from markupsafe import Markup
+
 from garkcli.check.every_facts import Fact
 from garkcli.check.findings import BOUND, SHARP_BOUND
 from garkcli.order.simplifying import Simplifying
+from garkcli.webpage.mathml import typeset
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
+_GREEK = {"η": r"\eta ", "ζ": r"\zeta ", "ξ": r"\xi ", "χ": r"\chi "}
 _LEVELS = 6
 """Shades of the grid; larger numbers have the last one."""
 
@@ -29,10 +33,14 @@ def _content(method: Reported) -> Content | None:
         "B": _cells(found.B, found.limit),
         "C": [_cells(row, found.limit) for row in found.C],
         "D": [_cells(row, found.limit) for row in found.D],
+        "captions": {
+            letter: typeset(latex, letter)
+            for letter, latex in {"B": "B(r)", "C": r"C(\eta)", "D": r"D(\zeta)"}.items()
+        },
         "numbers": _numbers(found),
         "bounds": [
-            ("bound", found.bound, BOUND, told.bound),
-            ("sharper bound", found.sharp_bound, SHARP_BOUND, told.sharp_bound),
+            ("bound", found.bound, _formula(BOUND), told.bound),
+            ("sharper bound", found.sharp_bound, _formula(SHARP_BOUND), told.sharp_bound),
         ],
         "every": method.outcome.every,
     }
@@ -50,13 +58,22 @@ def _cells(numbers: Sequence[int | None], limit: int) -> list[tuple[str, int | N
     return found
 
 
-def _numbers(found: Simplifying) -> list[tuple[str, str]]:
+def _formula(text: str) -> Markup:
+    """A bound, typeset."""
+    latex = text.replace("min{", r"\min\{").replace("}", r"\}")
+    for letter, name in _GREEK.items():
+        latex = latex.replace(letter, name)
+    return typeset(latex, text)
+
+
+def _numbers(found: Simplifying) -> list[Markup]:
     """What the bounds are made of; those that reached the limit may be larger."""
     numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
-    return [
-        (name, f"at least {number}" if found.is_open(number) else str(number))
-        for name, number in numbers.items()
-    ]
+    shown = []
+    for name, number in numbers.items():
+        sign, latex = ("≥", r"\ge ") if found.is_open(number) else ("=", "=")
+        shown.append(typeset(f"{_GREEK.get(name, name)}{latex}{number}", f"{name} {sign} {number}"))
+    return shown
 
 
 SECTION = Section("simplifying", "Simplifying assumptions", _content)

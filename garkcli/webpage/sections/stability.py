@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from markupsafe import Markup
+
 from garkcli.api.calls import find_stability
 from garkcli.exact.display import decimal
 from garkcli.report.stability import REPORT, StabilityReport, formulas
-from garkcli.webpage.mathml import typeset
+from garkcli.webpage.mathml import Typeset, typeset
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -25,7 +27,12 @@ def _content(method: Reported) -> Content | None:
     found = find_stability(method.method)
     return {
         "formulas": [typeset(f"{x} = {y}") for x, y in formulas(found) if len(y) <= _LONGEST],
-        "parts": REPORT.labelled(StabilityReport("", "", found), without=_TYPESET),
+        "parts": [
+            (Markup(title), [(Markup(x), Markup(y)) for x, y in facts])
+            for title, facts in REPORT.labelled(
+                StabilityReport("", "", found), Typeset, without=_TYPESET
+            )
+        ],
         "near": method.tolerance and decimal(method.tolerance),
         "file": file,
     }
