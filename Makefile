@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback catalogue figures docs browser links man walk floors format clean
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback catalogue figures docs paper browser links man walk floors format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -79,6 +79,11 @@ figures: $(READY) ## draw the figures of the documentation anew
 docs: $(READY) ## the documentation as a site, in build/docs; a warning, such as a link to nowhere, fails
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
 	$(BIN)/python -m sphinx -q --fail-on-warning --keep-going docs build/docs
+
+paper: ## the article in paper/ as build/paper.html, where pandoc is installed
+	@command -v pandoc > /dev/null || { echo "make paper needs pandoc, which is not installed" >&2; exit 1; }
+	mkdir -p build
+	pandoc paper/paper.md --bibliography paper/paper.bib --citeproc --mathml --standalone --output build/paper.html
 
 links: $(READY) ## the links of the documentation to other sites, asked for; needs a network
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
