@@ -31,6 +31,28 @@ OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
 """Those that say all of an argument: it stands in the signature alone."""
 SAID = {"the rounding of the coefficients", "what errors call it.", "of the file."}
 """What the head of the page says of ``tolerance``, ``source`` and ``text``."""
+COMMON = {
+    "limit": "the order at which a search stops",
+    "h": "the step size",
+    "step": "the step size",
+    "steps": "step sizes that divide `t_end`, the largest first",
+    "count": "how many steps",
+    "t_end": "the final time, a whole number of steps",
+    "initial": "the start, shape (2d,) for (q, p) or (d,) for y",
+    "integrator": "`bind(method, problem)`, or that `.at(digits)`",
+    "stiffness": "the parameter `stiffness` of a stiff problem",
+    "terms": "one for each colour of a method",
+    "seconds": "when to give up",
+    "deadline": "the reading of `time.monotonic` at which to give up",
+    "max_order": "the order of the largest trees",
+    "seed": "of what is random",
+    "whose": '`"method"`, `"conjugate"` or `"pair"`',
+    "fast": "the colour of the fast spring, from 1",
+    "slow": "(hω_s)² of the slow spring, or an interval of it",
+    "up_to": "a bound on (hω_f)²",
+    "keys": "claims, or one of them",
+}
+"""Arguments of several functions, which the page tells once."""
 VALUES = (
     "order.certificate:Order",
     "order.certificate:Witness",
@@ -220,9 +242,9 @@ def told(name: str, thing: Any) -> list[tuple[str, str]]:
         entries += [member(x, value) for x, value in members(thing)]
         return [(x, linked(brief(text).partition("; ")[0], name)) for x, text in entries]
     entries = [
-        (f"{x}: {type_of(x, thing)}", _DEFAULT.sub("", brief(text)))
+        (f"{x}: {type_of(x, thing)}", _DEFAULT.sub("", brief(text)).partition("; ")[0])
         for x, text in items(doc.sections.get("Args", ""))
-        if type_of(x, thing) not in OWN
+        if type_of(x, thing) not in OWN and x not in COMMON
     ]
     return [(x, linked(text, name)) for x, text in entries if text not in SAID]
 
@@ -239,15 +261,27 @@ def described(name: str, thing: Any) -> str:
     if not is_value or is_made(thing):
         parts.append(f"`{signature(name, thing)}`")
     general = more_general(thing) if is_value else ""
-    returns = f" Returns: {brief(doc.sections['Returns'])}" if "Returns" in doc.sections else ""
-    parts.append(linked(brief(doc.prose) + returns, name) + general)
+    parts.append(linked(brief(doc.prose) + answer(thing, doc), name) + general)
     own = told(name, thing)
-    if own:
+    if own and is_value:
+        parts.append(f"Has {', '.join(f'`{x}`' for x, _ in own)}.")
+    elif own:
         parts.append("\n".join(f"* `{x}`: {text.rstrip('.')}" for x, text in own))
     if "Raises" in doc.sections:
         names = (linked(f"``{x}``", name) for x, _ in items(doc.sections["Raises"]))
         parts.append(f"Raises {', '.join(names)}.")
     return "\n\n".join(parts)
+
+
+def answer(thing: Any, doc: Docstring) -> str:
+    """What a call returns; empty where its type has a place on the page, which says it."""
+    sections = {*garkcli.__all__, *(x.partition(":")[2] for x in VALUES)}
+    if (
+        "Returns" not in doc.sections
+        or {*re.findall(r"\w+", str(inspect.signature(thing).return_annotation))} & sections
+    ):
+        return ""
+    return f" Returns: {brief(doc.sections['Returns']).partition('; ')[0].rstrip('.')}."
 
 
 def value_row(name: str, kind: type) -> tuple[str, str, str]:
@@ -309,6 +343,8 @@ def page() -> str:
     """All of it, below the head that a person wrote."""
     parts = ["## Types of arguments\n"]
     parts += [f"* `{name}`: {type_text(name, place)}" for name, place in TYPES.items()]
+    parts.append("\n## Arguments of several functions\n")
+    parts += [f"* `{name}`: {text}" for name, text in COMMON.items()]
     shown: set[str] = set()
     for head, names in groups():
         things = {name: getattr(garkcli, name) for name in names if name not in shown}

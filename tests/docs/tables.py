@@ -26,7 +26,7 @@ def codes_page() -> str:
 
 
 def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
-    rows = [(f"`{x.code}`", cell(x.text), cell(x.cure)) for x in kinds]
+    rows = [(f"`{x.code}`", cell(_phrase(x.text)), cell(_phrase(x.cure))) for x in kinds]
     return table(("code", "what it means", "what to do"), rows)
 
 
@@ -54,8 +54,13 @@ def terms_tables() -> str:
 
 def _term_row(term: Term) -> tuple[str, str, str]:
     also = f"; {', '.join(term.labels)}" if term.labels else ""
-    text = f"{_first_sentence(term.text)} {term.formula}".rstrip()
+    is_short = len(term.formula.split()) <= _LONGEST_FORMULA
+    text = f"{_phrase(term.text)}: {term.formula if is_short else ''}".rstrip(": ")
     return f"**{cell(term.name)}**{cell(also)}", cell(text), _short_source(term.source)
+
+
+_LONGEST_FORMULA = 9
+"""In words; ``gark explain`` shows longer ones."""
 
 
 def _short_source(source: str) -> str:
@@ -66,7 +71,7 @@ def _short_source(source: str) -> str:
     """
     for work, short in _WORKS.items():
         source = re.sub(work, short, source)
-    return source
+    return source.partition("; ")[0]
 
 
 def _first_sentence(text: str) -> str:
@@ -77,7 +82,7 @@ def claims_tables() -> str:
     """What each claim means, in a sentence, a table for each kind of values."""
     rows: dict[str, list[tuple[str, str, str]]] = {}
     for claim in every_definition():
-        text = _first_sentence(claim.text) + (f" For {claim.meaning}." if claim.meaning else "")
+        text = _phrase(claim.text, ":") + (f"; for {claim.meaning}" if claim.meaning else "")
         row = (f"`{claim.key}`", cell(text), _short_source(claim.source))
         rows.setdefault(claim.values, []).append(row)
     heads = ("claim", "what it means", "source")
@@ -89,19 +94,31 @@ def keys_table(kind: str) -> str:
     """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
     paths: dict[str, list[str]] = {}
     for key in keys_of(kind).values():
-        paths.setdefault(_said(key), []).append(f"`{key.path}`")
+        paths.setdefault(_said(key, ";" if kind == "method" else ""), []).append(f"`{key.path}`")
     return table(("key", "what it is"), ((", ".join(x), cell(text)) for text, x in paths.items()))
 
 
-def _said(key: Key) -> str:
+def _said(key: Key, end: str) -> str:
     """What a key is, and what holds without it."""
-    text = _phrase(_first_sentence(key.text), "")
+    parent, _, name = key.path.rpartition(".")
+    for of, names, said in _ALIKE:
+        if re.fullmatch(of, parent) and (not names or name in names):
+            return said
+    text = _phrase(_first_sentence(key.text), end)
     if key.default is None:
         return text
     default = str(key.default)
     if isinstance(key.default, bool):
         default = default.lower()
     return f"{text}; by default {default}"
+
+
+_ALIKE = (
+    ("reference", (), "Fields of the publication; `title` is needed"),
+    ("design", [x.key for x in every_definition()], "Wanted: what the claim of the name says"),
+    ("methods", ("name", *"Abc", "embedded", "dense"), "As the key of the same name outside"),
+)
+"""Keys that one row tells together: below which key, which ones, or all of them, and the text."""
 
 
 def findings_table(command: str) -> str:
@@ -192,6 +209,8 @@ def _fields_table() -> str:
                 meanings.setdefault(path[-1], {}).setdefault(meaning, {})[report] = None
     rows = [(f"`…{ending}`", _phrase(text)) for ending, text in _ENDINGS.items()]
     for name, found in sorted(meanings.items()):
+        if name in _PLAIN and len(found) == 1:
+            continue
         (first, words), *others = sorted(found, key=lambda x: -len(found[x]))
         parts = [f"{first}: {words}" if words else first]
         for text, words in others:
@@ -202,10 +221,40 @@ def _fields_table() -> str:
     return table(("field", "what it holds"), rows)
 
 
+_PLAIN = set(
+    re.findall(
+        r"\w+",
+        """
+    agrees aliases best bibtex blew_up blocks by_colour by_order by_root claim claims classes
+    classical_order coefficient column columns compared condition conjugate conjugate_consistent
+    conjugate_witness cosine cure declared_embedded declared_order default degree degrees
+    denominator description determinant determinant_minus_1 difference differences
+    dimension_before drift_uncertainty embedded_nonautonomous_witness embedded_witness
+    energy_error energy_order entries error_constants error_estimate errors evaluations
+    every_property example expected explicit factors failed failing families field file files
+    findings first_only folder format formulas from from_included function functions genuine
+    h_exact holds implicit in_every in_none inconsistent_blocks initial interrupted
+    invariant_errors jacobians kept largest leading_term line linear lowest_terms max_error
+    max_order max_power meanings members message methods minimisers modulus
+    newton_iterations nonautonomous_witness not_claimed notes numerator observed_order old omega
+    orders pair pair_witness parameter parameters pareto point power predicted_order problem
+    problems properties property proved publication quantities reads_back reference references
+    repairs required results right_hand_sides round_off rounded_coefficients row rows same_as
+    schema schemes second_only seconds seed shapes slope slope_at_end slope_at_start solutions
+    spaces spec splittings ssp ssp_radii stability stages_by_colour start starts step step_exact
+    steps stiffness suffix symplectic_order t t_end t_end_exact tableau tables terms title to
+    to_included trees two_norm two_norm_squared uncertainty unknown unknowns unread upto version
+    visible_order wanted witness word worst worst_value written written_by wrong
+    """,
+    )
+)
+"""Fields whose names say enough beside the outline."""
+
+
 def _phrase(text: str, end: str = ";") -> str:
     """The first sentence, or what stands before ``end`` in it, without article and stop."""
     first = re.split(rf"(?<=[.{end}]) ", text)[0]
-    phrase = first.rstrip(".;").removeprefix("The ")
+    phrase = first.rstrip(".;:").removeprefix("The ")
     return phrase[0].upper() + phrase[1:]
 
 

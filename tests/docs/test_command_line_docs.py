@@ -7,7 +7,6 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from textwrap import dedent
 
 import click
 from click.testing import CliRunner
@@ -21,7 +20,6 @@ MARK = "<!-- reference -->\n"
 MOST = 2
 """An option of more commands than these is told once."""
 OF_ALL = {"-o", "-q", "-v", "--color", "-h"}
-KEPT = "\b"
 
 
 def reference() -> str:
@@ -73,14 +71,8 @@ def _options(records: list[tuple[str, str]]) -> str:
 
 
 def _help(found: click.Command) -> str:
-    """The paragraphs of a help, but for exit codes, which have a table; kept lines as code."""
-    paragraphs = []
-    for text in re.split(r"\n\s*\n", (found.help or "").strip()):
-        if text.startswith(KEPT):
-            paragraphs.append(f"```text\n{dedent(text.removeprefix(KEPT).strip(chr(10)))}\n```")
-        elif not text.startswith("Exit code"):
-            paragraphs.append(cell(" ".join(text.split())))
-    return "\n\n".join(paragraphs)
+    """The first paragraph of a help; ``--help`` shows all of it."""
+    return cell(" ".join(re.split(r"\n\s*\n", (found.help or "").strip())[0].split()))
 
 
 def test_reference_is_the_help() -> None:
