@@ -148,8 +148,8 @@ def _missed(tableau: Tableau) -> Reason:
 @claimed("J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980)", meaning=SEES_ALL)
 def fsal(subject: Subject) -> Verdict:
     """The first stage value is the old value and the last one the new value (first same as last):
-    its row is zero, and the row of the last the weights, for all vector fields, in each method. The last evaluations
-    of a step are the first ones of the next.
+    its row is zero, and the row of the last the weights, for all vector fields, in each method.
+    The last evaluations of a step are the first ones of the next.
     """
     tableau = subject.tableau
     if not subject.is_complete:
