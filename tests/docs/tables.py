@@ -26,7 +26,7 @@ def codes_page() -> str:
 
 
 def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
-    rows = [(f"`{x.code}`", cell(_phrase(x.text)), cell(_phrase(x.cure))) for x in kinds]
+    rows = [(f"`{x.code}`", cell(_phrase(x.text, ";:")), cell(_phrase(x.cure))) for x in kinds]
     return table(("code", "what it means", "what to do"), rows)
 
 
@@ -137,10 +137,12 @@ def _outlines() -> str:
     for report in REPORTS:
         alike.setdefault(_nested(report_schema(report), {}), []).append(report)
     written: dict[str, str] = {}
-    parts = [
-        f"### {', '.join(reports)}\n\n{_nested(report_schema(reports[0]), written)}\n"
-        for reports in alike.values()
-    ]
+    parts, before = [], ("", "")
+    for first, *others in alike.values():
+        text = _nested(report_schema(first), written)
+        told = text.replace(*before) if len(before[0]) > _LONG else text
+        parts.append(f"### {', '.join((first, *others))}\n\n{told}\n")
+        before = text.removeprefix("* "), f"{{as {first}}}"
     return "\n".join(parts)
 
 

@@ -63,11 +63,16 @@ def _options(records: list[tuple[str, str]]) -> str:
         if choices and default:
             words = [f"{x} (default)" if x == default[1] else x for x in words]
             text = text.removesuffix(default[0])
+        text = _RANGE.sub("", text)
         told = f"{text} One of {', '.join(words)}." if choices and text else text
         rows.append((f"`{flags}`", cell(" ".join((told or ", ".join(words)).split()))))
     if properties:
         rows.append((", ".join(properties), "The [property](properties.md); `--no-…` without it."))
     return table(("option", "what it does"), rows)
+
+
+_RANGE = re.compile(r" *\[[\d.<>=x]+\]$|; [\d.<>=x]+(?=\]$)")
+"""Ranges of numbers, which ``--help`` shows."""
 
 
 def _help(found: click.Command) -> str:
