@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.elsewhere import declared_orders, order_of
-from garkcli.bridges.importing import orders_of, read
+from garkcli.bridges.importing import orders_of, read, with_sign
 from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
+from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.findings import repair_text, witness_text
@@ -124,10 +125,12 @@ def audited(paths: Iterable[str]) -> Iterator[Audited]:
 def _audited(path: str, orders: Mapping[str, int]) -> list[Audited]:
     """The tables of one source."""
     text, source = source_text(path)
-    judged = []
+    judged, lines = [], text.split("\n")
     for table in find_tables(text, source, readers_for(path)):
-        declared = None if table.order or table.kind else order_of(table, orders)
-        judged.append(audit(table if declared is None else replace(table, order=declared)))
+        if not (table.order or table.kind):
+            said = order_said_of(lines, table.line)
+            table = replace(table, order=order_of(table, orders), said_order=said)
+        judged.append(audit(table))
     return [found for found in judged if found is not None]
 
 
@@ -149,6 +152,7 @@ def audit(table: FoundTable) -> Audited | None:
     if table.trouble:
         return Audited(table, findings=(_of_trouble(table),))
     try:
+        table = with_sign(table)
         method = read(table)
     except MethodFileError as error:
         message = error.faults[0].message
@@ -191,7 +195,9 @@ def _is_explained(code: str, subject: Subject) -> bool:
         return not subject.misprinted_rows
     tableau, method, table = subject.tableau, subject.method, subject.table
     wanted = min(table.order or 1, HIGH)
-    if code.startswith("embedded"):
+    if code == "said":
+        wanted = table.said_order or 1
+    elif code.startswith("embedded"):
         tableau = with_weights(tableau, method.embedded or ())
         wanted = table.embedded_order or 1 if code == "embedded-order" else 1
     rounded = subject.digits.careless(tableau)
@@ -227,6 +233,16 @@ def _order(subject: Subject) -> Iterator[AuditFinding]:
     elif found.order > declared:
         message = f"order {found.order}, declared {declared}"
         yield AuditFinding("order-higher", message, level="warning")
+
+
+def _said(subject: Subject) -> Iterator[AuditFinding]:
+    """The order that words say against the true one: they may speak of something else."""
+    said, found = subject.table.said_order, subject.order
+    if subject.table.order or not said or found.is_limited or found.is_open:
+        return
+    if found.order < said <= HIGH and not _is_explained("said", subject):
+        message = f"order {found.order}, a comment or docstring says {said}"
+        yield AuditFinding("order", message + _witness(found, subject.tableau), level="warning")
 
 
 def _open(found: Judged, declared: int, what: str) -> AuditFinding:
@@ -395,5 +411,5 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
 
 
 _Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
-CHECKS: tuple[_Check, ...] = (_order, _weights, _nodes, _embedded, _flags)
+CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _flags)
 """What is looked at, in the order in which it is told."""

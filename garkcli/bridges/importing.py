@@ -15,7 +15,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import Literal
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import FEWEST_DIGITS
@@ -66,6 +66,7 @@ def imported(table: FoundTable, name: str) -> Imported:
     Raises:
         MethodFileError: its numbers make no method.
     """
+    table = with_sign(table)
     method = read(table, name)
     order, embedded_order = orders_of(method, table)
     tolerance = _tolerance(table, (order, embedded_order))
@@ -82,6 +83,26 @@ def read(table: FoundTable, name: str = "") -> MethodFile:
         MethodFileError: its numbers make no method.
     """
     return loads(written(table, name, None, {}), place_of(table))
+
+
+def with_sign(table: FoundTable) -> FoundTable:
+    """The table with the embedded weights that an error estimate means, b − E or b + E: those of
+    the declared order, else those of the higher order. The other ones have the lower order of two.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    if table.turned is None:
+        return table
+    declared = table.embedded_order
+
+    def fit(way: FoundTable) -> tuple[bool, int]:
+        _, embedded = orders_of(read(way), way)
+        order = embedded.order if embedded else 0
+        return order == declared, order
+
+    ways = [replace(table, embedded=x, turned=None) for x in (table.embedded, table.turned)]
+    return max(ways, key=fit)
 
 
 def orders_of(

@@ -362,13 +362,14 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         )
         roles = {role: x for role, x in roles.items() if form != "Shu–Osher" or role != "c"}
     c = _nodes(roles, A)
-    A, b, c, embedded = _embedded(roles, A, b, c, meant)
+    A, b, c, embedded, turned = _embedded(roles, A, b, c, meant)
     return replace(
         empty,
         A=((A,),),
         b=(b,),
         c=(c,),
         embedded=None if embedded is None else (embedded,),
+        turned=None if turned is None else (turned,),
         dense=_dense(roles, len(b)),
     )
 
@@ -498,11 +499,11 @@ def _near(value: Value) -> float:
 
 def _embedded(
     roles: Roles, A: Rows, b: Row, c: Row | None, meant: Meant
-) -> tuple[Rows, Row, Row | None, Row | None]:
-    """Embedded weights, or what they are with b an error of; one weight more is that of f at the
-    end of the step.
+) -> tuple[Rows, Row, Row | None, Row | None, Row | None]:
+    """Embedded weights, or what they are with b an error of, by either sign; one weight more is
+    that of f at the end of the step.
     """
-    none = A, b, c, None
+    none = A, b, c, None, None
     role = next((x for x in ("embedded", "error") if isinstance(roles.get(x), Array)), "")
     if not role or first_unknown(roles[role]) is not None:
         return none
@@ -528,12 +529,14 @@ def _embedded(
             raise Misshapen(f"{role} has {len(row)} entries, b has {len(b)}")
         return none
     if is_error and all(map(is_zero, row)):
-        return A, b, c, None
+        return A, b, c, None, None
     if not is_error:
-        return A, b, c, row
-    # E is b̂ − b in the classes of SciPy; the other sign, which others have, changes no order
-    sign = "+" if any("RungeKutta" in x for x in meant.bases) else "-"
-    return A, b, c, changed(sign, b, row)
+        return A, b, c, row, None
+    low, high = changed("-", b, row), changed("+", b, row)
+    if any("RungeKutta" in x for x in meant.bases):
+        # E is b̂ − b in the classes of SciPy
+        return A, b, c, high, None
+    return A, b, c, low, high
 
 
 def _dense(roles: Roles, stages: int) -> tuple[Rows, ...] | None:

@@ -60,8 +60,11 @@ class FoundTable(Frozen):
         b: the weights of each colour.
         c: the nodes of each row of blocks, None where the source has none.
         embedded: the weights of the embedded method, a row per colour.
+        turned: these weights if their differences from ``b`` have the other sign; None where the
+            source fixes the sign.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         order: the order that the source declares.
+        said_order: the order that words beside the table say; None where an order is declared.
         embedded_order: the order of the embedded weights that the source declares.
         flags: properties that the source declares, by their names in method files.
         parts: ``("q", "p")`` of a partitioned method; empty otherwise.
@@ -85,8 +88,10 @@ class FoundTable(Frozen):
     b: Rows
     c: tuple[Row | None, ...] = (None,)
     embedded: Rows | None = None
+    turned: Rows | None = None
     dense: tuple[Rows, ...] | None = None
     order: int | None = None
+    said_order: int | None = None
     embedded_order: int | None = None
     flags: Mapping[str, bool] = field(default_factory=dict)
     parts: tuple[str, ...] = ()

@@ -116,7 +116,8 @@ SIGNATURES: Mapping[str, Signature] = {
 """What is known of the calls that make tables, by name."""
 OTHER_KINDS = (
     (re.compile(r"RosW|Rodas|Rosenbrock|ROS\d|ROW(?![a-z])"), "Rosenbrock"),
-    (re.compile(r"MRIStep|MRI_|MIStoMRI|Multirate|MPRK|MRTableau"), "multirate"),
+    (re.compile(r"MPRK|Patankar"), "modified Patankar"),
+    (re.compile(r"MRIStep|MRI_|MIStoMRI|Multirate|MRTableau"), "multirate"),
     (re.compile(r"Nystr(?:o|ö|oe)m|RKN(?![a-z])|Nystrom"), "Nyström"),
     (re.compile(r"GLEE|GLLE|GLM(?![a-z])|GeneralLinear"), "general linear"),
     (re.compile(r"LowStorage|2[NR]S?\+?(?:$|_)|3S\*?|LSRK"), "low-storage"),
@@ -133,8 +134,8 @@ MAKER = re.compile(r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoM
 def other_kind(name: str) -> str:
     """What kind of table another call makes; empty where it may be one of Runge–Kutta.
 
-    >>> other_kind("TSRosWRegister"), other_kind("TSRKRegister")
-    ('Rosenbrock', '')
+    >>> other_kind("TSRosWRegister"), other_kind("TSRKRegister"), other_kind("MPRK22ConstantCache")
+    ('Rosenbrock', '', 'modified Patankar')
     """
     if not MAKER.fullmatch(name):
         return ""

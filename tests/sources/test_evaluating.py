@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from garkcli.bridges.audit import audit
+from garkcli.bridges.importing import imported
+from garkcli.exact.display import to_text
 from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c, fortran, julia, matlab, python
 
@@ -94,6 +97,35 @@ def test_printed_digits_are_kept() -> None:
     first, second = table.A[0][0] or ()
     assert first[0] == "0.29289321881345254"
     assert second == ("1 - 0.29289321881345254", "3/10")
+
+
+FEHLBERG = """
+A = [[0, 0, 0, 0, 0, 0], [1/4, 0, 0, 0, 0, 0], [3/32, 9/32, 0, 0, 0, 0],
+     [1932/2197, -7200/2197, 7296/2197, 0, 0, 0], [439/216, -8, 3680/513, -845/4104, 0, 0],
+     [-8/27, 2, -3544/2565, 1859/4104, -11/40, 0]]
+b = [25/216, 0, 1408/2565, 2197/4104, -1/5, 0]
+c = [0, 1/4, 3/8, 12/13, 1, 1/2]
+"""
+FIFTH = ("16/135", "0", "6656/12825", "28561/56430", "-9/50", "2/55")
+DIFFERENCE = "1/360, 0, -128/4275, -2197/75240, 1/50, 2/55"
+"""Of the weights of order 5 and those of order 4."""
+
+
+@pytest.mark.parametrize("sign", ["-", "+"])
+@pytest.mark.parametrize("declared", ["", "embedded_order = 5\n"])
+def test_an_error_estimate_of_either_sign(sign: str, declared: str) -> None:
+    """Fehlberg's estimate as b - b_hat and as b_hat - b: the weights of order 5, in an audit and in
+    the file of an import.
+    """
+    numbers = ", ".join(f"{sign}({x})" for x in DIFFERENCE.split(", "))
+    table = one("py", f"{FEHLBERG}E = [{numbers}]\n{declared}")
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert found.embedded_order is not None
+    assert (found.order.order, found.embedded_order.order, found.findings) == (4, 5, ())
+    (low,) = imported(table, "x").method.embedded or ()
+    assert tuple(map(to_text, low)) == FIFTH
 
 
 def test_the_order_of_a_class_is_that_of_its_table() -> None:
