@@ -216,7 +216,9 @@ expect: {pair-order: 4}
         _, _, hint = text.partition("  hint ")
         assert max(len(line) for line in text.splitlines() if str(path) not in line) <= 80
         assert "all of them coupling conditions; A{V2,F1} takes part" in words(hint)
-    assert words(hint.partition("  simplifying")[0]).endswith("A{V2,V2}, A{V2,F2} take part in none of them")
+    assert words(hint.partition("  simplifying")[0]).endswith(
+        "A{V2,V2}, A{V2,F2} take part in none of them"
+    )
 
 
 def test_long_places_fit_a_screen() -> None:
