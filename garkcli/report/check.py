@@ -290,7 +290,7 @@ WORTH_A_WORD = {
     "fsal": (True, "first same as last"),
     "symmetric": (True, "symmetric"),
     "algebraically-stable": (True, "algebraically stable"),
-    "reducible": (True, "reducible, see gark reduce"),
+    "reducible": (True, "reducible, see gark convert --to reduced"),
     "positive-weights": (False, "not all weights positive"),
     "nodes-in-unit-interval": (False, "nodes outside [0, 1]"),
 }

@@ -130,7 +130,7 @@ def _turns(found: Comparison) -> Iterator[str]:
     if first != second:
         yield f"in another form: {FORMS[first]}, {FORMS[second]}"
     if same.is_reduced:
-        yield "once both are reduced: see gark reduce"
+        yield "once both are reduced: see gark convert --to reduced"
     if not same.keeps_colours:
         yield f"colours 1, 2, … of the first are {_numbers(same.colours)} there"
     if same.keeps_stages:

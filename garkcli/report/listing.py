@@ -6,9 +6,11 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.registry import Bridge
+from garkcli.catalogue import method_names
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
 from garkcli.families.family import Family, Option
 from garkcli.families.registry import FAMILIES
+from garkcli.frozen import replace
 from garkcli.page.paint import counted
 from garkcli.problems.builtin import PROBLEMS
 from garkcli.tell.facts import SAID, Level, Row, Section, parts, table, told
@@ -72,12 +74,24 @@ FAMILY = Section(
     Row("summary", told(_family_words), lambda x: x),
 )
 NAMED = Section(NAME, Row("summary", TEXT, lambda x: x[1]))
+TOPIC = Section(
+    Row("name", TEXT, lambda x: x[0], label=""),
+    Row("count", TEXT, lambda x: x[1]),
+    Row("see", TEXT, lambda x: x[2]),
+)
 SCHEME = Section(
     Row("name", TEXT, label=""),
     Row("order", TEXT),
     Row("summary", TEXT),
     Row("reference", TEXT, level=DETAIL),
 )
+
+
+def _topics(lists: Lists) -> list[tuple[str, str, str]]:
+    """What can be listed, how much there is of it, and the command."""
+    counts = {"methods": len(method_names())}
+    counts |= {name: len(x) for x, name in zip(lists, ROWS, strict=True)}
+    return [(name, str(count), f"gark list {name}") for name, count in counts.items()]
 
 
 def _title(lists: Lists, _: Plain) -> str:
@@ -100,7 +114,8 @@ REPORT: Report[Lists] = Report.only(
     "gark/list/1",
     "report of gark list",
     Section(
-        *ROWS.values(),
+        Row("topics", table(TOPIC, 0, is_data=False), _topics, label="", is_short=True),
+        *(replace(row, level=DETAIL) for row in ROWS.values()),
         Row(
             "own",
             SAID,
