@@ -19,7 +19,7 @@ from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import pair
 from garkcli.tableau.pointwise import Cell, Entries, Row, entries
 from garkcli.tableau.tableau import Tableau
-from garkcli.webpage.mathml import typeset, typeset_cell
+from garkcli.webpage.mathml import Typeset, typeset, typeset_cell
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -104,7 +104,9 @@ def _content(method: Reported) -> Content | None:
             },
             tolerance,
         )
-    return {"tables": shown, "dense": dense, "obstacle": str(outcome.found.obstacle)}
+    obstacle = outcome.found.obstacle
+    told = Markup(Typeset().reason(obstacle)) if obstacle else ""
+    return {"tables": shown, "dense": dense, "obstacle": told}
 
 
 def _companions(
