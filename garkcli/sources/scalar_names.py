@@ -68,7 +68,8 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     first = 0 if given and min(given) == 0 else 1
     if given:
         stages = max(stages, max(given) - first + 1)
-    if not 2 <= stages <= MAX_STAGES or len(matrix) + len(given) < 4:
+    told = len(matrix) + len(given) + len(rows.get(node, ()))
+    if not 2 <= stages <= MAX_STAGES or told < 4:
         return None
     if unknown is not None:
         return _unread(found, unknown)
