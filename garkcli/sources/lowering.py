@@ -82,6 +82,10 @@ class Lowering:
         """What a statement is lowered to."""
         raise NotImplementedError
 
+    def passed_over(self, node: Node) -> ir.Statement:
+        """What stands for a statement that may change values in ways that are not followed."""
+        return ir.Do(ir.Opaque(f"a {node.type.replace('_', ' ')}"), line_of(node))
+
     def may_hold_a_table(self, node: Node) -> bool:
         """Whether the text of a function has numbers and names like those of a table."""
         text = self.text(node)

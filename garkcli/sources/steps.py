@@ -28,9 +28,10 @@ class NoStep(Exception):
 
 
 class _Slope(Frozen):
-    """An evaluation of f: its name among the forms, and what it is given."""
+    """An evaluation of f: its name among the forms, what is called, and what it is given."""
 
     name: str
+    callee: ir.Expr
     args: tuple[Form, Form]
 
 
@@ -48,13 +49,21 @@ class Follower:
         self._forms: dict[str, Form | None] = {}
         self._slopes: list[_Slope] = []
         self._assigned: list[str] = []
+        self._is_lost = False
 
     def follow(self, body: ir.Body) -> None:
         """Some statements, one after the other."""
         for statement in body:
             match statement:
-                case ir.Do(value=ir.Call(args=(*given, ir.Name(name=name)))) if len(given) > 1:
-                    self._set(name, self._slope(given))
+                case ir.Do(value=ir.Call(callee, (*given, ir.Name(name=name)), ())) if given[1:]:
+                    self._set(name, self._slope(callee, given))
+                case ir.Do(value=ir.Call() as call):
+                    # it may change whatever it is given
+                    self._lose(_given(call))
+                case ir.Do(value=ir.Text()):
+                    continue
+                case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module" | "record"):
+                    self._is_lost = True
                 case ir.Assign(target=ir.Name(name=name), value=value, sign=sign):
                     if value is None:
                         continue
@@ -89,14 +98,14 @@ class Follower:
             if isinstance(target, ir.Name):
                 self._forms[target.name] = None
 
-    def _slope(self, args: Sequence[ir.Expr]) -> Form | None:
+    def _slope(self, callee: ir.Expr, args: Sequence[ir.Expr]) -> Form | None:
         """An evaluation of f; None where a call is none."""
         forms = [self._form(x) for x in args[:2]]
         first, second = forms if len(forms) == 2 else (None, None)
         if first is None or second is None or not any(first) or not any(second):
             return None
         slope = f"slope {len(self._slopes)}"
-        self._slopes.append(_Slope(slope, (first, second)))
+        self._slopes.append(_Slope(slope, callee, (first, second)))
         return {(slope,): ONE}
 
     def _form(self, expr: ir.Expr) -> Form | None:
@@ -108,8 +117,8 @@ class Follower:
                     return self._forms[name]
                 known = self._known.get(name)
                 return {(): known} if isinstance(known, Number) else {(name,): ONE}
-            case ir.Call(args=args, named=()):
-                return self._slope(args)
+            case ir.Call(callee, args, ()):
+                return self._slope(callee, args)
             case ir.Unary(sign=sign, of=of):
                 form = self._form(of)
                 if form is None or sign != "-":
@@ -158,7 +167,9 @@ class Follower:
         """
         slopes = self._slopes
         names = {x.name for x in slopes}
-        if not 0 < len(slopes) <= MAX_STAGES:
+        if self._is_lost or not 0 < len(slopes) <= MAX_STAGES:
+            raise NoStep
+        if any(x.callee != slopes[0].callee for x in slopes) or _is_mathematics(slopes[0].callee):
             raise NoStep
         of_slopes = [
             i for x in slopes for i, form in enumerate(x.args) if names & set().union(*form)
@@ -248,6 +259,25 @@ def _node(form: Form, time: str, step: str) -> Value:
     return node
 
 
+def _given(call: ir.Call) -> list[ir.Expr]:
+    """What a call may change."""
+    return [*call.args, *(x for _, x in call.named)]
+
+
+def _is_mathematics(callee: ir.Expr) -> bool:
+    """Whether a call is of a function that everybody knows, and not of a right-hand side."""
+    name = callee.name if isinstance(callee, ir.Name | ir.Field) else ""
+    return name.lower() in _MATHEMATICS
+
+
+_MATHEMATICS = {
+    *("min", "max", "minimum", "maximum", "fmin", "fmax", "amin", "amax", "clamp", "clip"),
+    *("hypot", "atan2", "arctan2", "pow", "power", "mod", "rem", "div", "fmod", "copysign"),
+    *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
+}
+"""Functions of two numbers, by the names that languages have for them."""
+
+
 def _targets(arms: Iterable[ir.Body]) -> list[ir.Expr]:
     found: list[ir.Expr] = []
     for body in arms:
@@ -255,8 +285,10 @@ def _targets(arms: Iterable[ir.Body]) -> list[ir.Expr]:
             match statement:
                 case ir.Assign(target=target):
                     found.append(target)
-                case ir.Do(value=ir.Call(args=(*_, ir.Name() as last))):
-                    found.append(last)
+                case ir.Do(value=ir.Call() as call):
+                    found += _given(call)
+                case ir.Scope(body=inside):
+                    found += _targets([inside])
                 case ir.Branch(arms=inner):
                     found += _targets(inner)
                 case ir.Loop(body=inside):

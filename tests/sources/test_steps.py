@@ -114,3 +114,45 @@ def test_what_is_no_step(text: str) -> None:
     """
     find = julia.find if text is JULIA else python.find
     assert find(text, "x") == []
+
+
+@pytest.mark.parametrize(
+    "between",
+    [
+        "    project(k1)",
+        "    try:\n        k1 = 3*k1\n    except ValueError:\n        pass",
+        "    match m:\n        case 1:\n            k1 = 3*k1",
+        "    if m:\n        project(k1)",
+    ],
+)
+def test_a_slope_that_may_have_changed_makes_no_step(between: str) -> None:
+    """What is done to it in place, or where it is not followed."""
+    text = "def step(f, t, x, h, m):\n    k1 = f(t, x)\n{}\n    k2 = f(t + h/2, x + h/2*k1)\n"
+    text += "    return x + h*k2\n"
+    assert len(python.find(text.format("    print(m)"), "x")) == 1
+    assert python.find(text.format(between), "x") == []
+
+
+@pytest.mark.parametrize(
+    ("first", "second"), [("f", "g"), ("max", "max"), ("np.hypot", "np.hypot")]
+)
+def test_slopes_are_of_one_function(first: str, second: str) -> None:
+    """A split step, and what only looks like one."""
+    text = f"def step(t, x, h):\n    k1 = {first}(t, x)\n    k2 = {second}(t + h/2, x + h/2*k1)\n"
+    assert python.find(text + "    return x + h*k2\n", "x") == []
+
+
+@pytest.mark.parametrize(
+    "between",
+    [
+        "call dscal(f1, 2.0_wp)",
+        "where (f1 > 0) f1 = 3.0_wp*f1",
+        "select case (m)\ncase (1)\nf1 = 3.0_wp*f1\nend select",
+    ],
+)
+def test_a_slope_of_fortran_that_may_have_changed(between: str) -> None:
+    """The same in Fortran."""
+    text = "subroutine step(t,x,h,xf)\ncall f(t,x,f1)\n{}\n"
+    text += "call f(t+h/2.0_wp,x+h/2.0_wp*f1,f2)\nxf = x + h*f2\nend subroutine\n"
+    assert len(fortran.find(text.format(""), "x")) == 1
+    assert fortran.find(text.format(between), "x") == []

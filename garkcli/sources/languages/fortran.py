@@ -54,6 +54,8 @@ class FortranLowering(Lowering):
                 yield ir.Do(ir.Call(self.expr(inside[0]), given), line)
             case kind if kind in _BLOCKS:
                 yield from self.block(inside)
+            case kind if kind.startswith(("select_", "where_", "forall_")):
+                yield self.passed_over(node)
 
     def _procedure(self, inside: list[Node], line: int) -> ir.Scope:
         head = inside[0]

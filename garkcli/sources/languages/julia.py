@@ -111,6 +111,8 @@ class JuliaLowering(Lowering):
             case "while_statement":
                 yield ir.Loop("", ir.Nothing(), self.block(inside[1:]), line)
             case kind if kind in _BLOCKS:
+                if kind == "try_statement":
+                    yield self.passed_over(node)
                 yield from self.block(inside)
             case kind if kind not in _SKIPPED:
                 yield ir.Do(self.expr(node), line)

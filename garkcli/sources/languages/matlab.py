@@ -63,6 +63,8 @@ class MatlabLowering(Lowering):
             case "while_statement":
                 yield ir.Loop("", ir.Nothing(), self.block(inside[1:]), line)
             case kind if kind in _BLOCKS:
+                if kind == "try_statement":
+                    yield self.passed_over(node)
                 yield from self.block(inside)
             case "function_call" | "field_expression":
                 yield ir.Do(self.expr(node), line)

@@ -61,7 +61,11 @@ class PythonLowering(Lowering):
                 yield ir.Loop("", ir.Nothing(), self.block([field("body")]), line)
             case "import_statement" | "import_from_statement":
                 yield from self._imported(node)
+            case "match_statement":
+                yield self.passed_over(node)
             case kind if kind in _BLOCKS:
+                if kind == "try_statement":
+                    yield self.passed_over(node)
                 yield from self.block(self.children(node))
 
     def _imported(self, node: Node) -> Iterator[ir.Statement]:
