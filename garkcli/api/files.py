@@ -44,7 +44,7 @@ def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
     >>> load("rk4").b
     (1/6, 1/3, 1/3, 1/6)
     """
-    return methods.load(_path(path), texts(settings, "settings"))
+    return methods.load(path_of(path), texts(settings, "settings"))
 
 
 def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> MethodFile:
@@ -73,7 +73,7 @@ def reference_in(path: AnyPath) -> tuple[str, str, Reference | None]:
     Raises:
         MethodFileError: there is no such file, it is no YAML, or the reference has a fault.
     """
-    text, source = methods.read_method_text(_path(path))
+    text, source = methods.read_method_text(path_of(path))
     return source, *bibliography.reference_of(text, source)
 
 
@@ -96,7 +96,7 @@ def load_family(
     ('g',)
     """
     given = texts(settings, "settings")
-    return family.load_family(_path(path), given, deadline)
+    return family.load_family(path_of(path), given, deadline)
 
 
 def loads_family(
@@ -140,7 +140,7 @@ def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
     px**2/2 + py**2/2 - 1/sqrt(x**2 + y**2)
     """
     value = rational_or_none(stiffness, "stiffness")
-    return problems.load_problem(_path(path), value)
+    return problems.load_problem(path_of(path), value)
 
 
 def loads_problem(text: str, source: str = "<text>", stiffness: Number | None = None) -> Problem:
@@ -186,7 +186,7 @@ def check_file(
     (True, <Order 4>, [True, True])
     """
     return checking.check_file(
-        _path(path), whole(limit, "limit", 1), want_constants, texts(settings, "settings")
+        path_of(path), whole(limit, "limit", 1), want_constants, texts(settings, "settings")
     )
 
 
@@ -228,7 +228,7 @@ def convert(method: AnyMethod, to: str = "spelled-out", stages: Whole | None = N
     return conversion.convert(method_of(method), to, many)
 
 
-def _path(given: object) -> str:
+def path_of(given: object) -> str:
     """A path, or a name of the catalogue.
 
     Raises:

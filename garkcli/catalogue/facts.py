@@ -192,7 +192,9 @@ def _error_constant(analysis: Analysis) -> str | None:
 
 
 def _properties(analysis: Analysis) -> Entry:
-    """Every property by its name in JSON; null where it has no meaning or is not decided."""
+    """Every property by its name in JSON; null where it has no meaning, is not decided, or is only
+    known to be so large at least.
+    """
     is_small = _is_small(analysis.tableau)
     sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
@@ -201,8 +203,9 @@ def _properties(analysis: Analysis) -> Entry:
     for key in KEYS:
         field = find(key).field
         verdict = verdicts.get(key)
-        values[field] = None if verdict is None else _value(verdict)
-        if verdict is None or verdict.is_undecided:
+        is_open = verdict is None or verdict.is_undecided or verdict.is_at_least
+        values[field] = None if verdict is None or is_open else _value(verdict)
+        if is_open:
             open_ones.append(field)
     return {**values, "undecided": open_ones}
 

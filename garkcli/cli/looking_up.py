@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -259,6 +260,7 @@ def report(given: Given, output: Output) -> int:
     if output.path is None and not output.is_streamed:
         output.path = _page_name(paths, given.which)
         output.check_place()
+        _keep_other_files(output.path)
     asked = given.order, given.pictures is not False, given.settings
     found = (reported(_meant(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
@@ -267,6 +269,18 @@ def report(given: Given, output: Output) -> int:
         if not method.outcome.is_read:
             say_faults(method.outcome)
     return max(method.outcome.exit_code for method in methods)
+
+
+def _keep_other_files(place: str) -> None:
+    """A page that has its name from its method is written over pages alone.
+
+    Raises:
+        UsageProblem: another file is there.
+    """
+    with suppress(OSError), open(place, "rb") as stream:
+        if b"gark report" not in stream.read(20_000).lower():
+            message = f"{place} is there already, and is no page"
+            raise UsageProblem(message, f"-o {place} writes over it", code="cannot-write")
 
 
 def _page_name(paths: list[str], which: str | None) -> str:
@@ -279,7 +293,7 @@ def _page_name(paths: list[str], which: str | None) -> str:
     name = path if path.startswith("{") else path.replace("\\", "/").rpartition("/")[2]
     for suffix in (".yml", ".yaml", ".gark"):
         name = name.removesuffix(suffix)
-    name = re.sub(r"[^\w.()+-]+", "-", name).strip("-")
+    name = re.sub(r"[^\w.()+-]+", "-", name.replace("*", "-star")).strip("-")
     return f"{name}-{which}.html" if which else f"{name}.html"
 
 

@@ -242,10 +242,12 @@ class _Latex(PlainText):
     r"""The same in LaTeX: products without signs, quotients as fractions.
 
     >>> from garkcli.exact.expression import parse
-    >>> for text in ("1/2 - 3*sqrt(154)/77", "1/2*x", "-2*a12_31*(-x^2 + tau)", "-(-2*(3/4))/x"):
+    >>> texts = "1/2 - 3*sqrt(154)/77", "1/2*x", "-1/120*z^5", "-2*a12_31*(-x^2 + tau)"
+    >>> for text in (*texts, "-(-2*(3/4))/x"):
     ...     print(format_expression(parse(text), latex=True))
     \frac{1}{2}-\frac{3\sqrt{154}}{77}
     \frac{x}{2}
+    -\frac{z^{5}}{120}
     -2a_{12,31}\left(-x^{2}+\tau \right)
     -\frac{\left(-2\cdot \frac{3}{4}\right)}{x}
     """
@@ -277,9 +279,11 @@ class _Latex(PlainText):
                 continue
             is_first = not text and not _is_sum(expression)
             factor = self.written(expression) if is_first else self.factor(expression)
+            if factor == "-1":
+                factor = "-"
             is_apart = text[-1:].isdigit() and (factor[0].isdigit() or factor.startswith(r"\frac"))
             text += (r"\cdot " if is_apart else "") + factor
-        return text or "1"
+        return f"{text}1" if text in {"", "-"} else text
 
     def factor(self, expression: Expression) -> str:
         """The text, sums and what has a sign in parentheses."""

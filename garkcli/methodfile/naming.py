@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from itertools import chain
@@ -136,7 +137,9 @@ def _of_family(name: str) -> Shelved | None:
 
     text = name.strip()
     if text.startswith("{") and text.endswith("}") and "family" in text:
-        return _made(text)
+        found = re.search(r"family:\s*([^\s,}]+)", text)
+        family = FAMILIES.get(found[1]) if found else None
+        return _made(text, family and family.reference)
     member = member_named(text)
     if member is None:
         return None

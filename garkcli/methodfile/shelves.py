@@ -45,12 +45,15 @@ def key_of(name: str) -> str:
 
 
 def letters_of(name: str) -> str:
-    """The letters and digits of a name, however it is spelt.
+    """The letters and digits of a name, however it is spelt; a star tells methods apart.
 
     >>> letters_of("ARK4(3)6L[2]SA"), letters_of("ARS-222") == letters_of("ARS(2,2,2)")
     ('ark436l2sa', True)
+    >>> letters_of("lobatto-iiic*-2")
+    'lobattoiiicstar2'
     """
-    return _NO_LETTERS.sub("", unicodedata.normalize("NFC", name).casefold())
+    spelt = unicodedata.normalize("NFC", name).casefold().replace("*", "star")
+    return _NO_LETTERS.sub("", spelt)
 
 
 class Shelved(Frozen):

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from garkcli.api.calls import find_stability
+from garkcli.api.files import path_of
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
@@ -69,7 +70,13 @@ def plot(
 
 
 def plot_method(method: GarkMethod, path: str | os.PathLike[str] | None = None) -> Figure:
-    """The region of stability of a method, saved where a path is given."""
+    """The region of stability of a method, saved where a path is given.
+
+    Raises:
+        MethodError: the path is none.
+    """
+    if path is not None:
+        path = path_of(path)
     return plot(find_stability(method), path=path, names=[method.name])
 
 

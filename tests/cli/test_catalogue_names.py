@@ -178,3 +178,9 @@ def test_names_are_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert completions("stability", "zan") == [("plain", "zanna-1")]
     assert completions("stability", "./coll") == [("file", "./coll")]
     assert completions("stability", "qqq") == [("file", "qqq")]
+
+
+def test_a_star_tells_methods_apart() -> None:
+    """Lobatto IIIC* of two stages is Heun's method, and no other spelling of Lobatto IIIC."""
+    assert "fully implicit, 2 stages" in gark("check", "lobatto-iiic-2").out
+    assert "explicit, 2 stages" in gark("check", "lobatto-iiic*-2").out

@@ -80,7 +80,7 @@ def test_a_family_is_one_file(copy: Copy) -> None:
     )
     copy.write("two.yaml", "methods: [{family: gaussian, stages: 2}]\nexpect: {order: 4}\n")
     assert "order 4, proved" in copy.gark("check", "two.yaml")
-    assert "gaussian" in copy.gark("list")
+    assert "gaussian" in copy.gark("list", "families")
     assert "Of a test" in copy.gark("explain", "gaussian")
     assert '"gaussian"' in copy.gark("schema")
 
@@ -135,7 +135,7 @@ def test_a_problem_is_an_entry(copy: Copy) -> None:
         '        "swing", "a pendulum by another name", "½p² + 1 − cos q", _ALTERNATING,\n'
         '        Mechanical(("x",), pendulum_potential, numbers("1 1/2"), fmpq(4)),\n    ),\n',
     )
-    assert "swing" in copy.gark("list")
+    assert "swing" in copy.gark("list", "problems")
     assert "they agree" in copy.gark("converge", "m.yaml", "--problem", "swing")
     assert "swing" in copy.gark("energy", "m.yaml", "--problem", "swing", "--t-end", "2",
                                 "--format", "json")  # fmt: skip

@@ -227,3 +227,10 @@ def test_every_family_has_a_reference(name: str) -> None:
     if member.keys == ("stages",) and not member.is_single:
         again = gark("cite", f"{name}-{49 if name == 'ssp3' else 31}").out
         assert again.splitlines()[1:] == found["bibtex"].splitlines()[1:]
+
+
+def test_a_family_before_what_sounds_alike() -> None:
+    """``sdirk2`` is a family, though the catalogue has sdirk-2; braces mean a family, too."""
+    assert "Solving {Ordinary}" in gark("cite", "sdirk2").out
+    braces = gark("cite", "{family: gauss, stages: 2}").out
+    assert braces.splitlines()[1:] == gark("cite", "gauss-7").out.splitlines()[1:]

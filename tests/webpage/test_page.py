@@ -590,3 +590,15 @@ def test_pictures_stand_on_the_page(monkeypatch: pytest.MonkeyPatch) -> None:
     assert text_of(one) == "One a curve It rises."
     assert text_of(two) == "Two Not drawn: <it> has none."
     assert [x.get("d") for x in elements(one, "path")] == ["M0 0L1 1"]
+
+
+def test_another_file_is_not_written_over(tmp_path: Path) -> None:
+    """A page takes the name of its method only from another page."""
+    (tmp_path / "rk4.html").write_text("my notes")
+    run = gark("report", "rk4", "--no-pictures", cwd=tmp_path)
+    assert (run.code, (tmp_path / "rk4.html").read_text()) == (2, "my notes")
+    assert "-o rk4.html writes over it" in run.err
+    for _ in range(2):
+        assert gark("report", "heun", "--no-pictures", cwd=tmp_path).code == 0
+    assert gark("report", "lobatto-iiic*-3", "--no-pictures", cwd=tmp_path).code == 0
+    assert (tmp_path / "lobatto-iiic-star-3.html").exists()
