@@ -138,8 +138,8 @@ def _of_family(name: str) -> Shelved | None:
     text = name.strip()
     if text.startswith("{") and text.endswith("}") and "family" in text:
         found = re.search(r"family:\s*([^\s,}]+)", text)
-        family = FAMILIES.get(found[1]) if found else None
-        return _made(text, family and family.reference)
+        meant = FAMILIES.get(found[1]) if found else None
+        return _made(text, None if meant is None else meant.reference)
     member = member_named(text)
     if member is None:
         return None
