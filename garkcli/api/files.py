@@ -14,11 +14,13 @@ from garkcli.comparison.comparison import Comparison
 from garkcli.conversion import convert as conversion
 from garkcli.conversion.convert import Converted
 from garkcli.errors import MethodError
+from garkcli.families.registry import FAMILIES
 from garkcli.methodfile import bibliography, family
 from garkcli.methodfile import load as methods
 from garkcli.methodfile import problem as problems
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile
+from garkcli.methodfile.naming import is_catalogued
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.problems.problem import Problem
 from garkcli.reference import Reference
@@ -67,13 +69,17 @@ def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> Metho
 
 
 def reference_in(path: AnyPath) -> tuple[str, str, Reference | None]:
-    """What a method file or a method of the catalogue is called, and where it says that it was
-    published: in one line, and its fields. Nothing else of it is read.
+    """What a method file, a method of the catalogue or a family is called, and where it says that
+    it was published: in one line, and its fields. Nothing else of it is read.
 
     Raises:
         MethodFileError: there is no such file, it is no YAML, or the reference has a fault.
     """
-    text, source = methods.read_method_text(path_of(path))
+    name = path_of(path)
+    if name in FAMILIES and not is_catalogued(name):
+        work = FAMILIES[name].reference
+        return name, str(work), work
+    text, source = methods.read_method_text(name)
     return source, *bibliography.reference_of(text, source)
 
 

@@ -131,6 +131,12 @@ def look_up(name: str) -> Shelved | None:
     return _of_family(name)
 
 
+def is_catalogued(name: str) -> bool:
+    """Whether a catalogue has a method of exactly this name."""
+    method = look_up(name)
+    return method is not None and method.name == name and method.shelf != FAMILY
+
+
 def _of_family(name: str) -> Shelved | None:
     """A member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
     from garkcli.families.registry import FAMILIES, member_named

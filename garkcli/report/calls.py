@@ -14,8 +14,6 @@ from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.families.registry import FAMILIES
-from garkcli.methodfile.naming import FAMILY, look_up
 from garkcli.reference import Reference
 from garkcli.report import citation
 from garkcli.report.certificate import REPORT
@@ -83,9 +81,6 @@ WORKS = (
 
 def _cited(given: AnyMethod) -> citation.Cited:
     """A method with its reference; without one where it is not from a file."""
-    if isinstance(given, str) and given in FAMILIES and not _is_catalogued(given):
-        work = FAMILIES[given].reference
-        return citation.Cited((given,), str(work), work)
     if isinstance(given, (str, os.PathLike)):
         source, reference, fields = reference_in(given)
         return citation.Cited((source,), reference, fields)
@@ -94,12 +89,6 @@ def _cited(given: AnyMethod) -> citation.Cited:
     reference = getattr(method, "reference", "")
     fields = getattr(method, "bibliography", None)
     return citation.Cited((source,), reference, fields)
-
-
-def _is_catalogued(name: str) -> bool:
-    """Whether the catalogue has a method of exactly this name."""
-    method = look_up(name)
-    return method is not None and method.name == name and method.shelf != FAMILY
 
 
 def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:
