@@ -212,14 +212,12 @@ def test_products_are_no_better_than_their_factors(tmp_path: Path) -> None:
 LONG = re.compile(r"SUN_RCONST\((-?[0-9]+\.[0-9]{15,})\)")
 
 
-@pytest.mark.parametrize(
-    ("name", "place"), [*(("tsitouras-5", place) for place in (6, 8, 10, 12)), ("verner-9", 9)]
-)
-def test_a_short_decimal_is_exact_among_long_ones(name: str, place: int, tmp_path: Path) -> None:
-    """The node 0.161, the weight 0.01 or the entry 0.005 do not make the others uncertain: a digit
+@pytest.mark.parametrize("place", [6, 9, 12])
+def test_a_short_decimal_is_exact_among_long_ones(place: int, tmp_path: Path) -> None:
+    """The node 0.161 or the weight 0.01 does not make the others uncertain: a digit
     changed at any place is an error, and the table as it is has none.
     """
-    table = gark("export", name, "--to", "sundials").out
+    table = gark("export", "tsitouras-5", "--to", "sundials").out
     path = tmp_path / "table.c"
     path.write_text(table, encoding="utf-8")
     assert gark("audit", str(path)).code == 0

@@ -11,6 +11,7 @@ import shutil
 import subprocess
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
+from itertools import product
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -325,8 +326,7 @@ def test_headers_of_c_compile(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(CXX is None, reason="no C++ compiler here")
-@pytest.mark.parametrize("target", ["boost", "mfem"])
-def test_headers_of_cpp_compile(target: str, tmp_path: Path) -> None:
+def test_headers_of_cpp_compile(tmp_path: Path) -> None:
     """With any name, and with the program that runs them. What stands behind ``method_`` is a name:
     a word of the language and a word of these files are enough.
     """
@@ -335,14 +335,15 @@ def test_headers_of_cpp_compile(target: str, tmp_path: Path) -> None:
         (tmp_path / name).write_text(text)
     sources = []
     bare = [x for x in WORDS if not identifier(x, "cpp").startswith("method_")]
-    for k, name in enumerate([*bare, "int", "errno"]):
+    for target, (k, name) in product(["boost", "mfem"], enumerate([*bare, "int", "errno"])):
         payload = payload_of(name, METHODS["pair"])
         bridge = bridges()[target]
         assert bridge.test_driver is not None
-        (tmp_path / f"x{k}.hpp").write_text(bridge.written(payload))
-        for written in bridge.test_driver(payload, f"x{k}.hpp"):
-            (tmp_path / f"x{k}{written.ending}").write_text(written.text)
-        sources.append(f"x{k}_test.cpp")
+        stem = f"{target}{k}"
+        (tmp_path / f"{stem}.hpp").write_text(bridge.written(payload))
+        for written in bridge.test_driver(payload, f"{stem}.hpp"):
+            (tmp_path / f"{stem}{written.ending}").write_text(written.text)
+        sources.append(f"{stem}_test.cpp")
     # what all programs include is parsed once
     text = "\n".join((tmp_path / x).read_text() for x in sources)
     shared = sorted(set(re.findall(r"#include <.*>", text)))

@@ -87,8 +87,8 @@ def test_what_words_say(text: str, order: int | None) -> None:
 
 
 def test_long_lines_take_no_time() -> None:
-    """A line of a million characters that almost says an order."""
+    """A line of a hundred thousand characters that almost says an order."""
     began = time.process_time()
     for part in ("a", "order ", "- ", "4", "order of", "\t"):
-        order_said(part * (1_000_000 // len(part)))
-    assert time.process_time() - began < 20
+        order_said(part * (100_000 // len(part)))
+    assert time.process_time() - began < 5

@@ -31,7 +31,8 @@ DATA = ROOT / "garkcli" / "catalogue" / "data"
 LONG = {
     *("feagin-14", "ono-12", "sharp-9", "sofroniou-10", "tsitouras-9a", "tsitouras-9b"),
     *("verner-9-robust", "yoshida-8a", "yoshida-8c", "yoshida-8d", "baker-10", "verner-9"),
-    "mclachlan-atela-3",
+    *("mclachlan-atela-3", "feagin-12", "feagin-12-misprint", "feagin-10", "curtis-8", "curtis-10"),
+    *("mclachlan-ss-17", "yoshida-8b", "yoshida-8e", "stepanov-10", "hairer-10", "ono-10"),
 }
 """Methods of many stages, which take long; they are judged in ``make readback``."""
 IS_WHOLE = bool(os.environ.get("GARK_WHOLE_CATALOGUE"))
@@ -115,9 +116,11 @@ def test_misprinted_tables_have_lost_order(judged: dict[str, Any]) -> None:
     for file in wrong:
         description = load(str(file)).description
         (right,) = re.findall(r'as in the method "([a-z0-9-]+)"', description)
-        bad = judged[file.name.removesuffix(".gark.yaml")]
-        good = judged[right]
+        name = file.name.removesuffix(".gark.yaml")
         assert "order" in description
+        if name in LONG and not IS_WHOLE:
+            continue
+        bad, good = judged[name], judged[right]
         assert bad["nonautonomous_order"] < good["nonautonomous_order"]
 
 

@@ -433,7 +433,7 @@ ONE_LINE = {
 @pytest.mark.parametrize("objective", ["-imaginary-interval", "-real-interval", "-ssp"])
 def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
     """The greatest value of one parameter is that of all methods: by the ordinary engine none of
-    121 methods with rational parameters has more, and near the best one some have nearly as much.
+    41 methods with rational parameters has more, and near the best one some have nearly as much.
     """
     text = "parameters: {a: free}\n" + ONE_LINE[name]
     best = least(text, objective, 1)
@@ -447,7 +447,7 @@ def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
         return float("inf") if found is None else float(found)
 
     greatest = float("inf") if best.is_infinite else float(best.value)  # type: ignore[arg-type]
-    scan = max(at(fmpq(k, 40)) for k in range(-60, 61))
+    scan = max(at(fmpq(k, 40)) for k in range(-60, 61, 3))
     assert scan <= greatest * (1 + 1e-12)
     for candidate in best.minimisers:
         a = floats(best, candidate)["a"]

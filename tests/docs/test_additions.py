@@ -20,6 +20,21 @@ from tests.cli.harness import ROOT
 PACKAGE = Path(garkcli.__file__).parent
 RK4 = "A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]\nb: [1/6, 1/3, 1/3, 1/6]\n"
 
+SCRIPT = """
+import contextlib, io, json, sys
+from garkcli.cli import main
+printed = []
+for command in sys.argv[1:]:
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        try:
+            main(command.split())
+        except SystemExit as end:
+            assert not end.code, (command, end.code)
+    printed.append(out.getvalue())
+print(json.dumps(printed))
+"""
+"""Runs commands, one after the other."""
+
 
 class Copy:
     """A copy of the package, and its command."""
@@ -42,17 +57,18 @@ class Copy:
         assert old.count(before) == 1, before
         file.write_text(old.replace(before, text + before), encoding="utf-8")
 
-    def gark(self, *arguments: str) -> str:
-        """What a command prints; it must succeed."""
+    def gark(self, *commands: str) -> list[str]:
+        """What each command prints, all in one process; each must succeed."""
         variables: Mapping[str, str] = {
             **os.environ, "PYTHONPATH": str(self.folder), "COLUMNS": "80", "PYTHONUTF8": "1",
         }  # fmt: skip
         run = subprocess.run(
-            [sys.executable, "-m", "garkcli", *arguments],
+            [sys.executable, "-c", SCRIPT, *commands],
             cwd=self.folder, env=variables, capture_output=True, encoding="utf-8", check=False,
         )  # fmt: skip
-        assert run.returncode == 0, f"{arguments}: {run.stderr}"
-        return run.stdout
+        assert run.returncode == 0, f"{commands}: {run.stderr}"
+        printed: list[str] = json.loads(run.stdout)
+        return printed
 
 
 @pytest.fixture
@@ -79,10 +95,13 @@ def test_a_family_is_one_file(copy: Copy) -> None:
         'FAMILIES = (of_stages("gaussian", gauss, 1, "2s", "of a test"),)\n',
     )
     copy.write("two.yaml", "methods: [{family: gaussian, stages: 2}]\nexpect: {order: 4}\n")
-    assert "order 4, proved" in copy.gark("check", "two.yaml")
-    assert "gaussian" in copy.gark("list", "families")
-    assert "Of a test" in copy.gark("explain", "gaussian")
-    assert '"gaussian"' in copy.gark("schema")
+    checked, listed, explained, schema = copy.gark(
+        "check two.yaml", "list families", "explain gaussian", "schema"
+    )
+    assert "order 4, proved" in checked
+    assert "gaussian" in listed
+    assert "Of a test" in explained
+    assert '"gaussian"' in schema
 
 
 def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
@@ -98,16 +117,24 @@ def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
     )
     copy.insert("garkcli/properties/registry.py", "explicit diagonally-implicit", "few-stages ")
     copy.write("claim.yaml", RK4 + "expect: {few-stages: true}\n")
-    assert "claim holds" in copy.gark("check", "claim.yaml")
-    assert "few-stages" in copy.gark("check", "m.yaml", "-v").replace(" ", "-")
-    [checked] = json.loads(copy.gark("check", "m.yaml", "--format", "json"))["files"]
+    claimed, told, data, explained, entry, listed, schema, _ = copy.gark(
+        "check claim.yaml",
+        "check m.yaml -v",
+        "check m.yaml --format json",
+        "explain few-stages",
+        "show rk4 --format json",
+        "list methods --few-stages",
+        "schema",
+        "report m.yaml -o page.html",
+    )
+    assert "claim holds" in claimed
+    assert "few-stages" in told.replace(" ", "-")
+    [checked] = json.loads(data)["files"]
     assert checked["properties"]["few_stages"] is True
-    assert "at most four stages" in copy.gark("explain", "few-stages")
-    shown = json.loads(copy.gark("show", "rk4", "--format", "json"))
-    assert "few_stages" in shown["undecided"]
-    assert "rk4" not in copy.gark("list", "methods", "--few-stages")
-    assert "few-stages" in copy.gark("schema")
-    copy.gark("report", "m.yaml", "-o", "page.html")
+    assert "at most four stages" in explained
+    assert "few_stages" in json.loads(entry)["undecided"]
+    assert "rk4" not in listed
+    assert "few-stages" in schema
     assert "few" in (copy.folder / "page.html").read_text(encoding="utf-8")
 
 
@@ -121,8 +148,9 @@ def test_a_target_is_a_file_and_a_template(copy: Copy) -> None:
         'BRIDGES = (Bridge("weights", "the weights alone", ("rk",), ".tsv"),)\n',
     )
     copy.write("garkcli/bridges/templates/weights.tsv.jinja", "{{ row('b = ', b[0], '') }}\n")
-    assert "weights" in copy.gark("list", "exports")
-    assert "b = " in copy.gark("export", "m.yaml", "--to", "weights")
+    listed, exported = copy.gark("list exports", "export m.yaml --to weights")
+    assert "weights" in listed
+    assert "b = " in exported
 
 
 def test_a_problem_is_an_entry(copy: Copy) -> None:
@@ -135,10 +163,14 @@ def test_a_problem_is_an_entry(copy: Copy) -> None:
         '        "swing", "a pendulum by another name", "½p² + 1 − cos q", _ALTERNATING,\n'
         '        Mechanical(("x",), pendulum_potential, numbers("1 1/2"), fmpq(4)),\n    ),\n',
     )
-    assert "swing" in copy.gark("list", "problems")
-    assert "they agree" in copy.gark("converge", "m.yaml", "--problem", "swing")
-    assert "swing" in copy.gark("energy", "m.yaml", "--problem", "swing", "--t-end", "2",
-                                "--format", "json")  # fmt: skip
+    listed, converged, followed = copy.gark(
+        "list problems",
+        "converge m.yaml --problem swing",
+        "energy m.yaml --problem swing --t-end 2 --format json",
+    )
+    assert "swing" in listed
+    assert "they agree" in converged
+    assert "swing" in followed
 
 
 def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
@@ -156,5 +188,6 @@ def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
         '    "junit": _machine("junit"),',
         '    "names": _machine("names"),\n',
     )
-    assert copy.gark("check", "m.yaml", "--format", "names") == "file m.yaml\n"
-    assert "names" in copy.gark("check", "--help")
+    checked, told = copy.gark("check m.yaml --format names", "check --help")
+    assert checked == "file m.yaml\n"
+    assert "names" in told

@@ -112,10 +112,10 @@ KINDS = {"candy-rozmus-4", "gauss-2", "leapfrog-2", "p-stable-gauss2-lobatto3", 
 
 
 def sample() -> list[Path]:
-    """The methods of this run: every third of the catalogue, and all where that is asked for."""
+    """The methods of this run: every eighth of the catalogue, and all where that is asked for."""
     if IS_WHOLE:
         return CATALOGUE
-    few = [x for x in CATALOGUE[::3] if x.name.split(".")[0] not in LONG]
+    few = [x for x in CATALOGUE[::8] if x.name.split(".")[0] not in LONG]
     return sorted({*few, *(x for x in CATALOGUE if x.name.split(".")[0] in KINDS)})
 
 
@@ -342,7 +342,7 @@ def test_no_number_is_without_end(
     number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A text of which a number of gigabytes would be made is refused before it is one, wherever a
-    certificate has numbers.
+    certificate has numbers: each place has one of these texts.
     """
     made: list[object] = []
 
@@ -355,11 +355,11 @@ def test_no_number_is_without_end(
     monkeypatch.setattr(REFEREE, "Fraction", Counted)
     for text in (COLLOCATION, RADICALS):
         data = certificate(text)
-        for holder, key in list(_numbers(data)):
+        for holder, key in list(_numbers(data))[ENDLESS.index(number) :: len(ENDLESS)]:
             kept, holder[key] = holder[key], number
             assert judged(data, tmp_path) == 1
             holder[key] = kept
-    assert len(made) > 100
+    assert len(made) > 25
 
 
 def _numbers(data: Any) -> Iterator[tuple[Any, Any]]:

@@ -57,9 +57,7 @@ def test_float64_coefficients() -> None:
     assert (found.order, found.line) == (8, "tolerance: 1e-15")
 
 
-@pytest.mark.parametrize(
-    ("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)]
-)
+@pytest.mark.parametrize(("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6), (6, 30, 12)])
 def test_decimals_of_gauss_and_lobatto(stages: int, digits: int, order: int) -> None:
     """Also where the trees are too many to list."""
     decimal = gauss_lobatto(stages, digits)
@@ -114,10 +112,10 @@ LONG = {"Feagin12", "Feagin10", "sprk_Sofroniou_10_36"}
 """Methods of the highest orders, whose orders ``test_rounded_order.py`` has; they take seconds."""
 
 
-@pytest.mark.parametrize("name", [x for x in ROUNDED if x not in LONG])
+@pytest.mark.parametrize("name", [x for x in ROUNDED if x not in LONG][::2])
 def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
-    """Files of rounded methods without their tolerance: none looks misprinted, as their digits
-    explain their residuals; the order proposed is the verified one, and with the line added it is
+    """Every other file of a rounded method without its tolerance: none looks misprinted, as its digits
+    explain its residuals; the order proposed is the verified one, and with the line added it is
     found.
     """
     found = analysed(re.sub("tolerance: .*", "", method_file(ENTRIES[name])))
