@@ -267,7 +267,7 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
 
 
 def reduced(method: AnyMethod) -> GarkMethod | None:
-    """The smallest method that does the same, itself where that is the method: ``gark reduce``.
+    """The smallest method that does the same, maybe itself: ``gark convert --to reduced``.
     None where stages are at irrational nodes and more than row sums would have to be compared.
 
     Args:

@@ -63,7 +63,7 @@ class Result(Frozen, eq=False):
         if declared is not None and declared != found:
             yield f"the source declares order {declared}, found is {found}"
         if self.method.order.is_open:
-            yield f"whether it has order {found + 1} is left open by its digits"
+            yield f"its digits do not decide whether it has order {found + 1}"
         yield from self._of_recognised()
 
     def _of_recognised(self) -> Iterator[str]:

@@ -137,8 +137,10 @@ def _check_stability(given: Given) -> None:
     others = (given.emit, given.folder, given.search, given.minimise)
     if all(option is None for option in others):
         return
-    message = f"--{given.stability} gives a set of values, --emit, --search, --minimise do not"
-    cure = "ask for one; with --order solutions of that order are looked at"
+    message = (
+        f"--{given.stability} gives a set of values; --emit, --search and --minimise give methods"
+    )
+    cure = "use one; --order limits it to the solutions of that order"
     raise UsageProblem(message, cure, code="options-clash")
 
 

@@ -65,7 +65,7 @@ class FamilyValues(Values):
                 continue
             if smallest > largest:
                 message = f"{ends[1].where}: no number is in [{smallest}, {largest}]"
-                cure = f"the smaller end stands first: [{largest}, {smallest}]"
+                cure = f"write the smaller end first: [{largest}, {smallest}]"
                 self.numbers.source.fault(ends[1].node, message, cure, code="wrong-value")
                 continue
             before = f"[{least}, {greatest}]"

@@ -161,7 +161,7 @@ KEYS = {
             "structure: separable",
             g.word(lambda: STRUCTURES),
             "Which vector fields the problem has: general ones, or Hamiltonians whose terms have "
-            "velocities or forces alone, so that fewer trees have conditions. It stands beside "
+            "velocities or forces alone, so that fewer trees have conditions. Write it beside "
             "methods, prk or splitting.",
             "general",
             page=f"{_PAGE}structure",

@@ -99,7 +99,7 @@ TABLEAU_KEYS = (
     g.Key(
         "embedded: [1, 0]",
         _all_of(_ROW, rows_of(_ROW)),
-        "Embedded weights, one per stage; of several colours a row each. They stand beside b.",
+        "Embedded weights, one per stage; a row for each colour. Write them beside b.",
         page=_PAGE,
         also=(
             *("bhat", "b_hat", "b-hat", "bh", "b2", "b*", "b^", "btilde", "be"),
@@ -109,8 +109,7 @@ TABLEAU_KEYS = (
     g.Key(
         "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}",
         g.Kind(_DENSE.schema, inside=DENSE.inside),
-        "Dense output: weights that are polynomials in θ without constant terms. It stands beside "
-        "b.",
+        "Dense output: weights polynomial in θ without constant terms. Write it beside b.",
         page=_PAGE,
         also=("bi", "binterp", "b_theta"),
     ),

@@ -257,9 +257,8 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
         g.Key(
             'where: {order: ">= 3"}',
             where,
-            "What a method has to have to be kept: for columns true, false, a number, or a "
-            "comparison. Conditions are decided in their order, and a method that fails one is "
-            "looked at no further.",
+            "Which methods are kept: for columns true, false, a number, or a comparison. gark "
+            "decides the conditions in their order, and stops at the first that fails.",
         ),
         g.Key(
             "best: [order, error]",

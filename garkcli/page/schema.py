@@ -19,7 +19,7 @@ POSITION: Schema = {"type": "integer", "minimum": 1}
 """A number of a line, a stage or an order, from 1."""
 NUMERAL: Schema = {
     "type": "string",
-    "description": "An exact number, or a decimal where digits were asked for.",
+    "description": "An exact number, or a decimal if the call asks for digits.",
 }
 NUMBER: Schema = {
     "type": ["number", "null"],

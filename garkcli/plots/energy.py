@@ -27,7 +27,7 @@ _HEIGHT, _LOWER = 200, 110
 _WORDS = {
     "exact": "conserved exactly",
     "round-off": "not above round-off",
-    "bounded": "no drift can be told",
+    "bounded": "no drift is visible",
     "drifts": "it drifts",
     "unstable": "it blows up, or the orbit escapes",
     "undecided": "the run does not tell whether it drifts",

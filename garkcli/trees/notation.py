@@ -283,9 +283,7 @@ class _Formula:
         if self.names is not None:
             name = next(self.names, "")
         if not name:
-            raise ValueError(
-                "each vertex needs a letter; vertex_letters gives as many as there are vertices"
-            )
+            raise ValueError("each vertex needs a letter; vertex_letters gives one per vertex")
         if not tree.branches:
             one = self.one
             if "%" in one:

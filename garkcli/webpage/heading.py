@@ -80,7 +80,7 @@ def _found(outcome: Outcome) -> str:
 def claims_text(outcome: Outcome) -> str:
     """What becomes of the claims, in a sentence."""
     if not outcome.claims:
-        return "Nothing is claimed of it."
+        return "Its file claims nothing."
     claims = counted(len(outcome.claims), "claim")
     failed = len(outcome.failed_claims)
     if failed:

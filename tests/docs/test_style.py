@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import tomllib
 from collections.abc import Iterator
@@ -16,7 +17,9 @@ from tests.docs.blocks import pages
 from tests.docs.test_links import prose
 
 STYLE = ROOT / "docs" / "contributing" / "style.md"
-DATA = ROOT / "garkcli" / "glossary" / "data"
+PACKAGE = ROOT / "garkcli"
+DATA = PACKAGE / "glossary" / "data"
+TEMPLATES = PACKAGE / "webpage" / "templates"
 _BE = r"(?:is|are|was|were|be|been)"
 REFUSED = {
     "is told": rf"\b{_BE} told\b",
@@ -45,7 +48,9 @@ REFUSED = {
 
 
 def texts() -> Iterator[tuple[str, str]]:
-    """Every text, with where it is: pages, help, and the data of faults, fields and keys."""
+    """Every text, with where it is: pages, help, the data of faults, fields and keys, strings of the
+    source, and the page of gark report.
+    """
     for page in pages():
         if page != STYLE:
             yield page.relative_to(ROOT).as_posix(), plain(prose(page))
@@ -56,6 +61,26 @@ def texts() -> Iterator[tuple[str, str]]:
     for path in sorted(DATA.glob("*.toml")):
         for number, text in enumerate(strings(tomllib.loads(path.read_text(encoding="utf-8")))):
             yield f"{path.name}, text {number}", plain(text)
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for line, text in sentences(path.read_text(encoding="utf-8")):
+            yield f"{path.relative_to(ROOT)}:{line}", plain(text)
+    for path in sorted(TEMPLATES.iterdir()):
+        yield path.name, plain(path.read_text(encoding="utf-8"))
+
+
+def sentences(source: str) -> Iterator[tuple[int, str]]:
+    """Every string of a source that has words, with its line; docstrings are for who reads it."""
+    tree = ast.parse(source)
+    nodes = list(ast.walk(tree))
+    docstrings = {id(x.value) for x in nodes if isinstance(x, ast.Expr)}
+    for node in nodes:
+        if id(node) in docstrings:
+            continue
+        if isinstance(node, ast.JoinedStr):
+            parts = [x.value if isinstance(x, ast.Constant) else "x" for x in node.values]
+            yield node.lineno, "".join(map(str, parts))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+            yield node.lineno, node.value
 
 
 def strings(value: Any) -> Iterator[str]:
@@ -119,6 +144,13 @@ def test_every_pattern_finds_something() -> None:
     ]
     text = " ".join(map(plain, once))
     assert [name for name, pattern in REFUSED.items() if not re.search(pattern, text)] == []
+
+
+def test_strings_of_a_source_without_its_docstrings() -> None:
+    """An f-string is one text, with x for its values."""
+    source = '''"""It stands here."""\nfail("no number", f"it has {n} stages")\n'''
+    assert {text for _, text in sentences(source)} >= {"no number", "it has x stages"}
+    assert not any(refused(text) for _, text in sentences(source))
 
 
 def test_what_is_refused_and_what_is_not() -> None:

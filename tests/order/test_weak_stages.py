@@ -180,7 +180,7 @@ def test_colours_alone_may_have_more() -> None:
     tableau = loads(text).tableau
     alone = [by_products(tableau, [0]), by_products(tableau, [1])]
     assert found.value == by_products(tableau, [0, 1])
-    assert found.why == f"by colour: {alone[0]} of 1, {alone[1]} of 2"
+    assert found.why == f"colour 1 has {alone[0]}, colour 2 has {alone[1]}"
     assert found.value < max(alone)
 
 

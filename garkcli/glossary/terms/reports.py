@@ -85,7 +85,7 @@ TERMS = (
     Term(
         "reducible method",
         "Some stages are equal to others, or have no influence on the result: a smaller method does"
-        " the same. gark reduce writes it.",
+        " the same. gark convert --to reduced writes it.",
         "",
         _PROPERTIES,
         ("equal stages", "stages without influence"),

@@ -43,8 +43,9 @@ def obstacle(tableau: Tableau) -> Reason:
     pivot = negative_pivot(contractivity(tableau))
     if pivot is None:
         return NO_REASON
-    what = number_words(pivot) if pivot else "0 beside entries that are not 0"
-    return Reason("elimination of M meets {} on its diagonal", what)
+    if not pivot:
+        return Reason("elimination of M meets 0 on its diagonal, beside nonzero entries")
+    return Reason("elimination of M meets {} on its diagonal", number_words(pivot))
 
 
 def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
@@ -225,11 +226,11 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
 def reducible(subject: Subject) -> Verdict:
     """Fewer stages do the same. A stage that no weight and no stage that matters looks at can be
     left out (DJ-reducible), the last one of an FSAL method too. Stages that are equal on every
-    problem can be one. `gark reduce` writes the smaller method.
+    problem can be one. `gark convert --to reduced` writes the smaller method.
     """
     tableau = subject.tableau
     if is_plainly_irreducible(tableau, subject.tolerance):
-        return Verdict(False, Reason("every stage has a weight, and row sums of its own"))
+        return Verdict(False, Reason("every stage has a weight, and no two have the same row sums"))
     smaller = reduced(tableau)
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")
@@ -257,10 +258,10 @@ def _by_colour(subject: Subject, found: Sequence[int]) -> Reason:
         return NO_REASON
     names = [colour.name for colour in subject.tableau.colours]
     by_colour = [
-        f"{'at least ' if q >= subject.limit else ''}{q} of {name}"
+        f"colour {name} has {'at least ' if q >= subject.limit else ''}{q}"
         for q, name in zip(found, names, strict=True)
     ]
-    return Reason("by colour: {}", ", ".join(by_colour))
+    return Reason("{}", ", ".join(by_colour))
 
 
 @claimed(
