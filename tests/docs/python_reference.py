@@ -30,6 +30,8 @@ TYPES = {
 OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
 """Those that say all of an argument: it stands in the signature alone."""
 SAID = {"the rounding of the coefficients", "what errors call it.", "of the file."}
+USUAL_ERRORS = {"MethodError", "MethodFileError", "UsageProblem"}
+"""Errors of most functions, which the head of the page tells."""
 """What the head of the page says of ``tolerance``, ``source`` and ``text``."""
 COMMON = {
     "limit": "the order at which a search stops",
@@ -242,11 +244,18 @@ def told(name: str, thing: Any) -> list[tuple[str, str]]:
         entries += [member(x, value) for x, value in members(thing)]
         return [(x, linked(brief(text).partition("; ")[0], name)) for x, text in entries]
     entries = [
-        (f"{x}: {type_of(x, thing)}", _DEFAULT.sub("", brief(text)).partition("; ")[0])
+        (
+            f"{x}: {type_of(x, thing).removesuffix(' | None')}",
+            _DEFAULT.sub("", brief(text)).partition("; ")[0],
+        )
         for x, text in items(doc.sections.get("Args", ""))
         if type_of(x, thing) not in OWN and x not in COMMON
     ]
-    return [(x, linked(text, name)) for x, text in entries if text not in SAID]
+    return [
+        (x, linked(text, name))
+        for x, text in entries
+        if text not in SAID and not text.startswith("as in ")
+    ]
 
 
 _DEFAULT = re.compile(r"[;,] (by default|None for|that of the method where) .*")
@@ -268,8 +277,9 @@ def described(name: str, thing: Any) -> str:
     elif own:
         parts.append("\n".join(f"* `{x}`: {text.rstrip('.')}" for x, text in own))
     if "Raises" in doc.sections:
-        names = (linked(f"``{x}``", name) for x, _ in items(doc.sections["Raises"]))
-        parts.append(f"Raises {', '.join(names)}.")
+        errors = [x for x, _ in items(doc.sections["Raises"]) if x not in USUAL_ERRORS]
+        if errors:
+            parts.append(f"Raises {', '.join(linked(f'``{x}``', name) for x in errors)}.")
     return "\n\n".join(parts)
 
 

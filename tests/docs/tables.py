@@ -94,8 +94,17 @@ def keys_table(kind: str) -> str:
     """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
     paths: dict[str, list[str]] = {}
     for key in keys_of(kind).values():
+        if kind == "method" and key.path.partition(".")[0] in IN_SECTIONS and "." in key.path:
+            continue
         paths.setdefault(_said(key, ";" if kind == "method" else ""), []).append(f"`{key.path}`")
     return table(("key", "what it is"), ((", ".join(x), cell(text)) for text, x in paths.items()))
+
+
+IN_SECTIONS = (
+    *("reference", "methods", "dense", "transfer", "tableau", "ark", "prk"),
+    *("compose", "extrapolate", "splitting", "multirate"),
+)
+"""Keys of method files with a section on the page, which tells what is below them."""
 
 
 def _said(key: Key, end: str) -> str:
@@ -114,9 +123,7 @@ def _said(key: Key, end: str) -> str:
 
 
 _ALIKE = (
-    ("reference", (), "Fields of the publication; `title` is needed"),
     ("design", [x.key for x in every_definition()], "Wanted: what the claim of the name says"),
-    ("methods", ("name", *"Abc", "embedded", "dense"), "As the key of the same name outside"),
 )
 """Keys that one row tells together: below which key, which ones, or all of them, and the text."""
 
@@ -227,25 +234,27 @@ _PLAIN = set(
     re.findall(
         r"\w+",
         """
-    agrees aliases best bibtex blew_up blocks by_colour by_order by_root claim claims classes
-    classical_order coefficient column columns compared condition conjugate conjugate_consistent
-    conjugate_witness cosine cure declared_embedded declared_order default degree degrees
-    denominator description determinant determinant_minus_1 difference differences
-    dimension_before drift_uncertainty embedded_nonautonomous_witness embedded_witness
-    energy_error energy_order entries error_constants error_estimate errors evaluations
-    every_property example expected explicit factors failed failing families field file files
-    findings first_only folder format formulas from from_included function functions genuine
-    h_exact holds implicit in_every in_none inconsistent_blocks initial interrupted
-    invariant_errors jacobians kept largest leading_term line linear lowest_terms max_error
-    max_order max_power meanings members message methods minimisers modulus
-    newton_iterations nonautonomous_witness not_claimed notes numerator observed_order old omega
-    orders pair pair_witness parameter parameters pareto point power predicted_order problem
-    problems properties property proved publication quantities reads_back reference references
-    repairs required results right_hand_sides round_off rounded_coefficients row rows same_as
-    schema schemes second_only seconds seed shapes slope slope_at_end slope_at_start solutions
-    spaces spec splittings ssp ssp_radii stability stages_by_colour start starts step step_exact
-    steps stiffness suffix symplectic_order t t_end t_end_exact tableau tables terms title to
-    to_included trees two_norm two_norm_squared uncertainty unknown unknowns unread upto version
+    A_alpha R R_alike R_infinity agrees aliases all at_least at_most best bibtex blew_up blocks
+    by_colour by_order by_root c claim claims classes classical_order coefficient column columns
+    compared condition conjugate conjugate_consistent conjugate_witness consistent continuous cosine
+    coupling cure decimal declared_embedded declared_order default degree degrees denominator
+    description determinant determinant_minus_1 difference differences digits dimension_before
+    drift_uncertainty drifts effective_order embedded_nonautonomous_witness embedded_witness
+    energy_error energy_order entries error_constants error_estimate errors escaped_at evaluations
+    every_property every_value example expected explicit factors failed failing families fast field
+    file files findings first first_only float folder format formulas from from_included function
+    functions genuine h h_exact has_test help holds implicit in_every in_none inconsistent_blocks
+    initial interrupted invariant_errors jacobians kept largest leading_term line linear
+    lowest_terms max_error max_order max_power meanings members message methods minimisers modulus
+    multiplicity new newton_iterations nonautonomous_witness not_claimed notes numerator
+    observed_order of_entries old omega open_points orders pair pair_witness parameter parameters
+    pareto point power pp predicted_order problem problems properties property proved publication qp
+    qq quantities radius reads_back real reference references repairs representative required
+    results right_hand_sides round_off rounded_coefficients row rows same_as schema schemes
+    second_only seconds seed shapes slope slope_at_end slope_at_start solutions spaces spec
+    splittings ssp ssp_radii stability stages_by_colour start starts step step_exact steps stiffness
+    suffix symplectic_order t t_end t_end_exact tableau tables term terms title to to_included
+    tolerance trees two_norm two_norm_squared uncertainty unknown unknowns unread up_to upto version
     visible_order wanted witness word worst worst_value written written_by wrong
     """,
     )

@@ -1,4 +1,4 @@
-"""docs/contributing/architecture.md names every file of the package in its room, and no other."""
+"""docs/contributing/architecture.md names every room of the package, and only files that exist."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ def part(room: str) -> str:
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_every_file_has_its_place(room: str) -> None:
-    """The files named are those that exist."""
+def test_every_file_that_is_named_exists(room: str) -> None:
+    """A file without a phrase is what its name says, and is left out."""
     named = set(re.findall(r"\b(\w+\.py)\b", part(room)))
-    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")} - {"__init__.py"}
-    assert named == exist
+    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")}
+    assert named <= exist
 
 
 def test_there_are_no_other_rooms() -> None:

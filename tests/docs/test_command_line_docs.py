@@ -17,28 +17,41 @@ from tests.docs.tables import cell, table
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
 MARK = "<!-- reference -->\n"
-MOST = 2
-"""An option of more commands than these is told once."""
 OF_ALL = {"-o", "-q", "-v", "--color", "-h"}
+USUAL = "text (default), json, markdown, latex"
+"""The formats of most commands, which the head of the page tells."""
 
 
 def reference() -> str:
-    """The options of most commands, then a section a command: usage, help, its own options."""
+    """The options of several commands, then a section per command: usage, help, its own options."""
     group = click.Context(gark, info_name="gark")
     commands = {x: found for x in SHOWN if (found := gark.get_command(group, x))}
     records = {name: [*_records(found, group)] for name, found in commands.items()}
     times = Counter(record for found in records.values() for record in found)
-    common = [x for x, count in times.items() if count > MOST and not x[0].startswith("--format")]
+    common = [x for x, count in times.items() if count > 1 and not x[0].startswith("--format")]
     parts = [f"### Options of several commands\n\n{_options(common)}"]
     for name, found in commands.items():
         context = click.Context(found, info_name=name, parent=group)
-        usage = " ".join(found.collect_usage_pieces(context))
-        own = [x for x in records[name] if x not in common]
+        usage = " ".join([f"gark {name}", *found.collect_usage_pieces(context)[1:]])
+        own = [x for x in records[name] if x not in common and _choices(*x) != USUAL]
         shared = [x[0].split()[0].rstrip(",") for x in records[name] if x in common]
         also = ", ".join(f"`{x}`" for x in shared if x not in OF_ALL)
-        parts.append(f"### gark {name}\n\n`gark {name} {usage}`\n\n{_help(found)}\n")
-        parts.append(_options(own) + (f"\nAlso {also}.\n" if also else ""))
-    return "\n".join(parts)
+        parts.append(f"### gark {name}\n\n`{usage}`\n\n{_help(found)}\n")
+        tables = [_options(own)] if own else []
+        parts.append("\n".join([*tables, f"Also {also}.\n"] if also else tables))
+    return "\n".join(filter(None, parts))
+
+
+def _choices(flags: str, text: str) -> str:
+    """The words that an option chooses from, the default marked; empty where it takes others."""
+    if not re.search(r"\||--format", flags):
+        return ""
+    default = re.search(_DEFAULT, text)
+    words = flags.partition(" [")[2].rstrip("]").split("|")
+    return ", ".join(f"{x} (default)" if default and x == default[1] else x for x in words)
+
+
+_DEFAULT = r" *\[default: ([^\];]+)\]$"
 
 
 def _records(found: click.Command, group: click.Context) -> Iterator[tuple[str, str]]:
@@ -52,20 +65,19 @@ def _options(records: list[tuple[str, str]]) -> str:
     """A table of options; words to choose from stand in the text, so that columns stay narrow."""
     rows, properties = [], []
     for name, text in records:
-        flags, _, choices = (
-            name.partition(" [") if re.search(r"\||--format", name) else (name, "", "")
-        )
-        default = re.search(r" *\[default: ([^\];]+)\]$", text)
-        words = choices.rstrip("]").split("|")
+        choices = _choices(name, text)
+        flags = name.partition(" [")[0] if choices else name
         if text.startswith("The property "):
             properties.append(f"`{flags.partition(' / ')[0]}`")
             continue
-        if choices and default:
-            words = [f"{x} (default)" if x == default[1] else x for x in words]
-            text = text.removesuffix(default[0])
+        if choices:
+            text = re.sub(_DEFAULT, "", text)
+            names = "|".join(re.findall(r"[\w-]+(?=,|$| \()", choices))
+            text = re.sub(rf"(?i)^([\w ]+)?:? *(?:(?:{names})(?:, | or |\.))+$", r"\1", text)
+            before = ". One of" if re.search("[:;]", text) else ":"
+            text = f"{text.rstrip('.:')}{before} {choices}" if text else choices
         text = _RANGE.sub("", text)
-        told = f"{text} One of {', '.join(words)}." if choices and text else text
-        rows.append((f"`{flags}`", cell(" ".join((told or ", ".join(words)).split()))))
+        rows.append((f"`{flags}`".replace("|", r"\|"), cell(" ".join(text.split()))))
     if properties:
         rows.append((", ".join(properties), "The [property](properties.md); `--no-…` without it."))
     return table(("option", "what it does"), rows)

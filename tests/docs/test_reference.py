@@ -12,8 +12,9 @@ from garkcli.check.findings import KINDS
 from garkcli.check.meanings import explain
 from garkcli.glossary.faults import findings_of
 from garkcli.glossary.key import KINDS as FILES
+from garkcli.glossary.key import keys_of
 from tests.cli.harness import ROOT
-from tests.docs.tables import fields_page, keys_table
+from tests.docs.tables import IN_SECTIONS, fields_page, keys_table
 
 BEGIN, END = "<!-- keys -->\n", "<!-- end of keys -->"
 FIELDS = "<!-- fields -->\n\n"
@@ -36,6 +37,15 @@ def test_the_keys_of_a_page_are_those_of_the_program(kind: str) -> None:
         path.write_text(whole, encoding="utf-8")
         return
     assert found == wanted
+
+
+def test_keys_without_a_row_are_in_their_sections() -> None:
+    """The page of method files names each key that its table leaves to a section."""
+    text, _, table = (ROOT / "docs" / "method-file.md").read_text(encoding="utf-8").partition(BEGIN)
+    left_out = {x.path for x in keys_of("method").values() if f"`{x.path}`" not in table}
+    assert {path.partition(".")[0] for path in left_out} == {*IN_SECTIONS}
+    names = {path.rpartition(".")[2] for path in left_out}
+    assert {x for x in names if not re.search(rf"(?<![\w-]){x}(:|`|, |}})", text)} == set()
 
 
 def test_the_page_of_fields_is_that_of_the_program() -> None:
