@@ -64,7 +64,6 @@ def design(given: Given, output: Output) -> int:
     """
     from garkcli.methodfile.family import load_family
 
-    _check(given)
     seconds = SECONDS if given.seconds is None and given.search is None else given.seconds
     given.moment = None if seconds is None else monotonic() + seconds
     given.whose = given.which or "method"
@@ -92,40 +91,6 @@ def design(given: Given, output: Output) -> int:
         family = load_family(given.file, {**given.settings, **given.choose}, given.moment)
         family = _as_stable(family, asked)
     return _told(family, chosen, given, output)
-
-
-def _check(given: Given) -> None:
-    """Refuse options that do not go together, before anything is read.
-
-    Raises:
-        UsageProblem: two of them do not.
-    """
-    from garkcli.cli.stability import refuse_one_spring
-
-    for option in ("seed", "most", "jobs", "scheduler"):
-        if given.search is None and getattr(given, option) is not None:
-            message = f"--{option} goes with --search"
-            raise UsageProblem(message, "add --search N", code="option-alone")
-    refuse_one_spring(given)
-    has_springs = given.slow is not None
-    if given.up_to is not None and not has_springs:
-        message = "--up-to is a bound for the fast one of two springs"
-        raise UsageProblem(message, "give --slow and --fast too", code="option-alone")
-    if has_springs and given.stability != "p-stable":
-        message = "--slow and --fast say on which springs"
-        raise UsageProblem(message, "add --p-stable", code="option-alone")
-    if has_springs and given.order is not None:
-        message = "two springs give a set of values, --order does not"
-        raise UsageProblem(message, "ask for one", code="options-clash")
-    if given.colour is not None and given.stability not in {"a-stable", "l-stable"}:
-        message = "--colour goes with --a-stable and --l-stable"
-        raise UsageProblem(message, "add one of them", code="option-alone")
-    if given.search is not None and given.minimise is not None:
-        message = "--minimise compares all methods, --search finds some"
-        raise UsageProblem(message, "leave one of them out", code="options-clash")
-    if given.folder is not None and given.minimise is not None:
-        message = "--minimise finds one method, --output-dir writes several"
-        raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
 
 
 def _check_stability(given: Given) -> None:

@@ -13,7 +13,6 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.bridges.collecting import Result
-    from garkcli.bridges.registry import Bridge
     from garkcli.sources.found import FoundTable
 
 
@@ -28,8 +27,9 @@ def export(given: Given, output: Output) -> None:
     from garkcli.bridges.registry import bridge_named
 
     bridge = bridge_named(given.to)
-    if given.test:
-        _check_test(bridge, output)
+    if given.test and bridge.test_driver is None:
+        message = f"{bridge.name} is data, not a program"
+        raise UsageProblem(message, "leave out --test", code="cannot-export")
     payload = prepared(given.method(is_exact=True), given.digits)
     table = bridge.written(payload)
     path = Path(output.path or "")
@@ -37,22 +37,6 @@ def export(given: Given, output: Output) -> None:
     output.write(table, bridge.name)
     for written in beside:
         Output(path=str(path.with_name(path.stem + written.ending))).write(written.text)
-
-
-def _check_test(bridge: Bridge, output: Output) -> None:
-    """Whether a test can be written, before any work is done.
-
-    Raises:
-        UsageProblem: the target runs nothing, or there is no place for it.
-    """
-    if bridge.test_driver is None:
-        raise UsageProblem(
-            f"{bridge.name} is data, not a program", "leave out --test", code="cannot-export"
-        )
-    if output.path is None:
-        raise UsageProblem(
-            "--test writes further files beside the first", "name it: -o FILE", code="option-alone"
-        )
 
 
 @declared("import", (*FORMATS, "yaml"))

@@ -31,8 +31,6 @@ def new(given: Given, output: Output) -> None:
     from garkcli.methodfile.template import of_families
 
     place = _place(given, output)
-    if given.tableau is not None and given.families:
-        raise UsageProblem("--tableau and --family at once", "give one", code="options-clash")
     if given.tableau is None and not given.families:
         _ask(given)
     stem = os.path.basename(given.file or "").removesuffix(".yaml").removesuffix(".gark")
@@ -58,10 +56,8 @@ def _place(given: Given, output: Output) -> str | None:
     """Where the file goes; None for standard output.
 
     Raises:
-        UsageProblem: it is there already, or two places are named.
+        UsageProblem: it is there already.
     """
-    if given.file is not None and output.path is not None:
-        raise UsageProblem("FILE and -o at once", "name one place", code="options-clash")
     place: str | None = output.path if given.file is None else given.file
     if place is None:
         return None

@@ -18,7 +18,7 @@ import click
 from garkcli.cli import arguments
 from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
 from garkcli.cli.streams import complain, put, safe_pieces, say, wants_colour
-from garkcli.cli.table import COMMANDS, HIDDEN, Option, option_of, options_of
+from garkcli.cli.table import COMMANDS, HIDDEN, Option, Rule, option_of, options_of, rules_of
 from garkcli.doing import hush
 from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
 from garkcli.files import STDIN, note_input
@@ -200,9 +200,12 @@ def _made(
         shared = ["--catalogue", *shared]
     further = more["options"]() if "options" in more else ()
     calls = {option.name: option.of for option in options_of(name) if option.of}
+    rules = rules_of(name)
 
     def run(**values: Any) -> Any:
         output = Output.of(values)
+        if rules:
+            _check(rules, name, {**values, "format": output.format, "output": output.path})
         return function(Given(values, calls), output)
 
     return click.Command(
@@ -219,6 +222,32 @@ def _made(
         context_settings=CONTEXT,
         hidden=row.group == HIDDEN,
     )
+
+
+def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> None:
+    """Refuse options that do not go together, before anything is read.
+
+    Raises:
+        UsageProblem: some do not.
+    """
+
+    def is_given(word: str) -> bool:
+        flag, _, wanted = word.partition("=")
+        if not flag.startswith("-"):
+            return values[ARGUMENTS[flag].get("name", flag.lower())] is not None
+        row = option_of(command, flag)
+        value = values[row.name]
+        wanted = next((x[6:] for x in row.kind if x.startswith("value=")), wanted)
+        if wanted:
+            return bool(value == wanted)
+        is_left_out = value is None or value == () or value == {}
+        return not (is_left_out or (value is False and "/" not in row.written))
+
+    for rule in rules:
+        option = next(filter(is_given, rule.options), "").partition("=")[0]
+        if option and any(map(is_given, rule.others)) is not rule.needs:
+            message = rule.message.replace("OPTION", option)
+            raise UsageProblem(message, rule.cure, code=rule.code)
 
 
 def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
@@ -270,20 +299,12 @@ class Given(SimpleNamespace):
     Args:
         values: by their names.
         calls: the functions and arguments of the package that options are, by the same names.
-
-    Raises:
-        UsageProblem: both are.
     """
 
     def __init__(self, values: Mapping[str, Any], calls: Mapping[str, str]) -> None:
         super().__init__(**values)
         self._calls = calls
-        derived = [x for x in ("conjugate", "pair") if values.get(x)]
-        if len(derived) > 1:
-            raise UsageProblem(
-                "--pair and --conjugate are two methods", "ask for one", code="options-clash"
-            )
-        self.which: Any = derived[0] if derived else None
+        self.which: Any = next((x for x in ("conjugate", "pair") if values.get(x)), None)
 
     def of(self, function: str) -> dict[str, Any]:
         """The options that are given and are arguments of a function of the package, by their
@@ -497,14 +518,3 @@ def failure_code(error: GarkError) -> int:
     from garkcli.stepping.integrator import StepFailed
 
     return 1 if isinstance(error, StepFailed) else 2
-
-
-def check_document(is_document: bool, format: str) -> None:
-    """Refuse ``--document`` where no LaTeX is written.
-
-    Raises:
-        UsageProblem: it would change nothing.
-    """
-    if is_document and format != "latex":
-        message = "--document goes with --format latex"
-        raise UsageProblem(message, "add --format latex", code="option-alone")

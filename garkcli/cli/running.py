@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from garkcli.cli.options import Given, Output, check_document, declared, failure_code, faults_of
+from garkcli.cli.options import Given, Output, declared, failure_code, faults_of
 from garkcli.cli.streams import say_faults
 from garkcli.doing import doing
 from garkcli.errors import GarkError, MethodFileError, UsageProblem
@@ -412,18 +412,13 @@ def _in_modified(given: Given, output: Output) -> int:
     """The energy error in the modified Hamiltonian.
 
     Raises:
-        UsageProblem: an option does not go with --modified, or the coefficients are rounded.
+        UsageProblem: the coefficients are rounded.
     """
     from garkcli.api.modified import modified_run
     from garkcli.api.problems import hamiltonian_for
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
     method = given.method(is_exact=True)
-    others = ("omega", "split", "stiffness", "digits", "symplecticity", "bounded", "max_error")
-    for option in (*others, "plot"):
-        if getattr(given, option):
-            message = f"--{option.replace('_', '-')} does not go with --modified"
-            raise UsageProblem(message, "leave it out", code="options-clash")
     if method.tolerance is not None:
         raise UsageProblem(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
@@ -454,7 +449,6 @@ def modified(given: Given, output: Output) -> None:
     from garkcli.methodfile.naming import called
     from garkcli.report.modified import REPORT, ModifiedReport
 
-    check_document(given.document, output.format)
     method = given.method(is_exact=True)
     order, formula = given.order, None
     if given.problem is not None:
@@ -462,8 +456,6 @@ def modified(given: Given, output: Output) -> None:
         formula = _formula(method, given)
         # the problem sees fewer trees than the tableau has
         order = possible_order(method.tableau, order)
-    elif given.seed is not None:
-        raise UsageProblem("--seed is for the problem", "give --problem too", code="option-alone")
     found = backward_analysis(method, order)
     report = ModifiedReport(
         called(given.file),

@@ -30,7 +30,7 @@ def stability(given: Given, output: Output) -> None:
     from garkcli.methodfile.naming import called
     from garkcli.report.stability import REPORT
 
-    _check(given)
+    _check_folder(given.plot)
     reports = []
     paths = given.files_meant(output)
     for file in paths:
@@ -49,33 +49,15 @@ def stability(given: Given, output: Output) -> None:
         output.save_plot(stability_scene(reports, given.order_star), given.plot)
 
 
-def _check(given: Given) -> None:
-    """Whether options that need one another are given together, before any work is done.
+def _check_folder(plot: str | None) -> None:
+    """Whether there can be such a picture, before any work is done.
 
     Raises:
-        UsageProblem: one of them is missing, or there can be no such picture.
+        UsageProblem: there cannot.
     """
-    refuse_one_spring(given)
-    if given.order_star and given.plot is None:
-        raise UsageProblem(
-            "--order-star is for the picture", "give --plot FILE too", code="option-alone"
-        )
-    if given.plot is not None and not Path(given.plot).parent.is_dir():
-        raise UsageProblem(
-            f"cannot write {given.plot}: there is no such folder",
-            "choose another place",
-            code="cannot-write",
-        )
-
-
-def refuse_one_spring(given: Given) -> None:
-    """Refuse --slow without --fast, or the other way round.
-
-    Raises:
-        UsageProblem: it is so.
-    """
-    if (given.slow is None) != (given.fast is None):
-        raise UsageProblem("--slow and --fast belong together", "give both", code="option-alone")
+    if plot is not None and not Path(plot).parent.is_dir():
+        message = f"cannot write {plot}: there is no such folder"
+        raise UsageProblem(message, "choose another place", code="cannot-write")
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:

@@ -69,6 +69,30 @@ class Command(NamedTuple):
     common: str
 
 
+class Rule(NamedTuple):
+    """Options that need others, or exclude them. An option with ``=`` is that value of it; of the
+    form of a report the one that is meant, of its place a file.
+
+    Attributes:
+        options: of which one is given.
+        needs: whether one of the others has to be given too; otherwise none of them may be.
+        others: these.
+        message: what is wrong; OPTION in it is the option that is given.
+        cure: what to do.
+    """
+
+    options: tuple[str, ...]
+    needs: bool
+    others: tuple[str, ...]
+    message: str
+    cure: str
+
+    @property
+    def code(self) -> str:
+        """The kind of the fault."""
+        return "option-alone" if self.needs else "options-clash"
+
+
 HIDDEN = "hidden"
 """The group of old names: they work, and no list has them."""
 SECONDS = 60.0
@@ -342,6 +366,60 @@ paragraph a command: the file that has it, its name, what it takes, ``|`` its su
 the calls of Python that do the same, its options; ``only`` the common options where it has not all.
 """
 
+RULES = """
+tableau conjugate modified conditions trees: --document without --format=latex
+    | --document goes with --format latex | add --format latex
+report stability conditions modified converge energy tableau export design: --pair with --conjugate
+    | --pair and --conjugate are two methods | ask for one
+new: FILE with --output | FILE and -o at once | name one place
+new: --tableau with --family | --tableau and --family at once | give one
+trees: ORDER with --order | the order is given twice | give it once
+trees conditions: --members with --format=latex
+    | --members do not fit into a LaTeX table | choose another --format
+trees conditions: --kind --members without --symplectic | OPTION is about free trees
+    | add --symplectic
+trees: --root --colours-used --tree with --symplectic | free trees have no root
+    | leave out --root, --colours-used and --tree
+trees: --count with --colours-used | --count knows no --colours-used | leave one of them out
+conditions: --conjugate --pair without FILE
+    | --conjugate or --pair: values are those of a method | give a FILE
+conditions: --failing --digits --sort=worst without FILE
+    | OPTION: values are those of a method | give a FILE
+conditions: --colours --coloured with FILE
+    | the colours are those of FILE | leave out --colours, --coloured, --shapes
+conditions: --coloured with --symplectic
+    | free trees have colours | leave out --coloured and --shapes
+conditions: --set without FILE | --set is for the parameters of FILE | name a file
+conditions: --kind with FILE | the kind is that of FILE | leave out --kind; --pair asks for the pair
+convert: --stages with --to=reduced
+    | --stages adds stages, --to reduced leaves some out | use one of them
+design: --seed --most --jobs --scheduler without --search
+    | OPTION goes with --search | add --search N
+stability design: --slow without --fast | --slow and --fast belong together | give both
+stability design: --fast without --slow | --slow and --fast belong together | give both
+design: --up-to without --slow
+    | --up-to is a bound for the fast one of two springs | give --slow and --fast too
+design: --slow without --p-stable | --slow and --fast say on which springs | add --p-stable
+design: --slow with --order
+    | two springs give a set of values, --order does not | ask for one
+design: --colour without --a-stable --l-stable
+    | --colour goes with --a-stable and --l-stable | add one of them
+design: --search with --minimise
+    | --minimise compares all methods, --search finds some | leave one of them out
+design: --output-dir with --minimise
+    | --minimise finds one method, --output-dir writes several | --emit FILE writes the one
+energy: --omega --split --stiffness --digits --symplecticity --bounded --max-error --plot
+    with --modified | OPTION does not go with --modified | leave it out
+modified: --seed without --problem | --seed is for the problem | give --problem too
+stability: --order-star without --plot | --order-star is for the picture | give --plot FILE too
+export: --test without --output
+    | --test writes further files beside the first | name it: -o FILE
+"""
+"""A row a rule, in the order in which they are looked at: the commands, the options of which one is
+given, ``without`` those that it needs or ``with`` those that it excludes, ``|`` what is wrong,
+``|`` the cure.
+"""
+
 
 def _paragraphs(table: str) -> Iterator[str]:
     """Rows with the lines that go on below them, in one line."""
@@ -399,3 +477,18 @@ def options_of(command: str) -> Iterator[Option]:
     for flag in (*row.options.split(), *row.common.split()):
         if flag != "--help":
             yield option_of(command, flag)
+
+
+def rules_of(command: str) -> list[Rule]:
+    """Which options of a command need others, or exclude them."""
+    found = []
+    for row in _paragraphs(RULES):
+        head, message, cure = row.split(" | ")
+        commands, _, options = head.partition(": ")
+        if command in commands.split():
+            words = options.split()
+            sign = next(x for x in ("with", "without") if x in words)
+            place = words.index(sign)
+            given, others = tuple(words[:place]), tuple(words[place + 1 :])
+            found.append(Rule(given, sign == "without", others, message, cure))
+    return found

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from garkcli.cli.options import REDUCED, Given, Output, check_document, declared
+from garkcli.cli.options import REDUCED, Given, Output, declared
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem, did_you_mean
 from garkcli.tell.report import FORMATS
 
@@ -43,9 +43,7 @@ def tableau(given: Given, output: Output) -> None:
         )
     if output.format != "yaml":
         write_tableau(method, output, given.digits, given.document)
-        return
-    check_document(given.document, output.format)
-    if given.digits is None and method.derivation:
+    elif given.digits is None and method.derivation:
         output.write(_derived_file(method, output))
     else:
         output.write(_method_file(method, given.digits))
@@ -73,13 +71,9 @@ def write_tableau(
         digits: the digits of all entries; None for exact entries where the nodes have simple
             radicals.
         is_document: whether LaTeX gets a preamble.
-
-    Raises:
-        UsageProblem: no preamble belongs to the format.
     """
     from garkcli.report.tableau import REPORT, of_method
 
-    check_document(is_document, output.format)
     output.stream(REPORT, of_method(method, digits), is_document or None)
 
 
@@ -283,9 +277,6 @@ def convert(given: Given, output: Output) -> None:
     claims: it leaves out stages that do not influence the step, and joins equal ones.
     """
     if given.to == REDUCED:
-        if given.stages is not None:
-            message = "--stages adds stages, --to reduced leaves some out"
-            raise UsageProblem(message, "use one of them", code="options-clash")
         reduce(given, output)
         return
     from garkcli.conversion.convert import convert

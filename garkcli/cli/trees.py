@@ -5,10 +5,10 @@ their values, and the free trees of symplectic methods in place of either.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice, tee
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import is_terminal, say
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from garkcli.report.conditions import ConditionRow, Valued
     from garkcli.report.symplectic_subject import Subject
     from garkcli.report.trees import Query, TreeRow
-    from garkcli.trees.symplectic import Kind
     from garkcli.trees.tree import Tree
 
 MANY = 1_000_000
@@ -40,12 +39,9 @@ def trees(given: Given, output: Output) -> None:
     rooted trees that differ in the place of their root only: symplectic methods have equivalent
     conditions for them.
     """
-    if given.order_asked is not None and given.order is not None:
-        raise UsageProblem("the order is given twice", "give it once", code="options-clash")
     given.order = given.order or given.order_asked
-    kind = _kind_asked(given, output.format)
-    if kind is not None:
-        _free_trees(kind, given, output)
+    if given.symplectic:
+        _free_trees(given, output)
         return
     from garkcli.report import trees as report
     from garkcli.trees.notation import parse_tree
@@ -61,10 +57,6 @@ def trees(given: Given, output: Output) -> None:
     orders = _orders(given)
     query = report.Query(colours, orders[-1], given.upto, given.root, used)
     if given.count:
-        if used:
-            raise UsageProblem(
-                "--count knows no --colours-used", "leave one of them out", code="options-clash"
-            )
         with _any_digits():
             output.stream(report.REPORT, report.TreeList(query, None, counts_of(query)))
     elif given.svg is not None:
@@ -76,23 +68,6 @@ def trees(given: Given, output: Output) -> None:
         _refuse_millions(lines, given.yes)
         rows = counting("trees", rows_of(query, orders), lines)
         output.stream(report.REPORT, report.TreeList(query, rows, totals), given.document)
-
-
-def _kind_asked(given: Given, format: str) -> Kind | None:
-    """The kind of symplectic methods; None where all trees are meant.
-
-    Raises:
-        UsageProblem: options of ``--symplectic`` without it, or members in a LaTeX table.
-    """
-    if given.members and format == "latex":
-        message = "--members do not fit into a LaTeX table"
-        raise UsageProblem(message, "choose another --format", code="options-clash")
-    if given.symplectic:
-        return cast("Kind", given.kind or "pair")
-    if given.kind is not None or given.members:
-        option = "--members" if given.kind is None else "--kind"
-        raise UsageProblem(f"{option} is about free trees", "add --symplectic", code="option-alone")
-    return None
 
 
 def _orders(given: Given) -> range:
@@ -173,15 +148,12 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
     )
 
 
-def _free_trees(kind: Kind, given: Given, output: Output) -> None:
+def _free_trees(given: Given, output: Output) -> None:
     """A row for each class of equivalent conditions of symplectic methods."""
     from garkcli.report import symplectic as report
     from garkcli.report.symplectic_subject import subject_of_kind
 
-    if any(x is not None for x in (given.root, given.colours_used, given.tree)):
-        cure = "leave out --root, --colours-used and --tree"
-        raise UsageProblem("free trees have no root", cure, code="options-clash")
-    subject = subject_of_kind(kind, given.colours, _orders(given))
+    subject = subject_of_kind(given.kind or "pair", given.colours, _orders(given))
     if given.count:
         with _any_digits():
             output.stream(report.REPORT, report.FreeList(subject, None))
@@ -259,14 +231,12 @@ def conditions(given: Given, output: Output) -> None:
     from garkcli.order.conditions import all_conditions
     from garkcli.report.conditions import REPORT, ConditionRow, Conditions
 
-    kind = _kind_asked(given, output.format)
-    _check(given, kind)
     orders = range(given.order if given.only else 1, given.order + 1)
     valued = None if given.file is None else _valued(given)
     subject = None
     colours = 0
-    if kind is not None:
-        subject = _subject(kind, given, orders, valued)
+    if given.symplectic:
+        subject = _subject(given, orders, valued)
         if valued is not None and subject.method is not None:
             valued = replace(valued, method=subject.method)
         rows = _independent(subject, given.members, valued)
@@ -281,35 +251,6 @@ def conditions(given: Given, output: Output) -> None:
     rows = counting("conditions", rows)
     found = Conditions(rows, colours, subject, valued, given.members, given.digits)
     output.stream(REPORT, found, given.document)
-
-
-def _check(given: Given, kind: Kind | None) -> None:
-    """Refuse options that do not go together.
-
-    Raises:
-        UsageProblem: two of them do not.
-    """
-    if given.file is None:
-        of_values: Mapping[str, object] = {
-            "--conjugate or --pair": given.which,
-            "--failing": given.failing,
-            "--digits": given.digits,
-            "--sort": given.sort != "tree",
-        }
-        for option, value in of_values.items():
-            if value:
-                message = f"{option}: values are those of a method"
-                raise UsageProblem(message, "give a FILE", code="option-alone")
-    elif given.colours is not None or given.coloured is not None:
-        cure = "leave out --colours, --coloured, --shapes"
-        raise UsageProblem("the colours are those of FILE", cure, code="options-clash")
-    if kind is not None and given.coloured is not None:
-        cure = "leave out --coloured and --shapes"
-        raise UsageProblem("free trees have colours", cure, code="options-clash")
-    if given.settings and given.file is None:
-        raise UsageProblem(
-            "--set is for the parameters of FILE", "name a file", code="option-alone"
-        )
 
 
 def _valued(given: Given) -> Valued:
@@ -333,15 +274,12 @@ def _valued(given: Given) -> Valued:
     return Valued(derived(known_as, which), given.failing, parameters, which)
 
 
-def _subject(kind: Kind, given: Given, orders: range, valued: Valued | None) -> Subject:
+def _subject(given: Given, orders: range, valued: Valued | None) -> Subject:
     """What the conditions are independent for: a kind of methods, or the one of a file."""
     from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
 
     if valued is None:
-        return subject_of_kind(kind, given.colours, orders)
-    if given.kind is not None:
-        cure = "leave out --kind; --pair asks for the pair"
-        raise UsageProblem("the kind is that of FILE", cure, code="options-clash")
+        return subject_of_kind(given.kind or "pair", given.colours, orders)
     return subject_of_method(valued.method, orders)
 
 

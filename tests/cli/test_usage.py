@@ -9,7 +9,9 @@ import sys
 import pytest
 
 from garkcli.cli.main import COMMANDS
+from garkcli.cli.table import options_of, rules_of
 from garkcli.cli.usage import MEANT
+from garkcli.glossary.faults import code_of
 from tests.cli.harness import ROOT, gark
 
 
@@ -63,3 +65,46 @@ def test_a_mistake_fits_the_terminal(arguments: list[str]) -> None:
     ).stderr
     assert " ".join(" ".join(shown).split()) == " ".join(piped.split())
     assert "one of: file" not in piped
+
+
+def test_rules_name_options_of_their_commands() -> None:
+    """Every option that needs or excludes another is one of its command, and what is said of it is
+    of the kind that the rule has.
+    """
+    rules = [(name, rule) for name in COMMANDS for rule in rules_of(name)]
+    assert len(rules) > 40
+    for name, rule in rules:
+        known = {flag for option in options_of(name) for flag in option.flags}
+        known |= {x for word in known for x in word.split("/")} | {"FILE", "ORDER"}
+        words = {word.partition("=")[0] for word in (*rule.options, *rule.others)}
+        assert words <= known, name
+        assert code_of(rule.message) == rule.code
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("check rk4 --pair", "no such option --pair"),
+        ("stability rk4 --pair --conjugate", "--pair and --conjugate are two methods"),
+        ("stability rk4 --slow 1", "--slow and --fast belong together"),
+        ("stability rk4 --order-star", "--order-star is for the picture"),
+        ("trees 3 -n 4", "the order is given twice"),
+        ("trees 3 --members", "--members is about free trees"),
+        ("trees 3 --symplectic --root 1", "free trees have no root"),
+        ("trees 3 --document", "--document goes with --format latex"),
+        ("conditions --sort worst", "--sort: values are those of a method"),
+        ("conditions rk4 --shapes", "the colours are those of FILE"),
+        ("conditions --set a=1", "--set is for the parameters of FILE"),
+        ("convert rk4 --to reduced --stages 3", "--stages adds stages"),
+        ("design rk4 --seed 0", "--seed goes with --search"),
+        ("design rk4 --slow 1 --fast 1 --a-stable", "--slow and --fast say on which springs"),
+        ("energy rk4 --modified --max-error 1", "--max-error does not go with --modified"),
+        ("export rk4 --to c --test", "--test writes further files beside the first"),
+        ("new x.yaml -o y.yaml", "FILE and -o at once"),
+    ],
+)
+def test_options_that_do_not_go_together(line: str, said: str) -> None:
+    """They are refused before anything is read, with the option that was given."""
+    run = gark(*line.split())
+    assert (run.code, run.out) == (2, "")
+    assert said in run.err
