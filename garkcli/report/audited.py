@@ -12,8 +12,9 @@ from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import counted
 from garkcli.page.paint import Paint
 from garkcli.report.check_findings import annotation, commands_off, log_of
-from garkcli.tell.facts import Level, Row, Section, part, parts, rows_of, table, told
+from garkcli.tell.facts import Level, Row, Section, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, choice
+from garkcli.tell.parts import part, parts, rows_of, shown, told
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
 
@@ -118,26 +119,25 @@ FINDING = Section(
 
 
 def _count(key: str, get: Callable[[Audited], int | None]) -> Row:
-    return Row(key, COUNT, get, DETAIL, has_null=True)
+    return maybe(key, COUNT, get, DETAIL)
 
 
 TABLE = Section(
-    Row("source", TEXT, lambda x: x.table.source, DATA),
-    Row("line", POSITION, lambda x: x.table.line, DATA),
-    Row("format", TEXT, lambda x: x.table.format, DETAIL),
-    Row("name", TEXT, lambda x: x.table.name, DATA),
-    Row("order", COUNT, lambda x: _number(x.order), DATA, has_null=True),
+    Row("source", TEXT, "table.source", DATA),
+    Row("line", POSITION, "table.line", DATA),
+    Row("format", TEXT, "table.format", DETAIL),
+    Row("name", TEXT, "table.name", DATA),
+    maybe("order", COUNT, lambda x: _number(x.order), DATA),
     _count("declared_order", lambda x: x.table.order),
-    Row("embedded_order", COUNT, lambda x: _number(x.embedded_order), DATA, has_null=True),
+    maybe("embedded_order", COUNT, lambda x: _number(x.embedded_order), DATA),
     _count("declared_embedded", lambda x: x.table.embedded_order),
     _count("nonautonomous_order", lambda x: _number(x.nonautonomous_order)),
     Row("findings", parts(FINDING), level=DATA),
-    Row("findings_in_words", rows_of(_finding_rows), lambda x: x.findings, DETAIL),
+    Row("findings_in_words", rows_of(_finding_rows), "findings", DETAIL),
     title=_title,
 )
 WRONG = Section(
-    Row("findings_in_words", rows_of(_finding_rows), lambda x: x[1]),
-    title=lambda x, d: _title(x[0], d),
+    Row("findings_in_words", rows_of(_finding_rows), "1"), title=lambda x, d: _title(x[0], d)
 )
 SUMMARY = Section(
     Row("tables", COUNT, len), Row("wrong", COUNT, _errors), Row("unread", COUNT, _unread)
@@ -148,14 +148,8 @@ REPORT: Report[Audit] = Report.only(
     Section(
         Row("answer", told(_answer), lambda x: x, HEADLINE, label=""),
         Row("tables", parts(TABLE), level=DETAIL),
-        Row(
-            "wrong_tables",
-            table(WRONG, MOST, is_data=False),
-            lambda x: x.wrong,
-            label="tables",
-            is_short=True,
-        ),
-        Row("summary", part(SUMMARY), lambda x: x.tables, DATA),
+        Row("wrong_tables", shown(WRONG, MOST), "wrong", label="tables", is_short=True),
+        Row("summary", part(SUMMARY), "tables", DATA),
     ),
 )
 

@@ -24,8 +24,9 @@ from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
-from garkcli.tell.facts import Kind, Level, Row, Section, part, parts, rows_of, told
-from garkcli.tell.kinds import COUNT, POSITION, TEXT, TREE, TRUTH, choice, order_answer
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
+from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice, order_answer
+from garkcli.tell.parts import part, parts, rows_of, told
 from garkcli.tell.report import Report
 from garkcli.trees.notation import format_tree
 from garkcli.version import __version__
@@ -126,23 +127,23 @@ FIELD = Section(
 )
 SPACE = Section(
     Row("stages", POSITION),
-    Row("modulus", RATIONALS, _modulus, is_optional=True),
-    Row("between_nodes", RATIONALS, _between, is_optional=True),
+    optional("modulus", RATIONALS, _modulus),
+    optional("between_nodes", RATIONALS, _between),
 )
 COLOUR = Section(
-    Row("name", TEXT, lambda x: x[0].name),
-    Row("space", POSITION, lambda x: x[0].space + 1),
-    Row("drives", choice("y", "q", "p"), lambda x: x[0].part),
-    Row("linear", TRUTH, lambda x: x[0].is_linear),
+    Row("name", TEXT, "0.name"),
+    Row("space", INDEX, "0.space"),
+    Row("drives", choice("y", "q", "p"), "0.part"),
+    Row("linear", TRUTH, "0.is_linear"),
     Row("b", NUMBERS, lambda x: _numbers(x[0].b, x[1])),
 )
 BLOCK = Section(
-    Row("space", POSITION, lambda x: x[0][0][0] + 1),
-    Row("colour", POSITION, lambda x: x[0][0][1] + 1),
+    Row("space", INDEX, "0.0.0"),
+    Row("colour", INDEX, "0.0.1"),
     Row("A", Kind(S.array(S.array(NUMBER))), lambda x: [_numbers(row, x[1]) for row in x[0][1]]),
 )
 WITNESS = Section(
-    Row("tree", TREE, lambda x: x[0].tree),
+    Row("tree", TREE, "0.tree"),
     Row("value", Kind(NUMBER), lambda x: _number(x[0].value, x[1])),
     Row("required", Kind(RATIONAL), lambda x: str(x[0].required)),
 )
@@ -166,14 +167,14 @@ TREES = Kind(
     ],
 )
 TRUE_OF = [
-    Row("order", COUNT, lambda x: x.order.order, DATA),
+    Row("order", COUNT, "order.order", DATA),
     Row("spanning", TREES, level=DATA),
-    Row("witness", part(WITNESS), _witness, DATA, has_null=True),
+    maybe("witness", part(WITNESS), _witness, DATA),
     Row("spanning_in_words", rows_of(_tree_rows), lambda x: x, DETAIL),
 ]
 TRUTH_OF = Section(*TRUE_OF)
 PROOF = Section(
-    Row("spaces", parts(SPACE), lambda x: x.tableau.spaces, DATA),
+    Row("spaces", parts(SPACE), "tableau.spaces", DATA),
     Row("colours", parts(COLOUR), _all(lambda tableau: tableau.colours), DATA),
     Row("blocks", parts(BLOCK), _all(lambda tableau: sorted(tableau.blocks.items())), DATA),
     *TRUE_OF,
@@ -191,14 +192,14 @@ REPORT: Report[MethodProof] = Report.only(
     Section(
         Row("name", TEXT, level=DATA),
         Row("version", TEXT, lambda _: __version__, DATA),
-        Row("field", part(FIELD), lambda x: x.method.tableau.field, DATA, has_null=True),
-        Row("order", told(_proved), lambda x: x.method, HEADLINE),
-        Row("conjugate_order", told(_proved), lambda x: x.conjugate),
-        Row("pair_order", told(_proved), lambda x: x.pair),
+        maybe("field", part(FIELD), "method.tableau.field", DATA),
+        Row("order", told(_proved), "method", HEADLINE),
+        Row("conjugate_order", told(_proved), "conjugate"),
+        Row("pair_order", told(_proved), "pair"),
         Row("method", part(PROOF), level=DETAIL),
-        Row("conjugate", part(PROOF), level=DETAIL, is_optional=True),
-        Row("pair", part(TRUTH_OF), _pair, DETAIL, is_optional=True),
-        Row("no_conjugate", TEXT, lambda x: str(x.obstacle) or None, is_optional=True),
+        optional("conjugate", part(PROOF), level=DETAIL),
+        optional("pair", part(TRUTH_OF), _pair, DETAIL),
+        optional("no_conjugate", TEXT, lambda x: str(x.obstacle) or None),
         title=lambda x, d: d.prose(x.name),
     ),
 )

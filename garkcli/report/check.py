@@ -17,20 +17,8 @@ from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.failure import FAULT
 from garkcli.tell import kinds
-from garkcli.tell.facts import (
-    Answer,
-    Kind,
-    Level,
-    Row,
-    Section,
-    Status,
-    part,
-    parts,
-    picture,
-    rows_of,
-    told,
-    via,
-)
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional, via
+from garkcli.tell.parts import part, parts, picture, rows_of, told
 from garkcli.trees.drawing import draw_text, text_width
 from garkcli.trees.notation import format_tree
 
@@ -110,7 +98,7 @@ def of_several(key: str) -> Row:
             answer, reason=a.obstacle if answer.value is None else NO_REASON, level=level
         )
 
-    return Row(key, kinds.ORDER, get, has_null=True)
+    return maybe(key, kinds.ORDER, get)
 
 
 def _pair_in_brief(a: Any) -> Answer:
@@ -126,7 +114,7 @@ def with_time(key: str, of: Callable[[Any], Any]) -> Row:
         level = USUAL if a.inconsistent else DETAIL
         return replace(kinds.order_answer(of(a)), level=level)
 
-    return Row(key, kinds.ORDER, get, has_null=True)
+    return maybe(key, kinds.ORDER, get)
 
 
 def witnesses(a: Any) -> list[tuple[Any, Any]]:
@@ -234,12 +222,11 @@ SIMPLIFYING = Section(
         for x in ("r", "eta", "zeta", "xi", "chi")
     ),
     Row("bound", kinds.COUNT, bound("bound", "bound", BOUND), DETAIL),
-    Row(
+    optional(
         "limit",
         kinds.COUNT,
         lambda a: a.simplifying.limit if a.simplifying.is_open(a.simplifying.limit) else None,
         DATA,
-        is_optional=True,
     ),
 )
 
@@ -313,7 +300,7 @@ def truth(key: str) -> Row:
             )
         return replace(answer, level=USUAL if is_told else DETAIL)
 
-    return Row(find(key).field, replace(kinds.TRUTH, phrase=phrase), get, has_null=True)
+    return maybe(find(key).field, replace(kinds.TRUTH, phrase=phrase), get)
 
 
 def _names(tableau: Any, space: int) -> list[str]:
@@ -380,19 +367,13 @@ COLOUR = Section(
         kinds.choice("explicit", "diagonally implicit", "fully implicit", None),
         lambda x: getattr(x[0].shapes[x[1]], "kind", None),
     ),
-    Row("gamma", kinds.EXACT, lambda x: getattr(x[0].shapes[x[1]], "gamma", None), has_null=True),
+    maybe("gamma", kinds.EXACT, lambda x: getattr(x[0].shapes[x[1]], "gamma", None)),
     Row(
         "stage_order",
         kinds.COUNT,
         lambda x: Answer(x[0].simplifying.stage_orders[x[1]], Status(at_least=_is_open(*x))),
     ),
-    Row(
-        "stage_order_is_lower_bound",
-        kinds.TRUE,
-        lambda x: _is_open(*x) or None,
-        DATA,
-        is_optional=True,
-    ),
+    optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: _is_open(*x) or None, DATA),
     title=lambda x, d: f"colour {d.prose(x[0].tableau.colours[x[1]].name)}",
 )
 
@@ -412,12 +393,8 @@ def count_rows(key: str) -> tuple[Row, ...]:
     field, get = find(key).field, whole_number(key)
     return (
         Row(field, kinds.COUNT, get, DETAIL),
-        Row(
-            f"{field}_is_lower_bound",
-            kinds.TRUE,
-            lambda a: get(a).status.at_least or None,
-            DATA,
-            is_optional=True,
+        optional(
+            f"{field}_is_lower_bound", kinds.TRUE, lambda a: get(a).status.at_least or None, DATA
         ),
     )
 
@@ -444,31 +421,17 @@ def _colours_words(found: Any, d: Plain) -> str:
 
 SYSTEMS = Kind(S.array(S.array(STAGES)), words=_systems_words)
 OWN_ROWS = {
-    "gamma": (
-        Row(
-            "gamma", kinds.EXACT, lambda a: a.subject.shape and a.subject.shape.gamma, has_null=True
-        ),
-    ),
+    "gamma": (maybe("gamma", kinds.EXACT, "subject.shape.gamma"),),
     "implicit-stages": (
-        Row(
-            "implicit_stages",
-            kinds.COUNT,
-            lambda a: a.subject.shape.implicit_stages,
-            DETAIL,
-            has_null=True,
-        ),
+        maybe("implicit_stages", kinds.COUNT, "subject.shape.implicit_stages", DETAIL),
         Row("solved_together", SYSTEMS, together, DETAIL),
     ),
     "symmetric": (
         truth("symmetric"),
-        Row(
-            "renumbering",
-            Kind(S.array(RENUMBERED), words=_renumbering_words),
-            renumbering,
-            DETAIL,
-            has_null=True,
+        maybe(
+            "renumbering", Kind(S.array(RENUMBERED), words=_renumbering_words), renumbering, DETAIL
         ),
-        Row("symplectic", kinds.TRUTH, lambda a: a.symplectic, DATA),
+        Row("symplectic", kinds.TRUTH, level=DATA),
     ),
     "stage-order": count_rows("stage-order"),
     "weak-stage-order": count_rows("weak-stage-order"),
@@ -513,16 +476,11 @@ def _of_matrix(r: Any) -> bool:
 
 PLACED = Kind(kinds.BLOCK)
 REPAIR = Section(
-    Row(
-        "b",
-        PLACED,
-        lambda r: None if _of_matrix(r) or r.is_embedded else _block(r.l, r.m),
-        is_optional=True,
-    ),
-    Row("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None, is_optional=True),
-    Row("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None, is_optional=True),
-    Row("row", Kind(S.INTEGER), lambda r: None if r.i is None else r.i + 1, has_null=True),
-    Row("entry", kinds.POSITION, lambda r: r.j + 1),
+    optional("b", PLACED, lambda r: None if _of_matrix(r) or r.is_embedded else _block(r.l, r.m)),
+    optional("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None),
+    optional("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None),
+    maybe("row", Kind(S.INTEGER), lambda r: None if r.i is None else r.i + 1),
+    Row("entry", kinds.INDEX, "j"),
     Row("old", kinds.EXACT),
     Row("new", kinds.EXACT),
 )
@@ -530,14 +488,9 @@ BLAME = Section(
     Row("of", kinds.choice("order", "conjugate-order", "pair-order", "embedded-order")),
     Row("order", kinds.POSITION),
     Row("failing", kinds.COUNT),
-    Row("conditions", kinds.COUNT, lambda b: b.total),
+    Row("conditions", kinds.COUNT, "total"),
     Row("only_coupling", kinds.TRUTH),
-    Row(
-        "culprit",
-        PLACED,
-        lambda b: None if b.culprit is None else _block(*b.culprit),
-        has_null=True,
-    ),
+    maybe("culprit", PLACED, lambda b: None if b.culprit is None else _block(*b.culprit)),
     Row("in_every", kinds.BLOCKS),
     Row("in_none", kinds.BLOCKS),
     Row("repairs", parts(REPAIR)),
@@ -588,11 +541,11 @@ def _norms_words(n: Any, d: Plain) -> str:
 VALUE_TEXT = Kind(S.TEXT, kinds.EXACT.data, kinds.EXACT.words)
 NORMS = Section(
     Row("trees", kinds.COUNT),
-    Row("two_norm_squared", VALUE_TEXT, lambda n: n.two_squared, has_null=True),
-    Row("two_norm", kinds.FLOAT, lambda n: n.two),
-    Row("inf_norm", kinds.FLOAT, lambda n: n.largest),
-    Row("worst", kinds.TREE, has_null=True),
-    Row("worst_value", VALUE_TEXT, has_null=True),
+    maybe("two_norm_squared", VALUE_TEXT, "two_squared"),
+    Row("two_norm", kinds.FLOAT, "two"),
+    Row("inf_norm", kinds.FLOAT, "largest"),
+    maybe("worst", kinds.TREE),
+    maybe("worst_value", VALUE_TEXT),
     title=lambda n, d: f"norms over {counted(n.trees, 'tree')}",
 )
 
@@ -607,7 +560,7 @@ def _constants_words(c: Any, d: Plain) -> str:
 
 CONSTANTS = Section(
     Row("order", kinds.POSITION),
-    Row("exact", kinds.TRUTH, lambda c: c.is_exact, DATA),
+    Row("exact", kinds.TRUTH, "is_exact", DATA),
     Row("all", part(NORMS)),
     Row("coupling", part(NORMS)),
 )
@@ -621,18 +574,18 @@ def estimate_words(e: Any, d: Plain) -> str:
 
 
 ESTIMATE = Section(
-    Row("order", kinds.POSITION, has_null=True),
-    Row("zero", kinds.TRUTH, lambda e: e.is_zero),
+    maybe("order", kinds.POSITION),
+    Row("zero", kinds.TRUTH, "is_zero"),
     Row("sums", kinds.EXACTS),
-    Row("leading_term", part(CONSTANTS, _constants_words), lambda e: e.constants, has_null=True),
+    maybe("leading_term", part(CONSTANTS, _constants_words), "constants"),
 )
 DENSE_WITNESS = Section(
-    Row("order", kinds.POSITION, lambda x: x.witness.tree.order),
-    Row("tree", kinds.TREE, lambda x: x.witness.tree),
+    Row("order", kinds.POSITION, "witness.tree.order"),
+    Row("tree", kinds.TREE, "witness.tree"),
     Row("power", kinds.POSITION),
-    Row("value", kinds.EXACT, lambda x: x.witness.value),
-    Row("required", kinds.EXACT, lambda x: x.witness.required),
-    Row("residual", kinds.EXACT, lambda x: x.witness.residual),
+    Row("value", kinds.EXACT, "witness.value"),
+    Row("required", kinds.EXACT, "witness.required"),
+    Row("residual", kinds.EXACT, "witness.residual"),
 )
 
 
@@ -663,22 +616,16 @@ def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
 
 DENSE = Section(
     Row("degree", kinds.POSITION),
-    Row("witness", part(DENSE_WITNESS), lambda x: x.order.witness, has_null=True),
-    Row("continuous", kinds.TRUTH, lambda x: x.ends_at_step),
-    Row("smooth", kinds.TRUTH, lambda x: x.is_smooth, has_null=True),
-    Row("slope_at_start", kinds.TRUTH, lambda x: x.slopes.at_start, has_null=True),
-    Row("slope_at_end", kinds.TRUTH, lambda x: x.slopes.at_end, has_null=True),
-    Row(
-        "order_is_lower_bound",
-        kinds.TRUE,
-        lambda x: x.order.is_lower_bound or None,
-        DATA,
-        is_optional=True,
-    ),
-    Row("order_undecided", kinds.TRUE, lambda x: x.order.undecided or None, DATA, is_optional=True),
+    maybe("witness", part(DENSE_WITNESS), "order.witness"),
+    Row("continuous", kinds.TRUTH, "ends_at_step"),
+    maybe("smooth", kinds.TRUTH, "is_smooth"),
+    maybe("slope_at_start", kinds.TRUTH, "slopes.at_start"),
+    maybe("slope_at_end", kinds.TRUTH, "slopes.at_end"),
+    optional("order_is_lower_bound", kinds.TRUE, lambda x: x.order.is_lower_bound or None, DATA),
+    optional("order_undecided", kinds.TRUE, lambda x: x.order.undecided or None, DATA),
 )
 COLOURS = Section(
-    Row("name", kinds.TEXT, lambda x: x[1].name),
+    Row("name", kinds.TEXT, "1.name"),
     Row("stages", kinds.POSITION, lambda x: x[0].spaces[x[1].space].stages),
 )
 
@@ -692,7 +639,7 @@ def colours_of(tableau: Any) -> list[Any]:
 
 ANALYSIS = [
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    Row("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA, has_null=True),
+    maybe("tolerance", kinds.TOLERANCE, level=DATA),
     Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
     order("order", lambda a: a.order, HEADLINE),
     Row(
@@ -715,29 +662,23 @@ ANALYSIS = [
     with_time(
         "embedded_nonautonomous_order", lambda a: a.embedded and a.embedded.nonautonomous_order
     ),
-    Row(
-        "error_estimate",
-        part(ESTIMATE, estimate_words),
-        lambda a: a.embedded and a.embedded.estimator,
-        has_null=True,
-    ),
-    Row("dense_order", kinds.COUNT, dense_order, has_null=True),
-    Row("dense", part(DENSE, dense_words), lambda a: a.dense, has_null=True, label="dense output"),
-    Row("pair_criterion", kinds.COUNT, pair_criterion, DETAIL, has_null=True),
+    maybe("error_estimate", part(ESTIMATE, estimate_words), "embedded.estimator"),
+    maybe("dense_order", kinds.COUNT, dense_order),
+    maybe("dense", part(DENSE, dense_words), label="dense output"),
+    maybe("pair_criterion", kinds.COUNT, pair_criterion, DETAIL),
     Row("pair_criterion_why", kinds.TEXTS, pair_criterion_why, DATA),
-    Row("pair_bound", kinds.COUNT, bound("pair_bound", "bound", BOUND), DETAIL, has_null=True),
+    maybe("pair_bound", kinds.COUNT, bound("pair_bound", "bound", BOUND), DETAIL),
     Row("sharp_bound", kinds.COUNT, bound("sharp_bound", "sharp_bound", SHARP_BOUND), DETAIL),
-    Row(
+    maybe(
         "pair_sharp_bound",
         kinds.COUNT,
         bound("pair_sharp_bound", "sharp_bound", SHARP_BOUND),
         DETAIL,
-        has_null=True,
     ),
     Row("consistent", kinds.TRUTH, consistent),
-    Row("inconsistent_blocks", kinds.BLOCKS, lambda a: a.inconsistent, DATA),
-    Row("bound_in_brief", told(lambda x, d: str(x)), lambda a: a.bound, DATA, label="bound"),
-    Row("conjugate_consistent", kinds.TRUTH, conjugate_consistent, has_null=True),
+    Row("inconsistent_blocks", kinds.BLOCKS, "inconsistent", DATA),
+    Row("bound_in_brief", told(lambda x, d: str(x)), "bound", DATA, label="bound"),
+    maybe("conjugate_consistent", kinds.TRUTH, conjugate_consistent),
     Row(
         "symplectic",
         kinds.TRUTH,
@@ -770,7 +711,7 @@ CLAIM = Section(
     Row("found", kinds.TEXT),
     Row("holds", kinds.TRUTH),
     Row("line", kinds.POSITION),
-    Row("why", kinds.TEXT, lambda c: c.why or None, is_optional=True),
+    optional("why", kinds.TEXT, lambda c: c.why or None),
 )
 
 
@@ -831,10 +772,10 @@ def verdict_words(v: Any) -> Reason:
 
 
 VERDICT = Section(
-    Row("property", Kind({"enum": list(KEYS)}), lambda x: x[0]),
-    Row("value", Kind(VALUE, verdict_data), lambda x: x[1]),
-    Row("undecided", kinds.TRUTH, lambda x: x[1].is_undecided),
-    Row("why", kinds.TEXT, lambda x: x[1].why),
+    Row("property", Kind({"enum": list(KEYS)}), "0"),
+    Row("value", Kind(VALUE, verdict_data), "1"),
+    Row("undecided", kinds.TRUTH, "1.is_undecided"),
+    Row("why", kinds.TEXT, "1.why"),
 )
 
 
@@ -867,16 +808,11 @@ def transfer(outcome: Any) -> Any:
     return Answer(found, level=USUAL if is_told else DETAIL) if found else None
 
 
-TRANSFER = Row(
-    "transfer",
-    replace(kinds.TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))),
-    transfer,
-    is_optional=True,
+TRANSFER = optional(
+    "transfer", replace(kinds.TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))), transfer
 )
 SAME_AS = Section(
-    Row("method", kinds.TEXT),
-    Row("within", kinds.TOLERANCE, has_null=True),
-    Row("step_only", kinds.TRUTH),
+    Row("method", kinds.TEXT), maybe("within", kinds.TOLERANCE), Row("step_only", kinds.TRUTH)
 )
 
 
@@ -894,11 +830,10 @@ def _same_as_words(known: Any, d: Plain) -> str:
     )
 
 
-LEFT_BEHIND = Row(
+LEFT_BEHIND = optional(
     "left_behind",
     Kind(S.array(S.TEXT), lambda x, _: list(x), lambda x, d: f"{' and '.join(x)} of its parts"),
     lambda o: o.left_behind or None,
-    is_optional=True,
 )
 COLUMNS = (
     *("file", "order", "embedded_order", "conjugate_order", "pair_order"),
@@ -910,17 +845,12 @@ CHECKED = Section(
     *via(lambda o: o.analysis, ANALYSIS),
     TRANSFER,
     LEFT_BEHIND,
-    Row("every_property", parts(VERDICT), every_property, DATA, is_optional=True),
-    Row("blame", part(BLAME), level=DATA, is_optional=True),
-    Row("misprint", part(MISPRINT), lambda o: o.analysis.misprint, DATA, is_optional=True),
-    Row(
-        "error_constants",
-        part(CONSTANTS, _constants_words),
-        lambda o: o.constants,
-        is_optional=True,
-    ),
-    Row("suggestion", part(SUGGESTION), lambda o: o.analysis.suggestion, DATA, is_optional=True),
-    Row("same_as", part(SAME_AS, _same_as_words), _same_as, is_optional=True),
+    optional("every_property", parts(VERDICT), every_property, DATA),
+    optional("blame", part(BLAME), level=DATA),
+    optional("misprint", part(MISPRINT), "analysis.misprint", DATA),
+    optional("error_constants", part(CONSTANTS, _constants_words), "constants"),
+    optional("suggestion", part(SUGGESTION), "analysis.suggestion", DATA),
+    optional("same_as", part(SAME_AS, _same_as_words), _same_as),
     *CLAIMS,
     HINTS,
     Row("properties_in_words", rows_of(_property_rows), every_property),
@@ -933,7 +863,7 @@ AT_LEAST_ONE = Kind({}, section=FAULT, is_list=True, is_never_empty=True)
 UNREADABLE = Section(
     *kinds.FILE_AND_NAME,
     Row("ok", Kind({"const": False}), level=DATA),
-    Row("errors", AT_LEAST_ONE, lambda o: o.faults),
+    Row("errors", AT_LEAST_ONE, "faults"),
     IN_BRIEF,
     title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",
     columns=COLUMNS,

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from garkcli.report.check import CHECKED, SUMMARY, UNREADABLE
-from garkcli.tell.facts import Row, Section, part
+from garkcli.tell.facts import Row, Section
+from garkcli.tell.parts import part
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:

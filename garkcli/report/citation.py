@@ -11,8 +11,9 @@ from garkcli.page.latex_letters import ascii_letters, letters
 from garkcli.page.paint import counted
 from garkcli.page.plain import printable
 from garkcli.reference import Reference
-from garkcli.tell.facts import Level, Row, Section, part, parts, table
+from garkcli.tell.facts import Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS
+from garkcli.tell.parts import part, parts, shown
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
 
@@ -223,22 +224,20 @@ def _has_capital(word: str) -> bool:
 def _of(field: str) -> Row:
     """A field of a publication, where it has it."""
     is_list = field in {"authors", "editors"}
-    return Row(
-        field, TEXTS if is_list else TEXT, lambda x: getattr(x, field) or None, is_optional=True
-    )
+    return optional(field, TEXTS if is_list else TEXT, lambda x: getattr(x, field) or None)
 
 
 REFERENCE = Section(*(_of(name) for name in fields(Reference)))
 """The fields of a publication, those that it has."""
 CITED = Section(
-    Row("methods", TEXTS, lambda x: x[0].methods),
-    Row("key", TEXT, lambda x: x[1]),
-    Row("text", TEXT, lambda x: x[0].text or None, has_null=True),
-    Row("reference", part(REFERENCE), lambda x: x[0].reference, has_null=True),
-    Row("bibtex", TEXT, lambda x: _bibtex(*x) if x[0].text else None, has_null=True),
+    Row("methods", TEXTS, "0.methods"),
+    Row("key", TEXT, "1"),
+    maybe("text", TEXT, lambda x: x[0].text or None),
+    maybe("reference", part(REFERENCE), "0.reference"),
+    maybe("bibtex", TEXT, lambda x: _bibtex(*x) if x[0].text else None),
 )
 LINE = Section(
-    Row("methods", TEXTS, lambda x: x.methods, label=""),
+    Row("methods", TEXTS, label=""),
     Row("reference", TEXT, lambda x: x.text or "no reference in its file"),
 )
 REPORT: Report[Sequence[Cited]] = Report.only(
@@ -246,7 +245,7 @@ REPORT: Report[Sequence[Cited]] = Report.only(
     "report of gark cite",
     Section(
         Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
-        Row("methods", table(LINE, 0, is_data=False), lambda x: x),
+        Row("methods", shown(LINE, 0), lambda x: x),
         title=lambda x, _: counted(len(x), "publication"),
     ),
 )

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from garkcli.check.true_claims import TrueClaims
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
-from garkcli.tell.facts import Level, Row, Section, parts, rows_of
+from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
+from garkcli.tell.parts import parts, rows_of
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
     return [(d.prose(key), d.prose(value)) for key, value in found.claims.items()]
 
 
-CLAIM = Section(Row("claim", TEXT, lambda x: x[0]), Row("value", TEXT, lambda x: x[1]))
+CLAIM = Section(Row("claim", TEXT, "0"), Row("value", TEXT, "1"))
 FILE = Section(
     *(
         row.of(lambda x: x.found)
@@ -47,7 +48,7 @@ REPORT: Report[Claims] = Report(
     "report of gark claims",
     lambda: [FILE],
     lambda _: FILE,
-    tail=Section(Row("written", TRUTH, lambda xs: xs[0].is_written)),
+    tail=Section(Row("written", TRUTH, "0.is_written")),
 )
 
 

@@ -38,21 +38,9 @@ from garkcli.report.convergence import REPORT as OF_ONE
 from garkcli.report.costs import Tested, at_equal_errors, curve
 from garkcli.report.failure import FAULT
 from garkcli.report.problem import WORDS
-from garkcli.tell.facts import (
-    Answer,
-    Choice,
-    Level,
-    Row,
-    Section,
-    part,
-    parts,
-    picture,
-    rows_of,
-    table,
-    told,
-    via,
-)
+from garkcli.tell.facts import Answer, Choice, Level, Row, Section, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
+from garkcli.tell.parts import part, parts, picture, rows_of, shown, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -152,7 +140,7 @@ METHOD = Section(
     _tested(Row("visible", COUNT, visible)),
     _tested(Row("predicted", COUNT, predicted)),
     Row("verdict", told(_verdict), lambda x: x),
-    Row("method", TEXT, lambda x: x.name),
+    Row("method", TEXT, "name"),
 )
 
 
@@ -220,13 +208,12 @@ class Work(NamedTuple):
 
 WORK = Section(
     Row("letter", TEXT, label=""),
-    Row("h", STEP_SIZE, lambda x: x.row.h),
+    Row("h", STEP_SIZE, "row.h"),
     Row("error", told(lambda x, d: d.prose(scientific(x.row.error))), lambda x: x),
-    Row("cost", part(COST), lambda x: x.row.cost, has_null=True),
+    maybe("cost", part(COST), "row.cost"),
 )
 EQUAL = Section(
-    Row("letter", TEXT, lambda x: x[0], label=""),
-    Row("costs", rows_of(lambda cells, _: cells), lambda x: x[1]),
+    Row("letter", TEXT, "0", label=""), Row("costs", rows_of(lambda cells, _: cells), "1")
 )
 
 
@@ -243,7 +230,7 @@ def _equal(what: str) -> Row:
     """A table of what equal errors cost."""
     return Row(
         f"{what}_at_equal_errors",
-        table(EQUAL, MOST_METHODS, is_data=False),
+        shown(EQUAL, MOST_METHODS),
         lambda c: at_equal_errors(c.tested, what) if c.has_work else [],
         label=f"{what} for an error of",
     )
@@ -293,10 +280,7 @@ def _answer(_: str, answer: Answer, d: Plain) -> str:
     return f"{counted(len(answer.value.entries), 'method')}: {', '.join(filter(None, texts))}"
 
 
-HEAD = (
-    Row("file", TEXT, lambda x: x.entry.file),
-    Row("ok", TRUTH, lambda x: x.entry.exit_code == 0),
-)
+HEAD = (Row("file", TEXT, "entry.file"), Row("ok", TRUTH, lambda x: x.entry.exit_code == 0))
 TESTED = {
     kind: Section(
         *HEAD,
@@ -306,16 +290,14 @@ TESTED = {
     for kind, section in ALONE.items()
 }
 UNTESTED = Section(
-    *HEAD,
-    Row("name", TEXT, lambda x: x.entry.name),
-    Row("errors", parts(FAULT), lambda x: x.entry.faults),
+    *HEAD, Row("name", TEXT, "entry.name"), Row("errors", parts(FAULT), "entry.faults")
 )
 RESULT = Choice(
     lambda x: UNTESTED if x.test is None else TESTED[type(x.test.result.problem)],
     UNTESTED,
     *TESTED.values(),
 )
-LINE = (Row("file", TEXT, lambda x: x[0].file), Row("method", TEXT, lambda x: x[0].name))
+LINE = (Row("file", TEXT, "0.file"), Row("method", TEXT, "0.name"))
 SUMMARY = Section(
     Row("files", COUNT, lambda c: len(c.entries)),
     Row("failed", COUNT, lambda c: sum(x.exit_code != 0 for x in c.entries)),
@@ -327,13 +309,13 @@ REPORT: Report[Compared] = Report.only(
         Row("answer", told(lambda _, d: "", _answer), lambda c: c, HEADLINE, label=""),
         Row("problem_in_words", WORDS, _problem, label="problem"),
         Row("remarks", rows_of(lambda xs, d: [(x, d.prose(text)) for x, text in xs]), _remarks),
-        Row("methods", table(METHOD, MOST_METHODS, is_data=False), lambda c: c.named, label=""),
-        Row("sizes", table(SIZE, MOST_METHODS, is_data=False), _sizes, label="errors"),
-        Row("work", table(WORK, MOST_METHODS, is_data=False), _work),
+        Row("methods", shown(METHOD, MOST_METHODS), "named", label=""),
+        Row("sizes", shown(SIZE, MOST_METHODS), _sizes, label="errors"),
+        Row("work", shown(WORK, MOST_METHODS), _work),
         _equal("evaluations"),
         _equal("seconds"),
         Row("plot", picture(_plot), lambda c: c, DETAIL),
-        Row("results", parts(RESULT), lambda c: c.named, DATA),
+        Row("results", parts(RESULT), "named", DATA),
         Row("summary", part(SUMMARY), lambda c: c, DATA),
     ),
     lines=lambda c: (

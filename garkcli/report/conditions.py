@@ -19,8 +19,9 @@ from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, part, sentence, stream, told
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import NUMERAL, POSITION, TEXTS, TOLERANCE, choice, numeral_text
+from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
 from garkcli.trees.notation import condition_latex, condition_text, format_tree, vertex_letters
 from garkcli.trees.tree import Tree
@@ -200,7 +201,7 @@ def _numeral(key: str, level: Level) -> Row:
     kind = Kind(
         S.NUMERAL, lambda x, d: numeral_text(getattr(x, key), d), lambda x, d: _number(x, key, d)
     )
-    return Row(key, kind, lambda x: x.condition, level)
+    return Row(key, kind, "condition", level)
 
 
 def _state(condition: Condition, d: Plain) -> str:
@@ -253,45 +254,38 @@ _TREE = (
         Kind(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape), lambda x, d: d.tree(x.tree)),
         lambda x: x,
     ),
-    replace(_ROOT, get=lambda x: None if x.is_shape else x.tree.root + 1, has_null=True),
+    replace(_ROOT, get=lambda x: None if x.is_shape else x.tree.root, has_null=True),
     *_SIZES,
     Row("condition", Kind(S.TEXT, lambda x, _: x.text(), _formula), lambda x: x, DETAIL),
-    Row(
+    optional(
         "for_all",
         Kind(S.array(S.TEXT), words=_for_all, csv=lambda _: {}),
         lambda x: x.letters and list(x.letters),
         DETAIL,
-        is_optional=True,
     ),
 )
 _VALUES = (
     _numeral("value", DETAIL),
     _numeral("required", DATA),
     _numeral("residual", DETAIL),
-    Row("holds", Kind(S.FLAG, lambda x, _: x.holds, _state), lambda x: x.condition),
+    Row("holds", Kind(S.FLAG, lambda x, _: x.holds, _state), "condition"),
     Row(
         "kind",
         choice("coupling", "diagonal"),
         lambda x: "coupling" if x.condition.is_coupling else "diagonal",
         DATA,
     ),
-    Row("multiplicity", POSITION, lambda x: len(x.condition.trees), DATA, is_optional=True),
+    optional("multiplicity", POSITION, lambda x: len(x.condition.trees), DATA),
 )
 _CLASS = (
-    Row("stands_for", POSITION, lambda x: x.stands_for or None, DETAIL, is_optional=True),
-    Row(
-        "members",
-        TREES,
-        lambda x: [format_tree(u) for u in x.members] or None,
-        DATA,
-        is_optional=True,
-    ),
+    optional("stands_for", POSITION, lambda x: x.stands_for or None, DETAIL),
+    optional("members", TREES, lambda x: [format_tree(u) for u in x.members] or None, DATA),
     Row("condition", told(_in_words), lambda x: x, is_short=True),
 )
 _OF_METHOD = (
-    Row("derivation", Kind(S.DERIVATION), lambda x: x.valued.derivation, DATA),
-    Row("colours", TEXTS, lambda x: x.valued.names, DATA),
-    Row("tolerance", TOLERANCE, lambda x: x.valued.tolerance, DATA, has_null=True),
+    Row("derivation", Kind(S.DERIVATION), "valued.derivation", DATA),
+    Row("colours", TEXTS, "valued.names", DATA),
+    maybe("tolerance", TOLERANCE, "valued.tolerance", DATA),
 )
 
 
@@ -307,7 +301,7 @@ def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section:
     return Section(
         *(_OF_METHOD if has_values else ()),
         sentence(lambda x: x.legend),
-        Row("symplectic", part(SUBJECT), lambda x: x.subject, DATA, is_optional=True),
+        optional("symplectic", part(SUBJECT), "subject", DATA),
         Row(
             "conditions",
             stream(row_of(has_values, left_out), lambda x, _: f"order {x.tree.order}"),

@@ -27,14 +27,12 @@ from garkcli.tell.facts import (
     Row,
     Section,
     Status,
-    part,
-    picture,
-    rows_of,
-    table,
-    told,
+    maybe,
+    optional,
     via,
 )
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.parts import part, picture, rows_of, table, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -129,21 +127,21 @@ INVARIANT_ERRORS = Kind(
 COST = Section(
     Row("steps", COUNT),
     Row("evaluations", COUNT),
-    Row("newton_iterations", COUNT, lambda x: x.iterations, label="iterations"),
+    Row("newton_iterations", COUNT, "iterations", label="iterations"),
     Row("jacobians", COUNT, label="Jacobians"),
-    Row("seconds", SECONDS, has_null=True),
+    maybe("seconds", SECONDS),
 )
 STEP = Section(
-    Row("h", STEP_SIZE, lambda x: x.row.h),
-    Row("h_exact", EXACT, lambda x: x.row.h, DATA),
-    Row("error", MEASURED, lambda x: x.row.error),
-    Row("slope", SLOPE, lambda x: x.row.slope, has_null=True),
-    Row("energy_error", MEASURED, lambda x: x.row.energy_error, has_null=True),
+    Row("h", STEP_SIZE, "row.h"),
+    Row("h_exact", EXACT, "row.h", DATA),
+    Row("error", MEASURED, "row.error"),
+    maybe("slope", SLOPE, "row.slope"),
+    maybe("energy_error", MEASURED, "row.energy_error"),
     Row("invariant_errors", INVARIANT_ERRORS),
-    Row("digits", POSITION, lambda x: x.row.digits, has_null=True),
-    Row("below_round_off", TEXTS, level=DATA, is_optional=True),
+    maybe("digits", POSITION, "row.digits"),
+    optional("below_round_off", TEXTS, level=DATA),
 )
-WORKED = Section(*STEP.rows, Row("work", part(COST), lambda x: x.row.cost, has_null=True))
+WORKED = Section(*STEP.rows, maybe("work", part(COST), "row.cost"))
 _STEPS = Choice(lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED)
 
 
@@ -273,32 +271,27 @@ def _resolution(x: Convergence) -> float | None:
     return None if x.stiff is None else float(f"{x.stiff.resolution:.3g}")
 
 
-SHORT = Section(
-    Row("t_end", EXACT, lambda x: x.short_time),
-    Row("observed_order", OBSERVED, lambda x: x.short_order, has_null=True),
-)
+SHORT = Section(Row("t_end", EXACT, "short_time"), maybe("observed_order", OBSERVED, "short_order"))
 STIFF = Section(
-    Row("least_h_times_norm", Kind(S.SIZE), _resolution, has_null=True),
-    Row("classical_order", COUNT, lambda x: x.predicted_order),
-    Row("stage_order", COUNT, lambda x: x.stiff.stage_order, has_null=True),
-    Row("weak_stage_order", COUNT, lambda x: x.stiff.weak_stage_order, has_null=True),
-    Row("slope", SLOPE, lambda x: x.observed_order, has_null=True),
+    maybe("least_h_times_norm", Kind(S.SIZE), _resolution),
+    Row("classical_order", COUNT, "predicted_order"),
+    maybe("stage_order", COUNT, "stiff.stage_order"),
+    maybe("weak_stage_order", COUNT, "stiff.weak_stage_order"),
+    maybe("slope", SLOPE, "observed_order"),
 )
 _RESULT = [
     Row("t_end", EXACT, level=DATA),
     Row("answer", told(lambda _, d: "", _answer_phrase), lambda x: x, HEADLINE, label=""),
     Row("visible_order", COUNT, visible),
-    Row("visible_order_is_exact", TRUTH, lambda x: x.visible.is_sharp, DATA),
+    Row("visible_order_is_exact", TRUTH, "visible.is_sharp", DATA),
     Row("predicted_order", COUNT, predicted),
-    Row("observed_order", OBSERVED, level=DATA, has_null=True),
+    maybe("observed_order", OBSERVED, level=DATA),
     Row("agrees", TRUTH, level=DATA),
     Row("verdict", choice(*get_args(Verdict)), level=DATA),
     Row("plateau", COUNT, level=DATA),
-    Row(
-        "short", part(SHORT), lambda x: None if x.short_time is None else x, DATA, is_optional=True
-    ),
-    Row("stiff", part(STIFF), lambda x: None if x.stiff is None else x, DATA, is_optional=True),
-    Row("note", TEXT, lambda x: x.visible.trees, DATA),
+    optional("short", part(SHORT), lambda x: None if x.short_time is None else x, DATA),
+    optional("stiff", part(STIFF), lambda x: None if x.stiff is None else x, DATA),
+    Row("note", TEXT, "visible.trees", DATA),
 ]
 FORMS = {
     kind: Section(

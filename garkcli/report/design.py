@@ -24,8 +24,9 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
 from garkcli.report.design_values import conditions, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
-from garkcli.tell.facts import Kind, Level, Row, Section, part, parts, rows_of, told, via
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
+from garkcli.tell.parts import part, parts, rows_of, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -438,10 +439,7 @@ def _accepted(x: Solutions) -> bool | None:
 
 OF_FOUND = via(
     lambda x: x.found,
-    [
-        Row("multiplicity", POSITION, lambda x: x.solution.multiplicity),
-        Row("order", COUNT, lambda x: x.order and x.order.order, has_null=True),
-    ],
+    [Row("multiplicity", POSITION, "solution.multiplicity"), maybe("order", COUNT, "order.order")],
 )
 REAL = Section(
     Row("values", VALUES_OF),
@@ -453,7 +451,7 @@ REAL = Section(
 NOT_REAL = Section(
     Row("values", NO_VALUES),
     Row("real", constant(False), lambda _: False),
-    Row("count", POSITION, lambda x: x.others),
+    Row("count", POSITION, "others"),
     *OF_FOUND,
 )
 SOLUTION = Kind(
@@ -474,35 +472,28 @@ def _known(get: Any) -> Any:
 
 
 STEP = [
-    Row("order", POSITION, lambda x: x.step.order, DATA),
-    Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
-    Row("reached", TRUTH, lambda x: x.step.has_methods, DATA, has_null=True),
-    Row("ideal", TEXTS, _known(lambda x: x.zeros), DATA, is_optional=True),
-    Row("restrictions", CONDITIONS, lambda x: x.conditions, DATA),
-    Row(
+    Row("order", POSITION, "step.order", DATA),
+    Row("verdict", choice(*get_args(Verdict)), "step.kind", DATA),
+    maybe("reached", TRUTH, "step.has_methods", DATA),
+    optional("ideal", TEXTS, _known(lambda x: x.zeros), DATA),
+    Row("restrictions", CONDITIONS, "conditions", DATA),
+    optional(
         "real_ideal",
         TEXTS,
         lambda x: x.step.real and zeros(x.design.family, x.step.polynomials_of_real),
         DATA,
-        is_optional=True,
     ),
-    Row("dimension", INTEGER, _known(lambda x: x.step.ideal.dimension), DATA, is_optional=True),
-    Row(
-        "complete",
-        TRUTH,
-        lambda x: None if x.step.ideal is None else x.step.is_all,
-        DATA,
-        is_optional=True,
-    ),
+    optional("dimension", INTEGER, _known(lambda x: x.step.ideal.dimension), DATA),
+    optional("complete", TRUTH, lambda x: None if x.step.ideal is None else x.step.is_all, DATA),
     Row("solutions", SOLUTION, level=DATA),
-    Row("witness", TREE, lambda x: x.step.witness, DATA, has_null=True),
+    maybe("witness", TREE, "step.witness", DATA),
 ]
 CHOICE = Section(
     Row("name", TEXT),
     Row("value", TEXT),
     Row("order", POSITION),
-    Row("dimension_before", INTEGER, lambda x: x.before),
-    Row("dimension", INTEGER, lambda x: x.after),
+    Row("dimension_before", INTEGER, "before"),
+    Row("dimension", INTEGER, "after"),
 )
 END = Kind(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
 DECIMAL = Kind(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
@@ -527,30 +518,30 @@ def _end(limit: Any) -> RealRoot | str:
 
 MINIMISER = Section(
     Row("values", VALUES_OF, lambda x: _parameters(*x)),
-    Row("order", COUNT, lambda x: x[1].found.order and x[1].found.order.order, has_null=True),
-    Row("proof", choice(*get_args(Proof)), lambda x: x[1].proof),
-    Row("constant", TRUTH, lambda x: x[1].is_constant),
+    maybe("order", COUNT, "1.found.order.order"),
+    Row("proof", choice(*get_args(Proof)), "1.proof"),
+    Row("constant", TRUTH, "1.is_constant"),
 )
 OBJECTIVE = Section(
-    Row("name", TEXT, lambda x: x.objective.key),
-    Row("order", POSITION, lambda x: x.step.order),
-    Row("value", DECIMAL, _value, has_null=True),
-    Row("exact", END, _value, has_null=True),
-    Row("among", choice(*get_args(Extent)), lambda x: x.extent),
-    Row("compared", COUNT, lambda x: x.candidates),
-    Row("gradient", TEXT, _gradient, is_optional=True),
+    Row("name", TEXT, "objective.key"),
+    Row("order", POSITION, "step.order"),
+    maybe("value", DECIMAL, _value),
+    maybe("exact", END, _value),
+    Row("among", choice(*get_args(Extent)), "extent"),
+    Row("compared", COUNT, "candidates"),
+    optional("gradient", TEXT, _gradient),
     Row("minimisers", parts(MINIMISER), lambda x: [(x, one) for one in x.minimisers]),
     Row("limits", parts(Section(Row("parameter", TEXT), Row("toward", END, _end)))),
 )
 WHOLE = Section(
     Row("file", TEXT, level=DATA),
-    Row("name", TEXT, lambda x: x.design.family.name, DETAIL),
-    Row("of", choice(*get_args(Whose)), lambda x: x.design.whose, DATA),
+    Row("name", TEXT, "design.family.name", DETAIL),
+    Row("of", choice(*get_args(Whose)), "design.whose", DATA),
     Row("answer", told(answer), lambda x: x, HEADLINE, label=""),
-    Row("least", told(_least), lambda x: x.minimum, HEADLINE, label=""),
+    Row("least", told(_least), "minimum", HEADLINE, label=""),
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
     Row("choices", parts(CHOICE), level=DATA),
-    Row("choices_in_words", rows_of(choice_rows), lambda x: x.choices),
+    Row("choices_in_words", rows_of(choice_rows), "choices"),
     *via(lambda x: Order(x.design, x.design.last), STEP),
     Row(
         "orders",
@@ -559,9 +550,9 @@ WHOLE = Section(
         DATA,
     ),
     Row("orders_in_words", rows_of(order_rows), lambda x: x),
-    Row("objective", part(OBJECTIVE), lambda x: x.minimum, DATA, is_optional=True),
-    Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
-    Row("stable", parts(VALUES), lambda x: x.sets or None, DATA, is_optional=True),
+    optional("objective", part(OBJECTIVE), "minimum", DATA),
+    Row("best_in_words", rows_of(best_rows), "minimum"),
+    optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),
     Row("stable_in_words", rows_of(stable_rows), lambda x: x),
     title=lambda x, d: d.prose(x.file),
 )

@@ -19,8 +19,9 @@ from garkcli.reason import Reason
 from garkcli.report.check import verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell import kinds
-from garkcli.tell.facts import SAID, Answer, Kind, Level, Row, Section, Status, part, parts, table
-from garkcli.tell.facts import told as told_kind
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
+from garkcli.tell.parts import SAID, part, parts, shown
+from garkcli.tell.parts import told as told_kind
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -227,7 +228,7 @@ GAP = (
     Row("largest", told_kind(_place_words), lambda gap: gap, label="largest"),
     _side("one", 0),
     _side("other", 1),
-    Row("difference", ENTRY, lambda gap: gap.entry and gap.entry.gap, label="off by"),
+    Row("difference", ENTRY, "entry.gap", label="off by"),
 )
 COUNTED = Row(
     "of_entries",
@@ -236,41 +237,41 @@ COUNTED = Row(
     label="entries",
 )
 ENTRIES = Section(
-    Row("row", kinds.POSITION, lambda x: None if x.row is None else x.row + 1, has_null=True),
-    Row("entry", kinds.POSITION, lambda x: x.entry + 1),
-    Row("first", ENTRY, lambda x: x.one),
-    Row("second", ENTRY, lambda x: x.other),
-    Row("difference", ENTRY, lambda x: x.gap),
-    Row("undecided", kinds.TRUTH, lambda x: x.is_open),
+    maybe("row", kinds.INDEX),
+    Row("entry", kinds.INDEX),
+    Row("first", ENTRY, "one"),
+    Row("second", ENTRY, "other"),
+    Row("difference", ENTRY, "gap"),
+    Row("undecided", kinds.TRUTH, "is_open"),
 )
 BLOCK = Section(
     Row("kind", kinds.choice("A", "b", "c", "embedded", "dense")),
-    Row("colour", kinds.POSITION, lambda x: x.colour + 1),
-    Row("seen", kinds.POSITION, lambda x: None if x.seen is None else x.seen + 1, has_null=True),
-    Row("power", kinds.POSITION, lambda x: x.power or None, has_null=True),
-    Row("shapes", SHAPES, has_null=True),
-    Row("of_entries", kinds.COUNT, lambda x: x.entries),
-    Row("largest", part(ENTRIES), has_null=True),
-    Row("entries", parts(ENTRIES), lambda x: x.gaps),
+    Row("colour", kinds.INDEX),
+    maybe("seen", kinds.INDEX),
+    maybe("power", kinds.POSITION, lambda x: x.power or None),
+    maybe("shapes", SHAPES),
+    Row("of_entries", kinds.COUNT, "entries"),
+    maybe("largest", part(ENTRIES)),
+    Row("entries", parts(ENTRIES), "gaps"),
 )
 SAME = Section(
     Row("colours", COLOURS),
     Row("stages", IMAGES),
-    Row("reduced", kinds.TRUTH, lambda x: x.is_reduced),
+    Row("reduced", kinds.TRUTH, "is_reduced"),
     Row("step_only", kinds.TRUTH),
-    Row("within", kinds.TOLERANCE, lambda x: x.allowed or None, has_null=True),
+    maybe("within", kinds.TOLERANCE, lambda x: x.allowed or None),
 )
 ORDERS = Section(
-    Row("of", kinds.TEXT, lambda x: x.name),
-    Row("first", ORDER_ALONE, lambda x: x.one, has_null=True),
-    Row("second", ORDER_ALONE, lambda x: x.other, has_null=True),
+    Row("of", kinds.TEXT, "name"),
+    maybe("first", ORDER_ALONE, "one"),
+    maybe("second", ORDER_ALONE, "other"),
 )
 CONDITION = Section(
-    Row("tree", kinds.TREE, lambda x: x[0].tree, label=""),
-    Row("order", kinds.POSITION, lambda x: x[0].tree.order),
-    Row("required", VALUE, lambda x: x[0].required),
-    Row("first", VALUE, lambda x: x[0].value),
-    Row("second", VALUE, lambda x: x[1].value),
+    Row("tree", kinds.TREE, "0.tree", label=""),
+    Row("order", kinds.POSITION, "0.tree.order"),
+    Row("required", VALUE, "0.required"),
+    Row("first", VALUE, "0.value"),
+    Row("second", VALUE, "1.value"),
 )
 MET = Section(
     Row("order", kinds.COUNT),
@@ -278,16 +279,16 @@ MET = Section(
     Row("second_only", parts(CONDITION)),
 )
 PROPERTY = Section(
-    Row("property", kinds.choice(*KEYS, "symplectic"), lambda x: x.key, label=""),
-    Row("first", VERDICT, lambda x: x.one),
-    Row("second", VERDICT, lambda x: x.other),
+    Row("property", kinds.choice(*KEYS, "symplectic"), "key", label=""),
+    Row("first", VERDICT, "one"),
+    Row("second", VERDICT, "other"),
 )
 METHOD = Section(
     Row("file", kinds.TEXT),
-    Row("name", kinds.TEXT, lambda x: x.method.name),
+    Row("name", kinds.TEXT, "method.name"),
     Row("form", Kind({"enum": [*FORMS]}, words=lambda x, d: d.prose(FORMS[x]))),
-    Row("stages", STAGES, lambda x: x.method.stages),
-    Row("tolerance", kinds.TOLERANCE, lambda x: x.method.tolerance, has_null=True),
+    Row("stages", STAGES, "method.stages"),
+    maybe("tolerance", kinds.TOLERANCE, "method.tolerance"),
 )
 
 
@@ -309,14 +310,14 @@ REPORT: Report[Compared] = Report.only(
         Row("first", part(METHOD, _method_words), lambda x: x.method(0)),
         Row("second", part(METHOD, _method_words), lambda x: x.method(1)),
         Row("relation", RELATION, relation, HEADLINE),
-        Row("obstacle", kinds.TEXT, lambda x: x.found.obstacle or None, DATA, has_null=True),
-        Row("remark", kinds.TEXT, lambda x: x.found.remark or None, DATA, has_null=True),
+        maybe("obstacle", kinds.TEXT, lambda x: x.found.obstacle or None, DATA),
+        maybe("remark", kinds.TEXT, lambda x: x.found.remark or None, DATA),
         Row("same", SAID, told),
-        Row("same", part(SAME), lambda x: x.found.sameness, DATA, has_null=True),
+        maybe("same", part(SAME), "found.sameness", DATA),
         Row("tolerance", SAID, tolerances),
         Row("orders", told_kind(_orders_words), lambda x: x),
-        Row("conditions", told_kind(_conditions_words), lambda x: x.found.met),
-        Row("differences", parts(BLOCK), lambda x: x.found.gaps, DATA),
+        Row("conditions", told_kind(_conditions_words), "found.met"),
+        Row("differences", parts(BLOCK), "found.gaps", DATA),
         Row(
             "compared",
             SAID,
@@ -328,28 +329,18 @@ REPORT: Report[Compared] = Report.only(
         ),
         Row(
             "largest",
-            table(Section(GAP[0], COUNTED, *GAP[1:]), 4, is_data=False),
+            shown(Section(GAP[0], COUNTED, *GAP[1:]), 4),
             largest_gaps,
             label="differences",
             is_short=True,
         ),
-        Row("entries", table(Section(*GAP), 0, is_data=False), every_gap, DETAIL),
-        Row("orders", parts(ORDERS), lambda x: x.found.orders, DATA),
-        Row("conditions", part(MET), lambda x: x.found.met, DATA, has_null=True),
-        Row(
-            "pairs",
-            table(CONDITION, 3, is_data=False),
-            lambda x: x.found.met and x.found.met.pairs,
-            label="conditions",
-        ),
-        Row("properties", parts(PROPERTY), lambda x: x.found.properties, DATA),
-        Row("known", table(PROPERTY, 5, is_data=False), _properties(True), label="properties"),
-        Row(
-            "half_known",
-            table(PROPERTY, 2, is_data=False),
-            _properties(False),
-            label="decided of one alone",
-        ),
+        Row("entries", shown(Section(*GAP), 0), every_gap, DETAIL),
+        Row("orders", parts(ORDERS), "found.orders", DATA),
+        maybe("conditions", part(MET), "found.met", DATA),
+        Row("pairs", shown(CONDITION, 3), "found.met.pairs", label="conditions"),
+        Row("properties", parts(PROPERTY), "found.properties", DATA),
+        Row("known", shown(PROPERTY, 5), _properties(True), label="properties"),
+        Row("half_known", shown(PROPERTY, 2), _properties(False), label="decided of one alone"),
         title=lambda x, d: " against ".join(map(d.prose, x.files)),
     ),
     lambda x: {"colours": [colour.name for colour in x.found.one.tableau.colours]},

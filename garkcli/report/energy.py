@@ -20,21 +20,9 @@ from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED, WORDS
 from garkcli.tableau.garkmethod import derivation_of, word_for
-from garkcli.tell.facts import (
-    Answer,
-    Kind,
-    Level,
-    Row,
-    Section,
-    part,
-    parts,
-    picture,
-    rows_of,
-    table,
-    told,
-    via,
-)
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
+from garkcli.tell.parts import part, parts, picture, rows_of, table, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -358,11 +346,11 @@ def _float(x: Any) -> float | None:
 
 SIZE, NUMBER = Kind(S.SIZE), Kind(S.NUMBER)
 QUANTITY = Section(
-    Row("name", TEXT, lambda x: x.history.name, label=""),
+    Row("name", TEXT, "history.name", label=""),
     Row(
         "initial",
         Kind(S.NUMBER, words=lambda x, _: f"{x:.6g}"),
-        lambda x: x.history.initial,
+        "history.initial",
         label="at the start",
     ),
     Row("largest", WORDS, _largest, label="largest error"),
@@ -393,9 +381,7 @@ QUANTITY = Section(
 RUN = [
     Row("steps_in_words", WORDS, _steps, label="steps"),
     *(
-        Row(key, kind, get, DATA, has_null=True)
-        if key in ("digits", "turns")
-        else Row(key, kind, get, DATA)
+        maybe(key, kind, get, DATA) if key in ("digits", "turns") else Row(key, kind, get, DATA)
         for key, kind, get in (
             ("step", SIZE, lambda x: to_float(x.step)),
             ("step_exact", EXACT, lambda x: x.step),
@@ -419,19 +405,14 @@ RUN = [
     ),
 ]
 DEFECT = Section(
-    Row("t", SIZE, lambda x: to_float(x.time)),
-    Row("size", SIZE),
-    Row("good_to", SIZE, lambda x: x.error),
+    Row("t", SIZE, lambda x: to_float(x.time)), Row("size", SIZE), Row("good_to", SIZE, "error")
 )
 SYMPLECTIC = Section(
-    Row("proved", TRUTH, lambda x: x.symplecticity.is_proved),
-    Row(
-        "determinant_minus_1",
-        TEXT,
-        lambda x: x.run.stability and _determinant(x.run.stability),
-        is_optional=True,
+    Row("proved", TRUTH, "symplecticity.is_proved"),
+    optional(
+        "determinant_minus_1", TEXT, lambda x: x.run.stability and _determinant(x.run.stability)
     ),
-    Row("defects", parts(DEFECT), lambda x: x.symplecticity.defects),
+    Row("defects", parts(DEFECT), "symplecticity.defects"),
 )
 CLAIM = Section(Row("claim", TEXT), Row("found", TEXT), Row("holds", TRUTH))
 FORMS = {
@@ -440,14 +421,10 @@ FORMS = {
         Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.run.method), DATA),
         *via(lambda x: x.run, [*rows, *RUN]),
         Row("symplectic_in_words", WORDS, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
-        Row("claims_in_words", rows_of(_claims), lambda x: x.claims),
+        Row("claims_in_words", rows_of(_claims), "claims"),
         Row("plot", picture(_plot), _drawn, DETAIL),
-        Row(
-            "symplectic",
-            part(SYMPLECTIC),
-            lambda x: None if x.symplecticity is None else x,
-            DATA,
-            has_null=True,
+        maybe(
+            "symplectic", part(SYMPLECTIC), lambda x: None if x.symplecticity is None else x, DATA
         ),
         Row("claims", parts(CLAIM), level=DATA),
         title=lambda x, d: d.prose(x.name),
@@ -456,7 +433,7 @@ FORMS = {
 }
 """By the kind of the problem."""
 MOMENT = Section(
-    Row("t", SIZE, lambda x: x[0]),
+    Row("t", SIZE, "0"),
     Row(
         "errors",
         Kind(
@@ -466,7 +443,7 @@ MOMENT = Section(
                 for name, x in errors.items()
             },
         ),
-        lambda x: x[1],
+        "1",
     ),
 )
 """A time of a run with the errors of all quantities; empty where there is no value."""

@@ -21,7 +21,8 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, rows_of
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional
+from garkcli.tell.parts import part, parts, rows_of
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -97,9 +98,9 @@ def _witness(o: EveryOrder, _: Any = None) -> dict[str, Any] | None:
 
 ORDER_PARTS = Section(
     Row("order", kinds.COUNT),
-    Row("witness", Kind(WITNESS), _witness, has_null=True),
+    maybe("witness", Kind(WITNESS), _witness),
     Row("fact", lifted(kinds.COUNT)),
-    Row("dimension", Kind(S.INTEGER), has_null=True),
+    maybe("dimension", Kind(S.INTEGER)),
     Row("weights", kinds.TEXTS, lambda o: list(o.poles)),
 )
 
@@ -163,7 +164,7 @@ def of_several(key: str) -> Row:
         reason = NO_REASON if value is not None else e.obstacle
         return Answer(value, reason=reason, level=None if e.tableau.size > 1 else DETAIL)
 
-    return Row(key, EVERY_ORDER, get, has_null=True)
+    return maybe(key, EVERY_ORDER, get)
 
 
 def with_time(key: str) -> Row:
@@ -180,7 +181,7 @@ FAMILY = [
     of_several("conjugate_order"),
     of_several("pair_order"),
     with_time("nonautonomous_order"),
-    Row("embedded_order", EVERY_ORDER, has_null=True),
+    maybe("embedded_order", EVERY_ORDER),
     with_time("embedded_nonautonomous_order"),
     Row(
         "dense",
@@ -193,7 +194,7 @@ FAMILY = [
     Row("D", lifted(kinds.TABLE), of("D")),
     Row("bound", lifted(kinds.COUNT), of("bound"), DETAIL),
     Row("sharp_bound", lifted(kinds.COUNT), of("sharp_bound"), DETAIL),
-    Row("inconsistent_blocks", lifted(BLOCK_LISTS), lambda e: e.inconsistent, label="consistent"),
+    Row("inconsistent_blocks", lifted(BLOCK_LISTS), "inconsistent", label="consistent"),
     Row("symplectic", lifted(kinds.TRUTH)),
     Row("holding", replace(kinds.TEXTS, is_data=False), label="properties"),
 ]
@@ -217,7 +218,7 @@ EVERY = Section(
     *(row.of(lambda o: o.every) for row in FAMILY),
     c.LEFT_BEHIND,
     *c.CLAIMS,
-    Row("every_property", VERDICTS, verdicts, is_optional=True),
+    optional("every_property", VERDICTS, verdicts),
     title=c.title,
     columns=c.COLUMNS,
 )
@@ -277,7 +278,7 @@ FUNCTION = Section(
     Row("name", kinds.TEXT, level=DATA),
     Row("numerator", _sum("z")),
     Row("denominator", _sum("z")),
-    Row("R_infinity", kinds.EXACT, lambda f: f.at_infinity, has_null=True),
+    maybe("R_infinity", kinds.EXACT, "at_infinity"),
     Row("e_polynomial", _sum("x"), level=DETAIL),
 )
 
@@ -323,7 +324,7 @@ EVERY_STABILITY = Section(
     Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
     Row("functions", parts(FUNCTION), level=DATA),
     Row("stability", part(STABLE), lambda x: x, DATA),
-    Row("functions_in_words", rows_of(_function_rows), lambda x: x.functions),
+    Row("functions_in_words", rows_of(_function_rows), "functions"),
     Row("stability_in_words", rows_of(_stability_rows), lambda x: x),
     title=lambda x, d: (
         f"{d.prose(x.file)}: every value of {d.prose(', '.join(x.family.family.parameters))}"

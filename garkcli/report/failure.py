@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from garkcli.errors import Fault
-from garkcli.tell.facts import Row, Section, parts
+from garkcli.tell.facts import Row, Section, maybe
 from garkcli.tell.kinds import POSITION, TEXT
+from garkcli.tell.parts import parts
 
 FAULT = Section(
-    Row("line", POSITION, lambda f: f.line or None, has_null=True),
-    Row("column", POSITION, lambda f: f.column or None, has_null=True),
+    maybe("line", POSITION, lambda f: f.line or None),
+    maybe("column", POSITION, lambda f: f.column or None),
     Row("code", TEXT),
     Row("message", TEXT),
     Row("help", TEXT),
@@ -26,5 +27,5 @@ class Failure(NamedTuple):
     faults: Sequence[Fault]
 
 
-FAILURE = Section(Row("name", TEXT), Row("errors", parts(FAULT), lambda x: x.faults))
+FAILURE = Section(Row("name", TEXT), Row("errors", parts(FAULT), "faults"))
 """The report of such a run, for programs; people are told elsewhere."""

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from garkcli.bridges.collecting import Result
 from garkcli.errors import counted
 from garkcli.frozen import replace
-from garkcli.tell.facts import Answer, Level, Row, Section, Status, parts, picture, table
+from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
+from garkcli.tell.parts import parts, picture, shown
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -55,17 +56,17 @@ def _texts(found: Sequence[Found], _: Plain) -> list[str]:
 
 
 SIZES = (
-    Row("stages", COUNT, lambda x: x.result.table.stages),
-    Row("colours", COUNT, lambda x: x.result.table.colours),
-    Row("order", ORDER, lambda x: x.order("order"), has_null=True),
-    Row("embedded_order", COUNT, lambda x: x.order("embedded_order"), has_null=True),
+    Row("stages", COUNT, "result.table.stages"),
+    Row("colours", COUNT, "result.table.colours"),
+    maybe("order", ORDER, lambda x: x.order("order")),
+    maybe("embedded_order", COUNT, lambda x: x.order("embedded_order")),
 )
 METHOD = Section(
-    Row("source", TEXT, lambda x: x.result.table.source),
-    Row("line", POSITION, lambda x: x.result.table.line),
-    Row("format", TEXT, lambda x: x.result.table.format),
-    Row("name", TEXT, lambda x: x.result.table.name),
-    Row("file", TEXT, has_null=True),
+    Row("source", TEXT, "result.table.source"),
+    Row("line", POSITION, "result.table.line"),
+    Row("format", TEXT, "result.table.format"),
+    Row("name", TEXT, "result.table.name"),
+    maybe("file", TEXT),
     *SIZES,
     Row("notes", TEXTS, lambda x: [*x.result.notes()]),
 )
@@ -75,14 +76,14 @@ LINE = Section(
     Row("source", TEXT, lambda x: f"{x.result.table.source}:{x.result.table.line}"),
     Row("file", TEXT),
 )
-NOTE = Section(Row("name", TEXT, lambda x: x[0], label=""), Row("notes", TEXT, lambda x: x[1]))
+NOTE = Section(Row("name", TEXT, "0", label=""), Row("notes", TEXT, "1"))
 REPORT: Report[Sequence[Found]] = Report.only(
     "gark/import/1",
     "report of gark import",
     Section(
         Row("methods", parts(METHOD), lambda x: x, DATA),
-        Row("name", table(LINE, 0, is_data=False), lambda x: x),
-        Row("name", table(NOTE, 0, is_data=False), _notes),
+        Row("name", shown(LINE, 0), lambda x: x),
+        Row("name", shown(NOTE, 0), _notes),
         Row("texts", picture(_texts), lambda x: x, DETAIL),
         title=lambda x, _: counted(sum(y.result.method is not None for y in x), "method"),
     ),

@@ -11,8 +11,9 @@ from garkcli.exact.expression import read_decimal
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import counted
 from garkcli.properties.registry import every_property
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, parts, table, told
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.parts import parts, shown, told
 from garkcli.tell.report import ListReport, Report
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def order(key: str) -> Callable[[Entry], Answer]:
 
 
 def _order(key: str, level: Level = USUAL) -> Row:
-    return Row(key, COUNT, order(key), level, has_null=True, line=ORDER)
+    return maybe(key, COUNT, order(key), level, line=ORDER)
 
 
 KINDS = {"truth": TRUTH, "count": COUNT, "number": TEXT}
@@ -181,7 +182,7 @@ REPORT: Report[Sequence[Entry]] = ListReport.only(
     "list of gark list methods",
     Section(
         Row("methods", parts(Section(*METHOD)), lambda x: x, DATA),
-        Row("name", table(LINE, 0, is_data=False), lambda x: x),
+        Row("name", shown(LINE, 0), lambda x: x),
         title=_title,
     ),
     lines=lambda entries: (Section(*METHOD), entries),

@@ -13,8 +13,9 @@ from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
 from garkcli.page.paint import counted
 from garkcli.problems.builtin import PROBLEMS
-from garkcli.tell.facts import SAID, Level, Row, Section, parts, table, told
+from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
+from garkcli.tell.parts import SAID, parts, shown, table, told
 from garkcli.tell.report import ListReport, Report
 from garkcli.transfer import SUMMARIES
 
@@ -63,8 +64,8 @@ def _family_words(family: Family, d: Plain) -> str:
     return d.prose("; ".join([family.summary, *options]))
 
 
-NAME = Row("name", TEXT, lambda x: x[0], label="")
-OPTION = Section(Row("key", TEXT, lambda x: x[0]), Row("values", TEXT, lambda x: x[1]))
+NAME = Row("name", TEXT, "0", label="")
+OPTION = Section(Row("key", TEXT, "0"), Row("values", TEXT, "1"))
 FAMILY = Section(
     Row("name", TEXT, label=""),
     Row("stages", TEXT, lambda x: _sizes(x) if x.size == "stages" else ""),
@@ -73,12 +74,8 @@ FAMILY = Section(
     Row("summary", TEXT, level=DATA),
     Row("summary", told(_family_words), lambda x: x),
 )
-NAMED = Section(NAME, Row("summary", TEXT, lambda x: x[1]))
-TOPIC = Section(
-    Row("name", TEXT, lambda x: x[0], label=""),
-    Row("count", TEXT, lambda x: x[1]),
-    Row("see", TEXT, lambda x: x[2]),
-)
+NAMED = Section(NAME, Row("summary", TEXT, "1"))
+TOPIC = Section(Row("name", TEXT, "0", label=""), Row("count", TEXT, "1"), Row("see", TEXT, "2"))
 SCHEME = Section(
     Row("name", TEXT, label=""),
     Row("order", TEXT),
@@ -114,7 +111,7 @@ REPORT: Report[Lists] = Report.only(
     "gark/list/1",
     "report of gark list",
     Section(
-        Row("topics", table(TOPIC, 0, is_data=False), _topics, label="", is_short=True),
+        Row("topics", shown(TOPIC, 0), _topics, label="", is_short=True),
         *(replace(row, level=DETAIL) for row in ROWS.values()),
         Row(
             "own",

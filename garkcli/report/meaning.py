@@ -9,7 +9,7 @@ from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.frozen import replace
 from garkcli.glossary.term import TOPICS, terms_of
 from garkcli.page.paint import folded, indented
-from garkcli.tell.facts import Level, Row, Section
+from garkcli.tell.facts import Level, Row, Section, optional
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.report import Report
 
@@ -26,7 +26,7 @@ class Told(NamedTuple):
 
 def _optional(key: str, field: str = "") -> Row:
     """A part of a meaning that some have."""
-    return Row(key, TEXT, lambda x: getattr(x, field or key) or None, is_optional=True)
+    return optional(key, TEXT, lambda x: getattr(x, field or key) or None)
 
 
 def _example_rows(text: str, d: Plain) -> list[tuple[str, str]]:
@@ -60,7 +60,7 @@ REPORT: Report[Told] = Report(
     lambda: [MEANING],
     lambda _: MEANING,
     key="meanings",
-    tail=Section(Row("word", TEXT, lambda xs: xs[0].word)),
+    tail=Section(Row("word", TEXT, "0.word")),
 )
 
 

@@ -13,22 +13,20 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.paint import counted, numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import WORDS, describe
-from garkcli.tell.facts import (
-    Answer,
-    Beside,
-    Kind,
-    Level,
-    Row,
-    Section,
-    Status,
-    part,
-    parts,
-    rows_of,
-    table,
-    told,
-    via,
+from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Section, Status, maybe, via
+from garkcli.tell.kinds import (
+    COUNT,
+    INDEX,
+    NUMERAL,
+    POSITION,
+    TEXT,
+    TEXTS,
+    TOLERANCE,
+    TREE,
+    TRUTH,
+    choice,
 )
-from garkcli.tell.kinds import COUNT, NUMERAL, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
+from garkcli.tell.parts import part, parts, rows_of, table, told
 from garkcli.tell.report import Report
 from garkcli.trees.tree import Tree
 
@@ -85,10 +83,10 @@ class Term(NamedTuple):
 
 TERM = Section(
     Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
-    Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
+    Row("picture", told(lambda x, d: d.sketch(x)), "tree", label=""),
     Row("tree", TREE),
-    Row("root", POSITION, lambda x: x.tree.root + 1, DATA),
-    Row("order", POSITION, lambda x: x.tree.order, DATA),
+    Row("root", INDEX, "tree.root", DATA),
+    Row("order", POSITION, "tree.order", DATA),
     Row("symmetry", POSITION),
     Row("coefficient", NUMERAL),
     Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
@@ -176,7 +174,7 @@ POWER = Section(
     Row("power", COUNT), Row("formulas", TEXTS, lambda x: [_text(y) for y in x.formulas])
 )
 FORMULA = Section(
-    Row("problem", TEXT, lambda x: x.problem.name),
+    Row("problem", TEXT, "problem.name"),
     Row("of", choice("hamiltonian", "equation")),
     Row("unknowns", TEXTS, unknowns_of),
     Row("max_power", COUNT, lambda x: x.max_order - 1),
@@ -213,7 +211,7 @@ def _order(key: str, level: Level = HEADLINE, is_formless: bool = False) -> Row:
             return Answer(None, _ROUNDED, level=USUAL if level == HEADLINE else DATA)
         return Answer(None, reason=_FORMLESS)
 
-    return Row(key, REACHED, get, level, has_null=True)
+    return maybe(key, REACHED, get, level)
 
 
 def _symplectic(x: BackwardAnalysis) -> Answer:
@@ -236,7 +234,7 @@ MODIFIED = Section(
     Row("file", TEXT, level=DATA),
     Row("name", TEXT, level=DATA),
     Row("derivation", Kind(S.DERIVATION), level=DATA),
-    Row("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),
+    maybe("tolerance", TOLERANCE, "found.tolerance", DATA),
     *via(
         lambda x: x.found,
         [
@@ -249,15 +247,14 @@ MODIFIED = Section(
     ),
     Row("trees", WORDS, _vertices),
     Row("colours_in_words", WORDS, lambda x: numbered(x.names), label="colours"),
-    Row("colours", TEXTS, lambda x: x.names, DATA),
-    Row("max_order", POSITION, lambda x: x.found.equation.max_order, DATA),
+    Row("colours", TEXTS, "names", DATA),
+    Row("max_order", POSITION, "found.equation.max_order", DATA),
     Row("note", WORDS, _note),
-    Row("formula_in_words", rows_of(lambda x, d: list(_formula_rows(x, d))), lambda x: x.formula),
-    Row(
+    Row("formula_in_words", rows_of(lambda x, d: list(_formula_rows(x, d))), "formula"),
+    maybe(
         "hamiltonian",
         table(TERM, MOST_TERMS),
         _hamiltonian,
-        has_null=True,
         label="modified Hamiltonian: Σ h^(ρ−1) b(u)/|Aut| H(u)",
     ),
     Row(
@@ -266,7 +263,7 @@ MODIFIED = Section(
         _equation,
         label="modified equation: Σ h^(ρ−1) b(u)/σ F(u)",
     ),
-    Row("formula", part(FORMULA), level=DATA, has_null=True),
+    maybe("formula", part(FORMULA), level=DATA),
     title=lambda x, d: d.prose(x.name or x.file),
 )
 REPORT: Report[ModifiedReport] = Report.only(

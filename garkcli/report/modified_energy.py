@@ -15,20 +15,9 @@ from garkcli.report.convergence import STEP_SIZE
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import WORDS, describe, driving
 from garkcli.tableau.garkmethod import derivation_of
-from garkcli.tell.facts import (
-    Answer,
-    Kind,
-    Level,
-    Row,
-    Section,
-    Status,
-    parts,
-    rows_of,
-    table,
-    told,
-    via,
-)
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
+from garkcli.tell.parts import parts, rows_of, shown, table, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -103,16 +92,16 @@ def _cells(errors: list[tuple[ModifiedEnergy, Step]], d: Plain) -> list[tuple[st
 
 
 NUMBER = Kind({"type": "number"})
-STEP = Section(Row("h", EXACT), Row("error", NUMBER, _error), Row("slope", NUMBER, has_null=True))
+STEP = Section(Row("h", EXACT), Row("error", NUMBER, _error), maybe("slope", NUMBER))
 ENERGY = Section(
     Row("terms", WORDS, _terms, label=""),
     Row("power", COUNT, level=DATA),
     Row("verdict", Kind(choice(*get_args(Verdict)).schema, words=_verdict)),
     Row("exact_order", COUNT, lambda x: Answer(x.exact_order, Status(at_least=x.is_lower_bound))),
-    Row("exact_order_is_lower_bound", TRUTH, lambda x: x.is_lower_bound, DATA),
+    Row("exact_order_is_lower_bound", TRUTH, "is_lower_bound", DATA),
     Row("observed", WORDS, _observed, label="observed order"),
-    Row("observed_order", NUMBER, level=DATA, has_null=True),
-    Row("uncertainty", NUMBER, level=DATA, has_null=True),
+    maybe("observed_order", NUMBER, level=DATA),
+    maybe("uncertainty", NUMBER, level=DATA),
     Row("rows", parts(STEP), level=DATA),
 )
 SIZES = Section(Row("h", STEP_SIZE), Row("errors", rows_of(_cells)))
@@ -122,8 +111,8 @@ MEASURED = Section(
     *via(
         lambda x: x.run,
         [
-            Row("problem", TEXT, lambda x: x.problem.name, DATA),
-            Row("answer", told(lambda _, d: "", _answer), lambda x: x.energies, HEADLINE, label=""),
+            Row("problem", TEXT, "problem.name", DATA),
+            Row("answer", told(lambda _, d: "", _answer), "energies", HEADLINE, label=""),
             Row(
                 "problem_in_words",
                 WORDS,
@@ -137,7 +126,7 @@ MEASURED = Section(
             Row("energies", table(ENERGY, MOST), label=""),
             Row(
                 "errors",
-                table(SIZES, MOST, is_data=False),
+                shown(SIZES, MOST),
                 lambda x: list(_errors(x)),
                 label="root mean square of H(t) - H(0), and with the modified terms of H",
             ),

@@ -11,8 +11,9 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tell.facts import Kind, Level, Row, told
+from garkcli.tell.facts import Kind, Level, Row, maybe
 from garkcli.tell.kinds import EXACT, TEXT
+from garkcli.tell.parts import told
 
 Stepped: TypeAlias = Oscillator | Problem
 
@@ -93,26 +94,27 @@ WORDS = told(lambda x, d: d.prose(x))
 _LISTS = Kind(S.array(S.array(S.TEXT)), lambda xs, _: [[str(x) for x in term] for term in xs])
 _FORMULAS = Kind(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs])
 _TERMS: dict[type[Stepped], tuple[Row, ...]] = {
-    Oscillator: (
-        Row("omega", EXACT, level=Level.DATA),
-        Row("split", _LISTS, lambda x: x.shares, Level.DATA),
-    ),
-    Hamiltonian: (Row("hamiltonian", _FORMULAS, lambda x: x.terms, Level.DATA),),
+    Oscillator: (Row("omega", EXACT, level=Level.DATA), Row("split", _LISTS, "shares", Level.DATA)),
+    Hamiltonian: (Row("hamiltonian", _FORMULAS, "terms", Level.DATA),),
     RightHandSide: (
-        Row("right_hand_sides", _LISTS, lambda x: x.terms, Level.DATA),
-        Row("stiffness", EXACT, level=Level.DATA, has_null=True),
+        Row("right_hand_sides", _LISTS, "terms", Level.DATA),
+        maybe("stiffness", EXACT, level=Level.DATA),
     ),
 }
 STEPPED: dict[type[Stepped], list[Row]] = {
     kind: [
         Row("problem", TEXT, lambda x: name_of(x.problem), Level.DATA),
-        Row("problem_in_words", WORDS, lambda x: f"{describe(x.problem)}; to t = {x.t_end}",
-            label="problem"),
+        Row(
+            "problem_in_words",
+            WORDS,
+            lambda x: f"{describe(x.problem)}; to t = {x.t_end}",
+            label="problem",
+        ),
         Row("colours_in_words", WORDS, lambda x: driving(x), label="colours"),
         *(row.of(lambda x: x.problem) for row in rows),
     ]
     for kind, rows in _TERMS.items()
-}  # fmt: skip
+}
 """What is told of the problem of a run, by its kind: in words, and for programs ω and the shares
 (k_l, v_l) of each term, the terms H^{l}, or the components of each term f^{l}.
 """

@@ -11,8 +11,9 @@ from garkcli.design.search.run import Ending, Method, Result
 from garkcli.design.search.search import Proof, Search
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.tell.facts import Kind, Level, Row, Section, parts, rows_of, told, via
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, via
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.parts import parts, rows_of, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -112,27 +113,27 @@ OF_METHOD = [
     Row("start", POSITION),
     Row("values", Kind(VALUES, lambda values, _: dict(values))),
 ]
-METHOD = Section(Row("file", TEXT, lambda x: x[1], has_null=True), *via(lambda x: x[0], OF_METHOD))
+METHOD = Section(maybe("file", TEXT, "1"), *via(lambda x: x[0], OF_METHOD))
 SECONDS = Kind({"type": "number", "minimum": 0, "description": "Of the processor."})
 WHOLE = Section(
     Row("file", TEXT, level=DATA),
-    Row("name", TEXT, lambda x: x.search.family.name, DETAIL),
-    Row("of", choice(*get_args(Whose)), lambda x: x.search.whose, DATA),
+    Row("name", TEXT, "search.family.name", DETAIL),
+    Row("of", choice(*get_args(Whose)), "search.whose", DATA),
     Row("answer", told(_found), lambda x: x, HEADLINE, label=""),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
-    Row("order", POSITION, lambda x: x.search.order, DATA),
+    Row("order", POSITION, "search.order", DATA),
     *via(
         lambda x: x.result,
         [
             Row("starts", COUNT, level=DATA),
             Row("successes", COUNT, level=DATA),
             Row("degenerate", COUNT, level=lambda a: USUAL if a.value else DATA),
-            Row("interrupted", TRUTH, lambda x: x.is_interrupted, DATA),
+            Row("interrupted", TRUTH, "is_interrupted", DATA),
             Row("seconds", SECONDS, lambda x: round(x.seconds, 3), DATA),
         ],
     ),
     Row("methods", parts(METHOD), level=DATA),
-    Row("methods_in_words", rows_of(method_rows), lambda x: x.methods),
+    Row("methods_in_words", rows_of(method_rows), "methods"),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[SearchReport] = Report.only(

@@ -14,8 +14,9 @@ from garkcli.report.tableau import DOCUMENT
 from garkcli.report.tableau import Shown as ShownTableau
 from garkcli.tableau.pointwise import Entries
 from garkcli.tableau.tableau import Tableau
-from garkcli.tell.facts import SAID, Level, Row, Section, drawing, part, via
+from garkcli.tell.facts import Level, Row, Section, maybe, via
 from garkcli.tell.kinds import TEXT
+from garkcli.tell.parts import SAID, drawing, part
 from garkcli.tell.report import Report
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
@@ -87,15 +88,15 @@ REPORT: Report[Shown] = Report.only(
         Row("kind", SAID, kind),
         Row("description", SAID, lambda x: " ".join(x.description.split())),
         *via(lambda x: x.entry, METHOD),
-        Row("description", TEXT, lambda x: x.description, DATA),
+        Row("description", TEXT, level=DATA),
         Row("it_is", SAID, such(True), is_short=True),
         Row("it_is_not", SAID, such(False), is_short=True),
         Row("undecided", SAID, undecided, label="not decided"),
         Row("doi", SAID, of_reference("doi")),
         Row("coefficients", SAID, of_reference("coefficients")),
-        Row("publication", part(REFERENCE), lambda x: x.reference, DATA, has_null=True),
-        Row("tableau", part(DOCUMENT), lambda x: x.whole, DATA),
-        Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), lambda x: x.whole),
+        maybe("publication", part(REFERENCE), "reference", DATA),
+        Row("tableau", part(DOCUMENT), "whole", DATA),
+        Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "whole"),
         title=lambda x, d: d.prose(x.title),
     ),
 )

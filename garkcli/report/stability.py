@@ -31,7 +31,8 @@ from garkcli.stability.summary import Stability
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, part, parts, picture, via
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
+from garkcli.tell.parts import part, parts, picture
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -256,19 +257,18 @@ LINEAR = [
             x.R, reason=PRINTED if x.within else NO_REASON, level=DETAIL if x.within else USUAL
         ),
     ),
-    Row("R_infinity", kinds.EXACT, limit, has_null=True),
-    Row("a_stable", kinds.TRUTH, a_stable, HEADLINE, has_null=True),
-    Row(
+    maybe("R_infinity", kinds.EXACT, limit),
+    maybe("a_stable", kinds.TRUTH, a_stable, HEADLINE),
+    maybe(
         "l_stable",
         kinds.TRUTH,
         lambda x: kinds.truth(x.l_stable, open_because=ROUNDED),
         lambda a: HEADLINE if a.value else DETAIL,
-        has_null=True,
     ),
-    Row("A_alpha", SECTOR, sector, _less_than_all, has_null=True),
-    Row("real_interval", REAL, either("real"), has_null=True),
-    Row("imaginary_interval", IMAGINARY, either("imaginary"), has_null=True),
-    Row("ssp", SSP, ssp, has_null=True),
+    maybe("A_alpha", SECTOR, sector, _less_than_all),
+    maybe("real_interval", REAL, either("real")),
+    maybe("imaginary_interval", IMAGINARY, either("imaginary")),
+    maybe("ssp", SSP, ssp),
 ]
 OF_COLOUR = Section(
     Row("name", kinds.TEXT, level=DATA),
@@ -336,10 +336,10 @@ OSCILLATOR = [
     Row("determinant", kinds.ratio("x"), level=DETAIL),
     Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
     Row("stable", STABLE, label="oscillator stable, x = (hω)²"),
-    Row("p_stable", kinds.TRUTH, p_stable, has_null=True),
-    Row("phase_order", PHASE, phase, has_null=True),
-    Row("phase_constant", kinds.EXACT, lambda o: o.phase.constant, DATA, has_null=True),
-    Row("conserved", CONSERVED, conserved, DETAIL, has_null=True),
+    maybe("p_stable", kinds.TRUTH, p_stable),
+    maybe("phase_order", PHASE, phase),
+    maybe("phase_constant", kinds.EXACT, "phase.constant", DATA),
+    maybe("conserved", CONSERVED, conserved, DETAIL),
 ]
 
 
@@ -370,13 +370,11 @@ def head(kind: str) -> list[Row]:
         *kinds.FILE_AND_NAME,
         Row("derivation", Kind(S.DERIVATION), level=DATA),
         Row("kind", kinds.constant(kind), lambda _: kind, DATA),
-        Row("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA, has_null=True),
+        maybe("tolerance", kinds.TOLERANCE, "found.tolerance", DATA),
     ]
 
 
-RADII = Section(
-    Row("direction", kinds.EXACTS, lambda r: r.ratios), Row("radius", kinds.RADIUS, has_null=True)
-)
+RADII = Section(Row("direction", kinds.EXACTS, "ratios"), maybe("radius", kinds.RADIUS))
 
 
 def _radii_words(found: Any, d: Plain) -> str:
@@ -411,8 +409,8 @@ def _ray(sign: str) -> Kind:
 IMEX = Section(
     Row("explicit", kinds.TEXT, lambda c: c.names[c.pair.explicit], DATA),
     Row("implicit", kinds.TEXT, lambda c: c.names[c.pair.implicit], DATA),
-    Row("real_interval", _ray("−z"), lambda c: c.real, has_null=True),
-    Row("imaginary_interval", _ray("|z|"), lambda c: c.imaginary, has_null=True),
+    maybe("real_interval", _ray("−z"), "real"),
+    maybe("imaginary_interval", _ray("|z|"), "imaginary"),
     Row(
         "region",
         picture(lambda c, _: list(damped_lines(c.pair, c.explicit_alone))),
@@ -444,18 +442,13 @@ def fraction(x: Any) -> Any:
 ALIKE = via(lambda x: x.found.linear[0], LINEAR)
 ALONE = Row("colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL)
 SEVERAL = [
-    Row("R", FRACTION, fraction, has_null=True, label="R(z1, z2, …)"),
+    maybe("R", FRACTION, fraction, label="R(z1, z2, …)"),
     *ALIKE[1:],
     ALONE,
-    Row("R_alike", kinds.ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
+    Row("R_alike", kinds.ratio("z"), "found.linear.0.R", DETAIL),
     REGION,
-    Row("ssp_radii", parts(RADII, _radii_words), lambda x: x.found.colours.radii),
-    Row(
-        "pair",
-        part(IMEX),
-        lambda x: x.found.colours if x.found.colours.pair else None,
-        has_null=True,
-    ),
+    Row("ssp_radii", parts(RADII, _radii_words), "found.colours.radii"),
+    maybe("pair", part(IMEX), lambda x: x.found.colours if x.found.colours.pair else None),
 ]
 
 
@@ -469,7 +462,7 @@ def _waves(linear: str, has_waves: bool) -> list[Row]:
 
 
 WAVES = via(lambda x: x.found.oscillator, OSCILLATOR)
-TAIL = Row("algebraically_stable", kinds.TRUTH, algebraic, has_null=True)
+TAIL = maybe("algebraically_stable", kinds.TRUTH, algebraic)
 LINEARS = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, REGION, ALONE],
@@ -492,8 +485,7 @@ def factors(p: Polynomial) -> list[tuple[Polynomial, int]]:
 
 
 FACTOR = Section(
-    Row("factor", kinds.polynomial("x"), lambda f: f[0]),
-    Row("multiplicity", kinds.POSITION, lambda f: f[1]),
+    Row("factor", kinds.polynomial("x"), "0"), Row("multiplicity", kinds.POSITION, "1")
 )
 
 
@@ -526,11 +518,10 @@ SLOW = Section(
         [
             Row("slow", FROM_TO, lambda s: s, label="two springs, x = (hω_fast)²"),
             Row("stable", STABLE),
-            Row(
+            maybe(
                 "stable_for_every_fast",
                 kinds.TRUTH,
                 lambda s: kinds.truth(s.is_stable_for_all, open_because="at the x below"),
-                has_null=True,
             ),
             Row("open_points", kinds.ROOTS),
         ],

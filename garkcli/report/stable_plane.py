@@ -16,8 +16,9 @@ from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability
-from garkcli.tell.facts import Kind, Level, Row, Section, rows_of, told
-from garkcli.tell.kinds import INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe
+from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
+from garkcli.tell.parts import rows_of, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -146,20 +147,14 @@ STRIPS = Kind(
     lambda x, d: [_strip_data(strip, x.family.ring.names, d) for strip in x.strips],
 )
 WHOLE = Section(
-    Row("file", TEXT, lambda x: x.file, DATA),
-    Row("name", TEXT, lambda x: x.values.family.name, DETAIL),
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, "values.family.name", DETAIL),
     *(
         row.of(lambda x: x.values)
         for row in (
             Row("unknowns", TEXTS, lambda x: list(x.family.ring.names), DATA),
             Row("wanted", choice("a-stable"), lambda _: "a-stable", DATA),
-            Row(
-                "colour",
-                Kind(S.POSITION),
-                lambda x: None if x.colour is None else x.colour + 1,
-                DATA,
-                has_null=True,
-            ),
+            maybe("colour", INDEX, level=DATA),
             Row("answer", told(lambda x, d: _answer(x, d)), lambda x: x, HEADLINE, label=""),
             Row("ends", rows_of(strips), lambda x: x),
             Row("strips", STRIPS, lambda x: x, DATA),

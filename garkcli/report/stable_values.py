@@ -13,8 +13,9 @@ from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability
-from garkcli.tell.facts import Kind, Level, Row, Section, part, rows_of, told
-from garkcli.tell.kinds import INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
+from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
+from garkcli.tell.parts import part, rows_of, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -96,46 +97,28 @@ SET = Kind(
 )
 SPRINGS = Section(
     Row("slow", TEXT, lambda x: str(x.slow)),
-    Row("fast", Kind(S.POSITION), lambda x: x.fast + 1),
-    Row("up_to", TEXT, lambda x: None if x.greatest is None else str(x.greatest), has_null=True),
+    Row("fast", INDEX),
+    maybe("up_to", TEXT, lambda x: None if x.greatest is None else str(x.greatest)),
 )
 WANTED = Row("wanted", choice(*get_args(Wanted)), level=DATA)
-COLOUR = Row(
-    "colour",
-    Kind(S.POSITION),
-    lambda x: None if x.colour is None else x.colour + 1,
-    DATA,
-    has_null=True,
-)
-FOUND = [Row("set", SET, lambda x: x.found, DATA), Row("undecided", ROOTS, level=DATA)]
+COLOUR = maybe("colour", INDEX, level=DATA)
+FOUND = [Row("set", SET, "found", DATA), Row("undecided", ROOTS, level=DATA)]
 VALUES = Section(WANTED, COLOUR, *FOUND)
 """The values as a part of the report of an order."""
 
 
 WHOLE = Section(
-    Row("file", TEXT, lambda x: x.file, DATA),
-    Row("name", TEXT, lambda x: x.values.family.name, DETAIL),
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, "values.family.name", DETAIL),
     *(
         row.of(lambda x: x.values)
         for row in (
-            Row("of", choice(*get_args(Whose)), lambda x: x.whose, DATA),
+            Row("of", choice(*get_args(Whose)), "whose", DATA),
             Row("unknowns", TEXTS, lambda x: list(x.family.parameters), DATA),
-            Row(
-                "linear_form",
-                TEXT,
-                lambda x: None if x.form is None else str(x.form),
-                DATA,
-                is_optional=True,
-            ),
+            optional("linear_form", TEXT, lambda x: None if x.form is None else str(x.form), DATA),
             WANTED,
             COLOUR,
-            Row(
-                "springs",
-                part(SPRINGS, _springs_words),
-                lambda x: x.two_springs,
-                has_null=True,
-                label="two springs",
-            ),
+            maybe("springs", part(SPRINGS, _springs_words), "two_springs", label="two springs"),
             Row(
                 "answer",
                 told(lambda x, d: f"the {x.whose} is {stability(x, d)}"),

@@ -15,8 +15,9 @@ from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
 from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
 from garkcli.sweep.row import Row as Judged
-from garkcli.tell.facts import Kind, Level, Row, Section, table, told, via
+from garkcli.tell.facts import Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
+from garkcli.tell.parts import table, told
 from garkcli.tell.report import Report
 from garkcli.upward import Shown
 
@@ -123,7 +124,7 @@ def _table(plan: Plan | None, label: str, get: Any, most: int = 10) -> Row:
     """Methods, a line each: the criteria, and which method it is."""
     criteria = [] if plan is None else [_column(name) for name in plan.criteria.columns]
     of_row = via(lambda x: x[1], [*criteria, Row("method", TEXT, _method)])
-    kind = table(Section(Row("number", COUNT, lambda x: x[0]), *of_row), most, is_data=False)
+    kind = table(Section(Row("number", COUNT, "0"), *of_row), most, is_data=False)
     return Row("lines", kind, lambda x: list(enumerate(get(x), start=1)), label=label)
 
 
@@ -151,14 +152,14 @@ def section(report: SweepReport | None = None) -> Section:
     by, front = ("", "") if plan is None else (", ".join(plan.best), ", ".join(plan.pareto))
     most = 10 if report is None else report.top
     return Section(
-        Row("file", TEXT, lambda x: x.source, DATA),
-        Row("name", TEXT, lambda x: x.plan.name, DATA),
+        Row("file", TEXT, "source", DATA),
+        Row("name", TEXT, "plan.name", DATA),
         Row("answer", told(_answer), lambda x: x, HEADLINE, label=""),
         Row("methods", COUNT, lambda x: len(x.plan), DATA),
         Row("kept", COUNT, lambda x: len(x.best), DATA),
         Row("repeated", COUNT, level=DATA),
         Row("failed", COUNT, lambda x: len(x.failed), DATA),
-        Row("failures", told(_failed_words), lambda x: x.failed, label="failed"),
+        Row("failures", told(_failed_words), "failed", label="failed"),
         Row("columns", TEXTS, lambda x: list(x.plan.criteria.columns), DATA),
         Row("best", ROWS, lambda x: x.best[: x.top], DATA),
         _table(plan, f"best by {by}" if by else "best", lambda x: x.best, most),

@@ -10,8 +10,9 @@ from garkcli.page.schema import Schema, counts_of, one_of, published
 from garkcli.report import trees
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import BRACKETS, DATA, SIZES, TREES, pictures
-from garkcli.tell.facts import Kind, Row, Section, rows_of, sentence, stream, via
+from garkcli.tell.facts import Kind, Row, Section, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TRUTH, choice
+from garkcli.tell.parts import rows_of, sentence, stream
 from garkcli.tell.report import Report
 from garkcli.trees.symplectic import KINDS, ConditionClass
 from garkcli.trees.tree import Tree
@@ -78,8 +79,8 @@ def _listing(*members: Row) -> Section:
     """A line a class, with its members where they are asked for."""
     part = Section(
         _PICTURE,
-        Row("kind", choice(*KINDS), lambda x: x.subject.kind, DATA),
-        Row("representative", BRACKETS, lambda x: x.tree, label="tree"),
+        Row("kind", choice(*KINDS), "subject.kind", DATA),
+        Row("representative", BRACKETS, "tree", label="tree"),
         *SIZES,
         Row("stands_for", POSITION, lambda x: len(x.found.members)),
         _DRAWN,
@@ -94,16 +95,14 @@ def _listing(*members: Row) -> Section:
 
 
 LISTED = _listing()
-WITH_MEMBERS = _listing(
-    Row("members", TREES, lambda x: x.subject.members(x.found), is_optional=True)
-)
+WITH_MEMBERS = _listing(optional("members", TREES, lambda x: x.subject.members(x.found)))
 COUNTS = Section(
     *HEAD,
-    Row("by_order", Kind(counts_of("order")), _by_order, DATA, is_optional=True),
+    optional("by_order", Kind(counts_of("order")), _by_order, DATA),
     Row(
         "counts",
         rows_of(lambda x, _: [(f"order {n}", f"{k} instead of {m}") for n, k, m in x]),
-        lambda x: x.subject.counts,
+        "subject.counts",
     ),
     END,
 )

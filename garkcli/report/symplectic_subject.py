@@ -147,9 +147,9 @@ class Subject(Frozen):
 SUBJECT = Section(
     Row("kind", choice(*KINDS), level=Level.DATA),
     Row("terms", POSITION, lambda x: len(x.structure.leaders), Level.DATA),
-    Row("colours", TEXTS, lambda x: x.names, Level.DATA),
-    Row("count", COUNT, lambda x: x.independent, Level.DATA),
-    Row("instead_of", COUNT, lambda x: x.all_conditions, Level.DATA),
+    Row("colours", TEXTS, "names", Level.DATA),
+    Row("count", COUNT, "independent", Level.DATA),
+    Row("instead_of", COUNT, "all_conditions", Level.DATA),
 )
 
 

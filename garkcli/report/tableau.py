@@ -20,8 +20,9 @@ from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
-from garkcli.tell.facts import Kind, Level, Row, Section, drawing, part, parts, sentence, via
+from garkcli.tell.facts import Kind, Level, Row, Section, optional, via
 from garkcli.tell.kinds import TEXT, TRUTH, constant
+from garkcli.tell.parts import drawing, part, parts, sentence
 from garkcli.tell.report import Report
 
 DATA = Level.DATA
@@ -78,8 +79,8 @@ def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> list[R
             "A", Kind(array(array(nullable(matrix)))), lambda x: [several(x, y) for y in x.A], DATA
         ),
         Row("b", Kind(matrix), lambda x: rows(x, x.b), DATA),
-        Row("embedded", Kind(matrix), lambda x: rows(x, x.embedded), DATA, is_optional=True),
-        Row("dense", Kind(array(matrix)), lambda x: several(x, x.dense), DATA, is_optional=True),
+        optional("embedded", Kind(matrix), lambda x: rows(x, x.embedded), DATA),
+        optional("dense", Kind(array(matrix)), lambda x: several(x, x.dense), DATA),
     ]
 
 
@@ -87,11 +88,11 @@ FLOATS = Section(*_entries(NUMBER, lambda _, x: _float(x)))
 TABLEAU = Section(
     Row("name", TEXT, level=DATA),
     Row("derivation", Kind(DERIVATION), level=DATA),
-    Row("exact", TRUTH, lambda x: x.entries.is_exact, DATA),
+    Row("exact", TRUTH, "entries.is_exact", DATA),
     sentence(lambda x: remark(x.readable)),
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
     *via(lambda x: x.entries, _entries(NUMERAL, lambda every, x: cell_text(x, every.digits))),
-    Row("float", part(FLOATS), lambda x: x.entries, DATA),
+    Row("float", part(FLOATS), "entries", DATA),
     Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), lambda x: x),
     title=lambda x, d: d.prose(x.name),
 )

@@ -9,8 +9,9 @@ from garkcli.frozen import Frozen, Mutable
 from garkcli.page.paint import counted
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, rows_of, sentence, stream, told
-from garkcli.tell.kinds import COUNT, POSITION, TRUTH
+from garkcli.tell.facts import Kind, Level, Row, Section, optional
+from garkcli.tell.kinds import COUNT, INDEX, POSITION, TRUTH
+from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import parse_tree
@@ -128,10 +129,10 @@ TREES = Kind(
 )
 """Trees in brackets."""
 SIZES = (
-    Row("root", POSITION, lambda x: x.tree.root + 1, DATA),
-    Row("order", POSITION, lambda x: x.tree.order, DETAIL),
-    Row("sigma", POSITION, lambda x: x.tree.symmetry),
-    Row("gamma", POSITION, lambda x: x.tree.density),
+    Row("root", INDEX, "tree.root", DATA),
+    Row("order", POSITION, "tree.order", DETAIL),
+    Row("sigma", POSITION, "tree.symmetry"),
+    Row("gamma", POSITION, "tree.density"),
 )
 
 
@@ -156,32 +157,28 @@ _PICTURE, _DRAWN = pictures(lambda x: parse_tree(x.tree))
 TREE = Section(
     _PICTURE,
     Row("tree", BRACKETS),
-    Row("root", POSITION, lambda x: x.root + 1, DATA),
+    Row("root", INDEX, level=DATA),
     Row("order", POSITION, level=DETAIL),
     Row("sigma", POSITION),
     Row("gamma", POSITION),
     _DRAWN,
 )
 HEAD = (
-    Row("colours", POSITION, lambda x: x.query.colours, DATA),
-    Row("order", POSITION, lambda x: x.query.order, DATA),
-    Row("upto", TRUTH, lambda x: x.query.upto, DATA),
-    Row("count", COUNT, lambda x: x.total, DATA),
+    Row("colours", POSITION, "query.colours", DATA),
+    Row("order", POSITION, "query.order", DATA),
+    Row("upto", TRUTH, "query.upto", DATA),
+    Row("count", COUNT, "total", DATA),
     Row("by_root", Kind(counts_of("root colour")), level=DATA),
 )
 LISTED = Section(
     *HEAD,
-    Row("trees", stream(TREE, _heading), lambda x: x.rows),
+    Row("trees", stream(TREE, _heading), "rows"),
     sentence(lambda x: counted(x.total, "tree") if x.known else ""),
 )
 COUNTS = Section(
     *HEAD,
-    Row(
-        "by_order",
-        Kind(counts_of("order")),
-        lambda x: x.by_order if x.query.upto else None,
-        DATA,
-        is_optional=True,
+    optional(
+        "by_order", Kind(counts_of("order")), lambda x: x.by_order if x.query.upto else None, DATA
     ),
     Row("counts", rows_of(lambda x, d: [*_count_rows(x, d)]), lambda x: x),
 )

@@ -83,6 +83,7 @@ class Answer(Frozen):
 
 
 Words: TypeAlias = "Callable[[Any, Plain], str]"
+Getter: TypeAlias = "Callable[[Any], Any] | str | None"
 
 
 class Beside(Frozen):
@@ -184,8 +185,9 @@ class Row(Frozen):
     Attributes:
         key: its name in JSON; its label and its sentence are found by it.
         kind: of its values.
-        get: the value, or an ``Answer``, of what the section describes; None for the attribute of
-            that name.
+        get: the value, or an ``Answer``, of what the section describes; a text for a path of
+            attributes and places, such as ``rows.0.value``, along which None stays None; None for
+            the attribute of the key.
         level: where it is told, or that from its answer.
         has_null: whether there may be no value.
         is_optional: whether JSON leaves it out then.
@@ -196,7 +198,7 @@ class Row(Frozen):
 
     key: str
     kind: Kind
-    get: Callable[[Any], Any] | None = None
+    get: Getter = None
     level: Level | Callable[[Answer], Level] = Level.USUAL
     has_null: bool = False
     is_optional: bool = False
@@ -206,8 +208,17 @@ class Row(Frozen):
 
     def answer(self, whole: Any) -> Answer:
         """What is so of a result."""
-        found = getattr(whole, self.key) if self.get is None else self.get(whole)
+        found = self.value(whole)
         return found if isinstance(found, Answer) else Answer(found)
+
+    def value(self, whole: Any) -> Any:
+        """What ``get`` gets."""
+        if callable(self.get):
+            return self.get(whole)
+        for name in (self.get or self.key).split("."):
+            if whole is not None:
+                whole = whole[int(name)] if name.isdecimal() else getattr(whole, name)
+        return whole
 
     def fact(self, whole: Any) -> Fact:
         """The same with the level where it is told."""
@@ -222,9 +233,7 @@ class Row(Frozen):
 
         def get(whole: Any) -> Any:
             one = part(whole)
-            if one is None:
-                return None
-            return getattr(one, self.key) if self.get is None else self.get(one)
+            return None if one is None else self.value(one)
 
         return replace(self, get=get)
 
@@ -272,6 +281,18 @@ class Row(Frozen):
             if kind.is_list
             else section.data(value, dialect)
         )
+
+
+def maybe(key: str, kind: Kind, get: Getter = None, level: Any = Level.USUAL, **more: Any) -> Row:
+    """A row whose value may be none: null in JSON."""
+    return Row(key, kind, get, level, has_null=True, **more)
+
+
+def optional(
+    key: str, kind: Kind, get: Getter = None, level: Any = Level.USUAL, **more: Any
+) -> Row:
+    """A row that JSON leaves out where there is no value."""
+    return Row(key, kind, get, level, is_optional=True, **more)
 
 
 class Section:
@@ -355,69 +376,6 @@ class Choice(Section):
     @property
     def schema(self) -> Schema:
         return one_of(*(section.schema for section in self._sections))
-
-
-def part(section: Section, words: Words | None = None) -> Kind:
-    """A value with facts of its own; its words where its gist does not do."""
-    return Kind({}, section=section, words=words)
-
-
-def told(words: Words, phrase: Callable[[str, Answer, Plain], str] | None = None) -> Kind:
-    """What is for people alone."""
-    return Kind({}, words=words, phrase=phrase, is_data=False)
-
-
-SAID = Kind({}, words=lambda text, d: d.prose(text), is_data=False)
-"""Words for people alone."""
-
-
-def rows_of(rows: Callable[[Any, Plain], list[tuple[str, str]]]) -> Kind:
-    """Labels with words, for people alone."""
-    return Kind({}, rows=rows, is_data=False)
-
-
-def picture(lines: Callable[[Any, Plain], list[str]]) -> Kind:
-    """A picture in signs, for people alone."""
-    return Kind({}, lines=lines, is_data=False)
-
-
-def drawing(draw: Callable[[Any, Plain], list[str]]) -> Kind:
-    """What each output draws in its way, for people alone."""
-    return Kind({}, draw=draw, is_data=False)
-
-
-def sentence(words: Callable[[Any], str]) -> Row:
-    """What is told above or below a list, when it is its turn."""
-
-    def lines(x: Any, d: Plain) -> list[str]:
-        text = words(x)
-        return d.sentence(d.prose(text), 0) if text else []
-
-    return Row("sentence", drawing(lines), lambda x: x, label="")
-
-
-def parts(section: Section, words: Words | None = None) -> Kind:
-    """A list of such values."""
-    return Kind({}, section=section, is_list=True, words=words)
-
-
-def table(section: Section, most: int, is_data: bool = True) -> Kind:
-    """A list of flat parts, a line each, of which so many are usual. Where the first column has no
-    label of its own, that of the list is its head. A part of a line, and what is told as rows, have
-    columns of their own.
-    """
-    return Kind({}, section=section, is_list=True, most=most, is_data=is_data)
-
-
-def stream(section: Section, by: Callable[[Any, Plain], str] | None = None) -> Kind:
-    """A list of flat parts that is told while it is found; memory does not grow with it. A terminal
-    shows the usual rows of a part, LaTeX those of details too, Markdown those that programs get.
-
-    Args:
-        section: of a part.
-        by: the heading above parts that have the same.
-    """
-    return Kind({}, section=section, is_list=True, is_stream=True, by=by)
 
 
 def via(get: Callable[[Any], Any], rows: Iterable[Row]) -> list[Row]:

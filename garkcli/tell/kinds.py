@@ -59,6 +59,8 @@ TRUE = Kind(S.TRUE)
 COUNT = Kind(S.COUNT, words=lambda x, d: str(x))
 INTEGER = Kind(S.INTEGER, words=lambda x, d: str(x))
 POSITION = Kind(S.POSITION, words=lambda x, d: str(x))
+INDEX = Kind(S.POSITION, lambda x, _: x + 1, lambda x, _: str(x + 1))
+"""What the program counts from 0, and people from 1."""
 TEXT = Kind(S.TEXT, words=lambda x, d: d.prose(x))
 TEXTS = Kind(
     array(S.TEXT),

@@ -23,8 +23,9 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Row, Section, part, rows_of, table
+from garkcli.tell.facts import Row, Section
 from garkcli.tell.kinds import COUNT, EXPRESSION, TEXT
+from garkcli.tell.parts import part, rows_of, table
 from garkcli.tell.report import Report
 from tests.cli.harness import ROOT, gark
 
