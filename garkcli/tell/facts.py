@@ -215,7 +215,10 @@ class Row(Frozen):
         """What ``get`` gets."""
         if callable(self.get):
             return self.get(whole)
-        for name in (self.get or self.key).split("."):
+        path = self.get or self.key
+        if path.isidentifier():  # most are, and lists of trees are long
+            return getattr(whole, path)
+        for name in path.split("."):
             if whole is not None:
                 whole = whole[int(name)] if name.isdecimal() else getattr(whole, name)
         return whole
