@@ -33,3 +33,9 @@ def test_there_are_no_other_rooms() -> None:
     assert sorted(folders) == ROOMS
     for name in re.findall(r"^(\w+)/ ", TEXT, re.MULTILINE):
         assert (ROOT / name).is_dir(), name
+
+
+def test_the_source_distribution_has_every_folder() -> None:
+    """Each folder that the page names is in it, or the package itself."""
+    grafted = re.findall(r"^graft (\S+)$", (ROOT / "MANIFEST.in").read_text("utf-8"), re.MULTILINE)
+    assert {*re.findall(r"^(\w+)/", TEXT, re.MULTILINE)} == {*grafted, "garkcli"} - {".ci"}
