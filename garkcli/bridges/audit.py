@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.elsewhere import declared_orders, order_of
-from garkcli.bridges.importing import orders_of, read, with_sign
+from garkcli.bridges.importing import orders_of, read, with_orders
 from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
@@ -152,7 +152,6 @@ def audit(table: FoundTable) -> Audited | None:
     if table.trouble:
         return Audited(table, findings=(_of_trouble(table),))
     try:
-        table = with_sign(table)
         method = read(table)
     except MethodFileError as error:
         message = error.faults[0].message
@@ -162,8 +161,9 @@ def audit(table: FoundTable) -> Audited | None:
         return None
     declared = table.order or 0
     is_high = declared == 0 or declared >= HIGH
-    order, embedded_order = orders_of(method, table, HIGH if is_high else None)
-    subject = Subject(table, method, order, embedded_order)
+    found = with_orders(table, method, HIGH if is_high else None)
+    table, method, order, embedded_order = found
+    subject = Subject(*found)
     if table.is_assembled and order.order < 2 and not subject.is_slightly_off:
         message = "numbers with the names of coefficients whose roles are not recognised"
         return Audited(table, findings=(AuditFinding("unread", message, level="note"),))

@@ -66,9 +66,7 @@ def imported(table: FoundTable, name: str) -> Imported:
     Raises:
         MethodFileError: its numbers make no method.
     """
-    table = with_sign(table)
-    method = read(table, name)
-    order, embedded_order = orders_of(method, table)
+    table, method, order, embedded_order = with_orders(table, read(table, name))
     tolerance = _tolerance(table, (order, embedded_order))
     claims = _claims(order, embedded_order)
     text = written(table, name, tolerance, claims)
@@ -85,24 +83,35 @@ def read(table: FoundTable, name: str = "") -> MethodFile:
     return loads(written(table, name, None, {}), place_of(table))
 
 
-def with_sign(table: FoundTable) -> FoundTable:
-    """The table with the embedded weights that an error estimate means, b − E or b + E: those of
-    the declared order, else those of the higher order. The other ones have the lower order of two.
+def with_orders(
+    table: FoundTable, method: MethodFile, limit: int | None = None
+) -> tuple[FoundTable, MethodFile, Judged, Judged | None]:
+    """A table and its method with their orders, up to ``limit``.
+
+    An error estimate E means the embedded weights b − E or b + E: those of the declared order, else
+    those of the higher order. Both have the same order where it is lower than that of b, as E then
+    misses a condition, but for sums of weights that rounding spoils in one of them.
 
     Raises:
-        MethodFileError: its numbers make no method.
+        MethodFileError: the numbers of the other sign make no method.
     """
-    if table.turned is None:
-        return table
+    found = table, method, *orders_of(method, table, limit)
+    _, _, order, embedded = found
+    if table.turned is None or embedded is None:
+        return found
     declared = table.embedded_order
+    if 0 < embedded.order < order.order and declared in (None, embedded.order):
+        return found
+    turned = replace(table, embedded=table.turned, turned=None)
+    other = read(turned, method.name)
+    _, low = orders_of(other, turned, limit)
+    if low is None or _fit(low, declared) <= _fit(embedded, declared):
+        return found
+    return turned, other, order, low
 
-    def fit(way: FoundTable) -> tuple[bool, int]:
-        _, embedded = orders_of(read(way), way)
-        order = embedded.order if embedded else 0
-        return order == declared, order
 
-    ways = [replace(table, embedded=x, turned=None) for x in (table.embedded, table.turned)]
-    return max(ways, key=fit)
+def _fit(found: Judged, declared: int | None) -> tuple[bool, int]:
+    return found.order == declared, found.order
 
 
 def orders_of(
