@@ -21,6 +21,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.rounded import find_order_within
 from garkcli.order.tolerance import within
+from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
@@ -165,8 +166,7 @@ def audit(table: FoundTable) -> Audited | None:
     table, method, order, embedded_order = found
     subject = Subject(*found)
     if table.is_assembled and order.order < 2 and not subject.is_slightly_off:
-        message = "numbers with the names of coefficients whose roles are not recognised"
-        return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
+        return Audited(table, findings=(AuditFinding("unread", UNRECOGNISED, level="note"),))
     findings: list[AuditFinding] = []
     for check in CHECKS:
         findings += [_weighed(x, subject) for x in check(subject)]

@@ -15,7 +15,7 @@ _OF_ALGORITHM = re.compile(
     re.MULTILINE,
 )
 """``alg_order(::Tsit5) = 5`` of SciML."""
-_CLASS = re.compile(r"^class\b.*(?:\n(?:[ \t].*)?)*", re.MULTILINE)
+_CLASS = re.compile(r"^class\s+(?P<name>\w+).*(?:\n(?:[ \t].*)?)*", re.MULTILINE)
 _USED = re.compile(r"^[ \t]+\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 _ORDER = re.compile(r"^[ \t]+order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
 _MADE_FOR = re.compile(
@@ -45,16 +45,17 @@ def orders_in(text: str) -> list[tuple[str, int]]:
     >>> orders_in("alg_order(alg::Union{BS5, Tsit5}) = 5")
     [('BS5', 5), ('Tsit5', 5)]
     >>> orders_in("class RK4(Solver):\n    order = 4\n    tableau = _RK4\n")
-    [('_RK4', 4)]
+    [('RK4', 4), ('_RK4', 4)]
     """
     found = []
     for match in _OF_ALGORITHM.finditer(text) if "alg_order" in text else ():
         names = [name.strip().rpartition(".")[2] for name in match["names"].split(",")]
         found += [(name, int(match["order"])) for name in names]
-    for match in _CLASS.finditer(text) if "tableau" in text else ():
+    for match in _CLASS.finditer(text) if "order" in text else ():
         order = _ORDER.search(match[0])
         if order is not None:
-            found += [(x["name"], int(order["n"])) for x in _USED.finditer(match[0])]
+            names = [match["name"], *(x["name"] for x in _USED.finditer(match[0]))]
+            found += [(name, int(order["n"])) for name in names]
     return found
 
 

@@ -112,6 +112,7 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
     signature = meant.signature
     roles = meant.roles
     title = roles.get("title")
+    order, embedded_order = _orders(roles)
     empty = FoundTable(
         source,
         meant.line,
@@ -119,8 +120,8 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
         title.text if isinstance(title, Word) else meant.name,
         (),
         (),
-        order=whole(roles.get("order")) or None,
-        embedded_order=whole(roles.get("embedded_order")) or None,
+        order=order,
+        embedded_order=embedded_order,
         flags=_flags(roles),
         is_sure=meant.is_sure,
         notes=tuple(meant.notes),
@@ -337,7 +338,7 @@ def _stages(roles: Roles) -> int:
 def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     """A table of one colour."""
     stages = 0
-    roles = _with_ends(roles)
+    roles = _with_ends(_with_both_rows(roles))
     if meant.signature and "stages" in meant.signature.roles:
         stages = _stages(roles)
     elif whole(roles.get("stages")) and meant.is_sure:
@@ -360,7 +361,8 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
             is_sure=True,
             units=made.units,
         )
-        roles = {role: x for role, x in roles.items() if form != "Shu–Osher" or role != "c"}
+        if form == "Shu–Osher":
+            roles = {**roles, "c": roles.get("nodes", Null())}
     c = _nodes(roles, A)
     A, b, c, embedded, turned = _embedded(roles, A, b, c, meant)
     return replace(
@@ -372,6 +374,28 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         turned=None if turned is None else (turned,),
         dense=_dense(roles, len(b)),
     )
+
+
+def _with_both_rows(roles: Roles) -> Roles:
+    """Weights and embedded weights apart, where they are the rows of one matrix."""
+    rows = roles.get("b")
+    if not isinstance(rows, Array) or not rows.is_matrix or len(rows.items) != 2:
+        return roles
+    if any(isinstance(x, Array) and len(x.items) < 2 for x in rows.items):
+        return roles
+    return {**roles, "b": rows.items[0], "embedded": rows.items[1]}
+
+
+def _orders(roles: Roles) -> tuple[int | None, int | None]:
+    """The declared orders; a pair of them, or the lower and the higher one, are those of weights
+    and embedded weights that are rows of one matrix.
+    """
+    order, embedded = roles.get("order"), roles.get("embedded_order")
+    if isinstance(order, Array) and len(order.items) in (1, 2):
+        order, embedded = (*order.items, embedded)[:2]
+    if order is None and embedded is None and _with_both_rows(roles) is not roles:
+        order, embedded = roles.get("lower_order"), roles.get("higher_order")
+    return whole(order) or None, whole(embedded) or None
 
 
 def _with_ends(roles: Roles) -> Roles:

@@ -202,8 +202,8 @@ class Evaluator:
         return [space]
 
     def _scope(self, scope: ir.Scope, space: Space) -> None:
-        if scope.name == "__init__":
-            # the class is what people call
+        if scope.name.startswith("_") and self._scopes[-1].kind == "class":
+            # __init__, _step: the class is what people call
             scope = replace(scope, name=self._scopes[-1].name)
         if scope.kind == "record":
             # functions that make it

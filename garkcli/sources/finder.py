@@ -10,14 +10,14 @@ from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table_of
 from garkcli.sources.evaluate import Space
-from garkcli.sources.found import FoundTable
+from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of
 from garkcli.sources.parts import role_of_part, roles_of_parts, with_hats
 from garkcli.sources.rklab import block_roles
-from garkcli.sources.scalar_names import scalar_roles
+from garkcli.sources.scalar_names import are_coefficients, scalar_roles
 from garkcli.sources.signatures import PARTS, PRINTED, SIGNATURES, other_kind
 from garkcli.sources.steps import Follower, NoStep
-from garkcli.sources.values import Array, Null, Number, Record, Unknown, Value, Word, whole
+from garkcli.sources.values import Array, Null, Number, Record, Type, Unknown, Value, Word, whole
 
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
@@ -30,6 +30,9 @@ _TABLE = "ARKodeButcherTable_Alloc"
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
 _WHOLE_QUOTIENTS = frozenset({"c", "fortran"})
+
+
+UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
 
 class TableFinder:
@@ -98,7 +101,9 @@ class TableFinder:
         values, lines = dict(space), space.lines
         self._named(values, lines, scope)
         if len(self._meant) + len(self._other) == count and not self._step(scope, space):
-            self._scalars(scope.title, values, scope.line)
+            for owner, own in _by_owner(values).items():
+                line = scope.line if not owner else min(lines.get(f"{owner}::{x}", 1) for x in own)
+                self._scalars(owner or scope.title, own, line)
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
         """Arrays that are complete are a table before one of them is assigned anew."""
@@ -107,6 +112,8 @@ class TableFinder:
             return
         if any(x.kind in SIGNATURES or other_kind(x.kind) for x in space.calls):
             # calls take the arrays of this scope
+            return
+        if _is_general_linear(space):
             return
         stem = told[0]
         names = [x for x in space if (role_of(x) or ("", ""))[0] == stem and role_of(x)]
@@ -160,7 +167,8 @@ class TableFinder:
         if signature is not None:
             if not record.args and len(fields) < 2:
                 return
-            roles = dict(zip(signature.roles, record.args, strict=False))
+            values = [x for x in record.args if not isinstance(x, Type)]
+            roles = dict(zip(signature.roles, values, strict=False))
             roles.pop("-", None)
             if any(map(_is_given, roles.values())):
                 return
@@ -222,6 +230,10 @@ class TableFinder:
     def _named(
         self, values: Mapping[str, Value], lines: Mapping[str, int], scope: ir.Scope
     ) -> None:
+        if _is_general_linear(values):
+            table = _other(self._source, scope.line, self._format, scope.title, "general linear")
+            self._other[scope.title, scope.line] = table
+            return
         for name, value in values.items():
             roles = block_roles(value) if name.upper().startswith("B") else None
             if roles is not None:
@@ -300,6 +312,9 @@ class TableFinder:
         """Coefficients with names of their own: a21, b1."""
         found = scalar_roles(values)
         if found is None:
+            if are_coefficients(values):
+                place = FoundTable(self._source, line, self._format, name, (), (), is_sure=True)
+                self._other[name, line] = troubled(place, UNRECOGNISED)
             return
         if found.kind:
             table = _other(self._source, line, self._format, name, found.kind)
@@ -312,6 +327,21 @@ class TableFinder:
 
 def _other(source: str, line: int, format: str, name: str, kind: str) -> FoundTable:
     return FoundTable(source, line, format, name, (), (), (), kind=kind)
+
+
+def _is_general_linear(values: Mapping[str, Value]) -> bool:
+    """Whether there are matrices A, B and U."""
+    cases = [[values.get(x) for x in case] for case in ("ABU", "abu")]
+    return any(all(isinstance(x, Array) and x.is_matrix for x in case) for case in cases)
+
+
+def _by_owner(values: Mapping[str, Value]) -> Mapping[str, Mapping[str, Value]]:
+    """The values by the class that they belong to: ``RKF45::a21``."""
+    found: dict[str, dict[str, Value]] = {}
+    for name, value in values.items():
+        owner, _, plain = name.rpartition("::")
+        found.setdefault(owner, {})[plain] = value
+    return found
 
 
 def _is_given(value: Value) -> bool:

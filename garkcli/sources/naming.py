@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
-    "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix"),
-    "b": ("b", "B", "bvec", "b_sol", "bsol", "c_sol", "weights", "α", "b_vec"),
-    "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae"),
+    "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
+    "b": ("b", "B", "bvec", "b_sol", "bsol", "c_sol", "weights", "α", "b_vec", "bCoefficients"),
+    "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae", "cCoefficients"),
     "embedded": (
         *("bhat", "b_hat", "bh", "bembed", "bstar", "b_star", "btilde"),
         *("b_tilde", "b_embedded", "bemb", "b_err_weights", "b_low_order"),
@@ -22,6 +22,8 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
         *("embedded_order", "error_estimator_order", "p", "adaptiveorder"),
         *("order_embedded", "embeddedOrder", "orderhat", "EmbeddedDifferenceOrder"),
     ),
+    "lower_order": ("lowerOrder", "lower_order"),
+    "higher_order": ("higherOrder", "higher_order"),
     **{x: (x, x.replace("gamma", "γ")) for x in ("gamma1", "gamma2", "gamma3")},
     "delta": ("delta", "δ"),
     "A_q": ("Abar", "abar", "A_bar", "a_bar", "Ā"),

@@ -16,7 +16,7 @@ FAR = 0.5
 def block_roles(value: Value) -> Mapping[str, Value] | None:
     """The roles of the parts of a block matrix; None where it is none.
 
-    q, which has the row of the weights to itself, is a whole number from 1 on.
+    q, which has the row of the weights to itself, is a whole number; 0 says nothing.
     """
     if not isinstance(value, Array) or not value.is_matrix:
         return None
@@ -29,19 +29,20 @@ def block_roles(value: Value) -> Mapping[str, Value] | None:
         return None
     entries = [x for row in rows for x in row]
     order = whole(rows[stages][0])
-    if not order or order < 1 or not all(isinstance(x, Number) for x in entries):
+    if order is None or order < 0 or not all(isinstance(x, Number) for x in entries):
         return None
     near = [[x.near for x in row if isinstance(x, Number)] for row in rows]
     agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
-    if abs(sum(near[stages][1:]) - 1) > FAR or 2 * agreeing < stages:
+    if abs(sum(near[stages][1:]) - 1) > FAR or agreeing < (stages / 2 if order else stages):
         # a matrix like any other
         return None
     roles: dict[str, Value] = {
         "A": Array([Array(row[1:]) for row in rows[:stages]]),
         "b": Array(rows[stages][1:]),
         "c": Array([row[0] for row in rows[:stages]]),
-        "order": rows[stages][0],
     }
+    if order:
+        roles["order"] = rows[stages][0]
     if len(rows) == stages + 2:
         if whole(rows[-1][0]) is None:
             return None

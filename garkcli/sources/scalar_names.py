@@ -10,7 +10,10 @@ from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import ONE, ZERO, Array, Number, Unknown, Value, computed, exact
 
 _NAME = re.compile(r"(?P<stem>[^\W\d_]+[̂̃]?)_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}))?")
-_MATRICES = ("a", "A", "aa", "b")
+_MATRICES = ("a", "A", "aa", "b", "α")
+_SHU_OSHER = (("α", "β"), ("alpha", "beta"))
+_TWO_INDICES = {*_MATRICES, *(x for pair in _SHU_OSHER for x in pair)}
+_LETTERS = {*_TWO_INDICES, *"cdewγ", "gamma", "bhat", "b̂", "bh", "bt", "btilde"}
 _DIAGONALS = ("γ", "gamma", "gam", "d")
 _EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e")
 _DIFFERENCES = frozenset({"btilde"})
@@ -18,6 +21,8 @@ _SURELY = _DIFFERENCES | {"bhat", "b̂", "bembed"}
 """Names that are no others' than those of embedded weights, and of their differences."""
 NEAR = 1e-4
 """Numbers that differ by less are meant to be the same."""
+FEWEST_COEFFICIENTS = 8
+"""So many numbers with names of coefficients are told where they make no table."""
 _Entries = dict[tuple[int, int], Value]
 _Row = dict[int, Value]
 
@@ -43,6 +48,9 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     nodes that are given are its row sums, with a diagonal that may be a number of its own.
     """
     entries, rows = _families(values)
+    for alpha, beta in _SHU_OSHER:
+        if alpha in entries and beta in entries:
+            return _of_shu_osher(entries[alpha], entries[beta], rows.get("c", {}))
     stem = _matrix_stem(entries)
     if stem is None:
         return None
@@ -59,7 +67,7 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     if unknown is not None and ("argument" in unknown.reason or 2 * written < len(matrix)):
         # a table is used, and none is made
         return None
-    weight, node = ("c", "a") if stem == "b" else ("b", "c")
+    weight, node = {"b": ("c", "a"), "α": ("β", "c")}.get(stem, ("b", "c"))
     if {"w", "d"} <= set(rows) and not {weight, node} & set(rows):
         weight, node = "w", "d"
     low = 0 if min(j for _, j in matrix) == 0 else 1
@@ -103,6 +111,40 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     return found
 
 
+def are_coefficients(values: Mapping[str, Value]) -> bool:
+    """Whether many numbers have names like those of coefficients, whatever their roles are."""
+    families = [list(of[x].values()) for of in _families(values) for x in of if x in _LETTERS]
+    numbers = [[x for x in family if isinstance(x, Number)] for family in families]
+    written = [family for family in numbers if len(family) > 1]
+    fractions = sum(not x.is_whole for family in written for x in family)
+    return len(written) > 1 and fractions >= FEWEST_COEFFICIENTS
+
+
+def _of_shu_osher(alpha: _Entries, beta: _Entries, nodes: _Row) -> Scalars | None:
+    """The form of Shu and Osher, whose rows of α have the sum 1: α30, α32, β32 of the third stage
+    value. A row without an α is that of the value before it.
+    """
+    count = max(i for i, _ in (*alpha, *beta))
+    if any(i <= j for i, j in (*alpha, *beta)) or not 2 <= count <= MAX_STAGES:
+        return None
+    numbers = range(1, count + 1)
+    alpha = {(i, i - 1): ONE for i in numbers if not any(i == x for x, _ in alpha)} | alpha
+    if {i for i, _ in beta} != set(numbers):
+        return None
+    matrices = [
+        Array([Array([of.get((i, j), ZERO) for j in range(count)]) for i in numbers])
+        for of in (alpha, beta)
+    ]
+    rows = [x.items for x in matrices[0].items if isinstance(x, Array)]
+    if not all(_is_near(_total(row), ONE) for row in rows):
+        return None
+    roles: dict[str, Value] = dict(zip("cA", matrices, strict=True))
+    given = [x for i in range(1, count) if (x := nodes.get(i)) is not None]
+    if len(given) == count - 1:
+        roles["nodes"] = Array([ZERO, *given])
+    return Scalars(roles)
+
+
 def _without_last_rows(matrix: _Entries, found: Scalars) -> _Entries:
     """The matrix without its last rows, where these are what another function gives: further stages
     for dense output.
@@ -137,7 +179,7 @@ def _families(values: Mapping[str, Value]) -> tuple[dict[str, _Entries], dict[st
         stem, i, j = found["stem"], found["i"], found["j"]
         if j:
             entries.setdefault(stem, {})[int(i), int(j)] = value
-        elif len(i) == 1 or (len(i) == 2 and (i[0] in "01" and stem not in _MATRICES)):
+        elif len(i) == 1 or (len(i) == 2 and (i[0] in "01" and stem not in _TWO_INDICES)):
             rows.setdefault(stem, {})[int(i)] = value
         elif len(i) == 2:
             entries.setdefault(stem, {})[int(i[0]), int(i[1])] = value
@@ -149,7 +191,8 @@ def _families(values: Mapping[str, Value]) -> tuple[dict[str, _Entries], dict[st
 
 def _matrix_stem(entries: Mapping[str, _Entries]) -> str | None:
     below = [x for x in _MATRICES if x in entries and all(i >= j for i, j in entries[x])]
-    return max(below, key=lambda x: len(entries[x]), default=None)
+    # a beside α: the latter say how a stage begins
+    return max(below, key=lambda x: (x != "α", len(entries[x])), default=None)
 
 
 def _filled(matrix: _Entries, stages: int, low: int) -> list[list[Value]]:

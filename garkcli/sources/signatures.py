@@ -97,6 +97,7 @@ SIGNATURES: Mapping[str, Signature] = {
     "TableauERK": _rk("title order A b c"),
     "TableauIRK": _rk("title order A b c"),
     "TableauDIRK": _rk("title order A b c"),
+    "TableauRKExplicit": _rk("title order A b c", 5, 6),
     "_ButcherTableau": _rk("c A b error"),
     "ExplicitRKSolver": _rk("stages A b c", 4),
     "LowStorageRungeKutta2NTableau": _of_registers("2N", "A b c"),

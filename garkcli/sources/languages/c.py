@@ -195,8 +195,8 @@ class CLowering(Lowering):
         is_real = not _WHOLE_TYPES.search(self.text(kind))
         if kind is not None and kind.type.endswith("_specifier"):
             yield from self.block([kind])
-        default = node.child_by_field_name("default_value")
-        for each in node.children_by_field_name("declarator"):
+        sizes = self._array_sizes(kind)
+        for each, default in _declarators(node):
             value: ir.Expr | None = None if default is None else self.expr(default)
             inner: Node | None = each
             if each.type == "init_declarator":
@@ -205,9 +205,23 @@ class CLowering(Lowering):
             elif each.type not in _DECLARED and default is None:
                 continue
             name, extents = self._declared(inner)
+            extents = (*extents, *sizes)
             if value is None and not extents:
                 continue
+            if sizes and value is not None:
+                value = _without_braces(value, len(extents))
             yield ir.Assign(ir.Name(name), value, line_of(each), extents=extents, is_real=is_real)
+
+    def _array_sizes(self, kind: Node | None) -> tuple[ir.Expr, ...]:
+        """The extents of ``std::array<double, 3>``, and of arrays in it."""
+        while kind is not None and kind.type in {"qualified_identifier", "type_descriptor"}:
+            kind = kind.child_by_field_name("name") or kind.child_by_field_name("type")
+        if kind is None or kind.type != "template_type":
+            return ()
+        args = self.children(kind.child_by_field_name("arguments"))
+        if self.text(kind.child_by_field_name("name")) not in {"array", "Array"} or len(args) != 2:
+            return ()
+        return (self.expr(args[1]), *self._array_sizes(args[0]))
 
     def _initial(self, node: Node | None) -> ir.Expr:
         """``T x(args)`` and ``T x{args}``: a call of the type, or a list."""
@@ -233,7 +247,11 @@ class CLowering(Lowering):
             # a = b = 0
             yield from self.block([right])
             right = right.child_by_field_name("left")
-        yield ir.Assign(self.expr(left), self.expr(right), line_of(node), sign)
+        target = self.expr(left)
+        if isinstance(target, ir.Call) and target.args:
+            # A(1, 0) = 0.5
+            target = ir.Index(target.callee, target.args)
+        yield ir.Assign(target, self.expr(right), line_of(node), sign)
 
     def _if(self, node: Node) -> Iterator[ir.Statement]:
         then = self.block([node.child_by_field_name("consequence")])
@@ -382,6 +400,33 @@ class CLowering(Lowering):
                 return ir.Call(ir.Name("double"), args)
             return ir.Call(ir.Name(name), args)
         return ir.Call(self.expr(callee), args)
+
+
+def _declarators(node: Node) -> list[tuple[Node, Node | None]]:
+    """What a declaration declares, each with the value that members have."""
+    found: list[tuple[Node, Node | None]] = []
+    for i, child in enumerate(node.children):
+        match node.field_name_for_child(i):
+            case "declarator":
+                found.append((child, None))
+            case "default_value" if found:
+                found[-1] = found[-1][0], child
+    return found
+
+
+def _without_braces(value: ir.Expr, depth: int) -> ir.Expr:
+    """Nested lists without the second pair of braces that ``std::array`` may have."""
+    if not isinstance(value, ir.Items):
+        return value
+    if len(value.items) == 1 and _depth(value) > depth:
+        return _without_braces(value.items[0], depth)
+    return ir.Items(tuple(_without_braces(x, depth - 1) for x in value.items))
+
+
+def _depth(value: ir.Expr) -> int:
+    if not isinstance(value, ir.Items):
+        return 0
+    return 1 + max(map(_depth, value.items), default=0)
 
 
 def _defines(arm: ir.Body) -> bool:

@@ -1,0 +1,170 @@
+"""Tables as further programs store them, and what is told of numbers that make none."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli.bridges.audit import Audited, audit
+from garkcli.sources.found import Find
+from garkcli.sources.languages import c, julia, python
+
+SHU_OSHER = """
+function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
+    α20 = T(3 // 4); α21 = T(1 // 4); α30 = T(1 // 3); α32 = T(2 // 3)
+    β10 = T(1); β21 = T(1 // 4); β32 = T(2 // 3)
+    c1 = T2(1); c2 = T2(1 // 2)
+    return SSPRK33ConstantCache(α20, α21, α30, α32, β10, β21, β32, c1, c2)
+end
+"""
+GREEK = """
+function RK3ConstantCache(T1, T2)
+    α21 = T1(1 // 2); α31 = T1(-1); α32 = T1(2)
+    β1 = T1(1 // 6); β2 = T1(2 // 3); β3 = T1(1 // 6)
+    c1 = T2(1 // 2); c2 = T2(1)
+    return RK3ConstantCache(α21, α31, α32, β1, β2, β3, c1, c2)
+end
+"""
+STATIC = """
+namespace Solvers {
+const scalar
+    RK23::c2 = 1.0/2.0, RK23::c3 = 3.0/4.0, RK23::c4 = 1.0,
+    RK23::a21 = 1.0/2.0, RK23::a32 = 3.0/4.0,
+    RK23::a41 = 2.0/9.0, RK23::a42 = 1.0/3.0, RK23::a43 = 4.0/9.0,
+    RK23::b1 = 2.0/9.0, RK23::b2 = 1.0/3.0, RK23::b3 = 4.0/9.0,
+    RK23::e1 = RK23::b1 - 7.0/24.0, RK23::e2 = RK23::b2 - 1.0/4.0,
+    RK23::e3 = RK23::b3 - 1.0/3.0, RK23::e4 = -1.0/8.0;
+}
+"""
+CALLED = """
+void initialize( RungeKuttaCoefficients& heun )
+{
+    heun.lowerOrder = 1;
+    heun.higherOrder = 2;
+    heun.aCoefficients = Eigen::MatrixXd::Zero( 2, 2 );
+    heun.aCoefficients( 1, 0 ) = 1.0;
+    heun.cCoefficients = Eigen::VectorXd::Zero( 2 );
+    heun.cCoefficients( 1 ) = 1.0;
+    heun.bCoefficients = Eigen::MatrixXd::Zero( 2, 2 );
+    heun.bCoefficients( 0, 0 ) = 1.0;
+    heun.bCoefficients( 1, 0 ) = 1.0 / 2.0;
+    heun.bCoefficients( 1, 1 ) = 1.0 / 2.0;
+}
+"""
+PACKED = """
+template <>
+struct ButcherTableau<3, 3> {
+  static constexpr int order = 4;
+  static constexpr int nstages = 4;
+  Kokkos::Array<double, (nstages * nstages + nstages) / 2> a{{0, 0.5, 0, 0, 0.5, 0, 0, 0, 1, 0}};
+  Kokkos::Array<double, nstages> b{{1. / 6, 1. / 3, 1. / 3, 1. / 6}};
+  Kokkos::Array<double, nstages> c{{0.0, 0.5, 0.5, 1.0}};
+};
+"""
+NESTED = """
+struct Heun {
+  std::array<std::array<double, 2>, 2> a = {{ {{0.0, 0.0}}, {{1.0, 0.0}} }};
+  std::array<double, 2> b{{0.5, 0.5}}, c{0.0, 1.0};
+};
+"""
+TWO_ROWS = """
+const bt_rk21 = TableauRKExplicit(:heun_euler, (2, 1), Rational{Int64},
+                                  [0     0
+                                   1     0],
+                                  [1//2  1//2
+                                   1     0],
+                                  [0,    1])
+"""
+BLOCK = """
+class Heun3(Solver):
+    order = 3
+
+    def _step_func(self, func, t0, y0):
+        butcher_tableau = [
+            [0.0, 0.0, 0.0, 0.0],
+            [1/3, 1/3, 0.0, 0.0],
+            [2/3, 0.0, 2/3, 0.0],
+            [0.0, 1/4, 0.0, 3/4],
+        ]
+        return step(func, t0, y0, butcher_tableau)
+"""
+WRITTEN = {
+    "the form of Shu and Osher": (julia.find, SHU_OSHER, 3, None),
+    "Greek letters": (julia.find, GREEK, 3, None),
+    "static members": (c.find, STATIC, 3, 2),
+    "arrays that are called": (c.find, CALLED, 1, 2),
+    "a triangle in an array of templates": (c.find, PACKED, 4, None),
+    "arrays of arrays": (c.find, NESTED, 2, None),
+    "two rows of weights": (julia.find, TWO_ROWS, 2, 1),
+    "a block with an empty corner": (python.find, BLOCK, 3, None),
+}
+
+
+def only(find: Find, text: str) -> Audited:
+    """What an audit finds of the only table of a source."""
+    (table,) = find(text, "x")
+    found = audit(table)
+    assert found is not None
+    assert not table.trouble
+    return found
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_the_order_is_that_of_the_method(name: str) -> None:
+    """As published, no lower and no higher, and nothing is wrong with the table."""
+    find, text, order, low = WRITTEN[name]
+    found = only(find, text)
+    assert found.order is not None
+    assert found.order.order == order
+    assert (found.embedded_order and found.embedded_order.order) == low
+    assert not found.findings
+
+
+@pytest.mark.parametrize(
+    ("name", "was", "wrong"),
+    [
+        ("the form of Shu and Osher", "β32 = T(2 // 3)", "β32 = T(1 // 3)"),
+        ("static members", "RK23::b2 = 1.0/3.0", "RK23::b2 = 2.0/3.0"),
+        ("arrays that are called", "( 1, 1 ) = 1.0 / 2.0", "( 1, 1 ) = 1.0 / 3.0"),
+        ("two rows of weights", "1     0],\n                                  [0,", "1 1],\n[0,"),
+        ("a block with an empty corner", "[0.0, 1/4, 0.0", "[0.0, 1/3, 0.0"),
+    ],
+)
+def test_a_wrong_number_is_found(name: str, was: str, wrong: str) -> None:
+    """One number of each is changed: an error, a warning, or a table that is not read."""
+    find, text, *_ = WRITTEN[name]
+    assert text.count(was) == 1
+    (table,) = find(text.replace(was, wrong), "x")
+    found = audit(table)
+    assert found is not None
+    assert found.findings
+
+
+def test_an_entry_that_is_left_out_is_a_zero_at_the_end() -> None:
+    """As C++ fills an array: 0 behind 1 moves, and the order is lost."""
+    text = PACKED.replace("{{0, 0.5, 0, 0, 0.5", "{{0, 0.5, 0, 0.5")
+    (error,) = [x for x in only(c.find, text).findings if x.code == "order"]
+    assert error.message.startswith("order 2, declared 4")
+
+
+def test_general_linear_methods_are_none_of_runge_kutta() -> None:
+    """A, B and U: the second row of B is no embedded method."""
+    text = "A = [[0, 0], [1, 0]]\nB = [[1/2, 1/2], [0, 1]]\nU = [[1, 0], [1, 1]]\n"
+    (table,) = python.find(text, "x.py")
+    assert table.kind == "general linear"
+
+
+def test_numbers_with_names_of_coefficients_are_told() -> None:
+    """Methods with parallel stages are not read; that they are there is told."""
+    text = """
+    function KuttaPRK2p5ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
+        α21 = T(1 // 3); α31 = T(4 // 25); α32 = T(6 // 25)
+        β1 = T(23 // 192); β3 = T(125 // 192); β5 = T(-81 // 192); β6 = T(125 // 192)
+        c2 = T2(1 // 3); c3 = T2(2 // 5)
+        return KuttaPRK2p5ConstantCache(α21, α31, α32, β1, β3, β5, β6, c2, c3)
+    end
+    """
+    (table,) = julia.find(text, "x.jl")
+    assert table.name == "KuttaPRK2p5ConstantCache"
+    found = audit(table)
+    assert found is not None
+    assert found.looks_like
