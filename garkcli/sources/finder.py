@@ -236,7 +236,7 @@ class TableFinder:
             return
         for name, value in values.items():
             roles = block_roles(value) if name.upper().startswith("B") else None
-            if roles is not None:
+            if roles is not None and ("order" in roles or name.lower().startswith("butcher")):
                 line = lines.get(name, scope.line)
                 meant = Meant(scope.title or name, line, dict(roles), "B", None, is_sure=True)
                 self._meant.append(meant)
