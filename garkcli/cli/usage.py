@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 import click
 
@@ -26,8 +26,13 @@ MEANT = {
 }
 """Words that people type for a command, and the command."""
 CURES = {
-    "FILE...": "name a file, a folder, or a method of the catalogue, as rk4",
-    "FILE": "name a file, or a method of the catalogue, as rk4",
+    "FILE...": "name a file, a folder, or a method of the catalogue, such as rk4",
+    "FILE": "name a file, or a method of the catalogue, such as rk4",
+    "PATH...": "name a file or a folder",
+    "SOURCE...": "name a file or a folder",
+    "SECOND": "name two files, or methods of the catalogue",
+    "FIRST": "name two files, or methods of the catalogue",
+    "SPEC": "name a spec file, as docs/sweep.md shows it",
     "--to": "gark list exports shows what can be written",
 }
 """What to give where an argument or an option is missing."""
@@ -85,7 +90,7 @@ def _message(error: click.ClickException, context: click.Context | None) -> str:
     parameters = [] if context is None else context.command.params
     options = [x for p in parameters if isinstance(p, click.Option) for x in p.opts]
     if isinstance(error, click.NoSuchOption):
-        return _no_such_option(error.option_name, options)
+        return _no_such_option(error.option_name, options, context)
     if isinstance(error, click.MissingParameter):
         cures = [cure for word, cure in CURES.items() if word in message]
         return f"{message.rstrip('.')}; {cures[0]}" if cures else message
@@ -98,11 +103,30 @@ def _message(error: click.ClickException, context: click.Context | None) -> str:
     return _NUMBERS.sub(_number, message)
 
 
-def _no_such_option(name: str, options: list[str]) -> str:
+def _no_such_option(name: str, options: list[str], context: click.Context | None) -> str:
     message = f"no such option {printable(name)}"
-    if name.startswith("--"):
-        return f"{message}; {did_you_mean(name, options)}"
-    return f"{message}; options of several letters begin with --"
+    if not name.startswith("--"):
+        return f"{message}; options of several letters begin with --"
+    others = [] if nearest(name, options) else list(_commands_with(name, context))
+    if others:
+        more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
+        return f"{message}; it belongs to gark {', '.join(others[:_SHOWN])}{more}"
+    return f"{message}; {did_you_mean(name, options)}"
+
+
+_SHOWN = 4
+"""Commands that have an option which another one lacks."""
+
+
+def _commands_with(option: str, context: click.Context | None) -> Iterator[str]:
+    """The other commands that have an option."""
+    group = context and context.parent and context.parent.command
+    if context is None or not isinstance(group, click.Group):
+        return
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        if command is not None and any(option in x.opts for x in command.params):
+            yield name
 
 
 def _cure_of_choice(word: str, words: list[str]) -> str:

@@ -93,7 +93,10 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
 def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValue:
     cure = did_you_mean(name.name, values) if values else ""
     if not cure.startswith("did"):
-        cure = f"define it, before its use: parameters: {{{name.name}: 1/2}}"
+        cure = (
+            f"define it, before its use: parameters: {{{name.name}: 1/2}}, or"
+            f" {{{name.name}: free}} for gark design"
+        )
     return UndefinedValue(
         f"{name.name!r} is not a parameter", cure, name.start, name.end, code="unknown-name"
     )

@@ -89,6 +89,14 @@ class Verdict(Frozen):
     is_undecided: bool = False
     is_at_least: bool = False
 
+    def __repr__(self) -> str:
+        said = "yes" if self.value is True else "no"
+        if self.value is None:
+            said = "undecided" if self.is_undecided else "no meaning"
+        elif not isinstance(self.value, bool):
+            said = f"{'at least ' if self.is_at_least else ''}{self.value}"
+        return f"<Verdict {said}{f': {self.why}' if self.reason else ''}>"
+
     @classmethod
     def meaningless(cls, why: Reason) -> Verdict:
         """The property has no meaning for the method."""

@@ -365,7 +365,7 @@ def _among(minimum: Minimum) -> str:
         case "all":
             return f"of all methods of order {order}"
         case "nearly":
-            return f"and no method of order {order} has one that is less by more than 1e-9 of it"
+            return f"no method of order {order} has less, up to a relative 1e-9"
         case "critical-points":
             points = counted(minimum.candidates, "critical point")
             return (

@@ -171,9 +171,9 @@ def _orders_words(x: Compared, d: Plain) -> str:
 
 def _conditions_words(met: Any, _: Plain) -> str:
     if not met.pairs:
-        return f"to order {met.order} none is met by one alone"
+        return f"up to order {met.order} both meet the same ones"
     first, second = (len(x) or "none" for x in (met.first_only, met.second_only))
-    return f"to order {met.order} the first alone meets {first}, the second {second}"
+    return f"up to order {met.order} the first alone meets {first}, the second {second}"
 
 
 class Gap(NamedTuple):
