@@ -1,13 +1,15 @@
-"""Entries of tableaus as short text, and which rows of a tableau are shown."""
+"""Entries of tableaus as short text, and the rows that every output prints of a tableau."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from itertools import chain
+from typing import NamedTuple
 
 from flint import arb
 
 from garkcli.exact.display import to_text
-from garkcli.tableau.pointwise import Cell, Entries
+from garkcli.tableau.pointwise import Cell, Entries, Row
 from garkcli.tableau.tableau import Tableau
 
 
@@ -55,3 +57,48 @@ def distinct_rows(tableau: Tableau) -> list[int]:
     for l, colour in enumerate(tableau.colours):
         seen.setdefault(colour.space, l)
     return list(seen.values())
+
+
+def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
+    """The tables that a tableau is printed as: a letter or none, a colour for each group of rows,
+    the colours of the columns.
+    """
+    shown = distinct_rows(tableau)
+    if not tableau.is_partitioned:
+        yield "", shown, range(tableau.size)
+        return
+    for letter, part in (("Q", "q"), ("P", "p")):
+        driven = [m for m, colour in enumerate(tableau.colours) if colour.part == part]
+        seeing = [l for l in shown if any(tableau.block(l, m) is not None for m in driven)]
+        yield letter, seeing, driven
+
+
+class Line(NamedTuple):
+    """A row of a tableau as it is printed.
+
+    Attributes:
+        place: where it is among the stages of its colour, or among the rows of weights, from 0.
+        colour: of its stage; None of weights.
+        node: of its stage; None of weights.
+        groups: its entries, a row per colour; None where there is no block.
+    """
+
+    place: int
+    colour: int | None
+    node: Cell | None
+    groups: list[Row | None]
+
+    @property
+    def is_first(self) -> bool:
+        """Whether a line stands above it."""
+        return self.place == 0
+
+
+def lines_of(entries: Entries, stages: Sequence[int], colours: Sequence[int]) -> Iterator[Line]:
+    """The stages of each colour of ``stages``, then the weights; columns of ``colours``."""
+    for l in stages:
+        blocks = [entries.A[l][m] for m in colours]
+        for i, node in enumerate(entries.c[l]):
+            yield Line(i, l, node, [None if x is None else x[i] for x in blocks])
+    for k, weights in enumerate(filter(None, (entries.b, entries.embedded))):
+        yield Line(k, None, None, [weights[m] for m in colours])

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
-from garkcli.page.cells import cell_text
+from garkcli.page.cells import cell_text, lines_of, parts_of
 from garkcli.page.plain import printable
-from garkcli.page.tableau_latex import parts_of
-from garkcli.tableau.pointwise import Cell, Entries
+from garkcli.tableau.pointwise import Entries
 from garkcli.tableau.tableau import Tableau
 
 _LINE = "1px solid"
@@ -28,19 +27,13 @@ def _rows(
     """The stages of each colour of ``stages``, then the rows of weights."""
     if len(colours) > 1:
         yield _heads(tableau, entries, colours)
-    for l in stages:
-        for i, node in enumerate(entries.c[l]):
-            head = cell_text(node, entries.digits)
-            groups = [_stage(entries, l, i, m) for m in colours]
-            yield _row(head, groups, is_first=i == 0)
-    feet = [entries.b]
-    if entries.embedded is not None:
-        feet.append(entries.embedded)
-    is_first = True
-    for weights in feet:
-        groups = [_cells(weights[m], entries) for m in colours]
-        yield _row("", groups, is_first)
-        is_first = False
+    for line in lines_of(entries, stages, colours):
+        head = "" if line.node is None else cell_text(line.node, entries.digits)
+        groups = [
+            [""] * len(entries.b[m]) if row is None else [cell_text(x, entries.digits) for x in row]
+            for m, row in zip(colours, line.groups, strict=True)
+        ]
+        yield _row(head, groups, line.is_first)
 
 
 def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
@@ -53,17 +46,6 @@ def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
         heads.append(f"<th {attributes}>{name}</th>")
     joined = "".join(heads)
     return f"<tr>{joined}</tr>"
-
-
-def _stage(entries: Entries, l: int, i: int, m: int) -> list[str]:
-    """Row i of the block l, m; blanks where there is none."""
-    block = entries.A[l][m]
-    return [""] * len(entries.b[m]) if block is None else _cells(block[i], entries)
-
-
-def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
-    digits = entries.digits
-    return [cell_text(x, digits) for x in row]
 
 
 def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:

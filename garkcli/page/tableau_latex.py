@@ -11,10 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from flint import arb
 
 from garkcli.exact.display import to_latex
-from garkcli.frozen import Frozen
-from garkcli.page.cells import cell_text, distinct_rows
+from garkcli.page.cells import cell_text, lines_of, parts_of
 from garkcli.page.latex import number
-from garkcli.tableau.pointwise import Cell, Entries, Row
+from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
 MAX_BESIDE = 8
@@ -23,83 +22,28 @@ MAX_BESIDE = 8
 
 def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
     """The arrays, and the polynomials of dense output."""
-    return [*displays(tableau, entries, entries.embedded), *_dense(entries)]
-
-
-class _Shown(Frozen):
-    """What stands in the arrays.
-
-    Attributes:
-        entries: of the tableau.
-        text: an entry in LaTeX.
-        feet: the rows of weights below the line, each with a row per colour.
-    """
-
-    entries: Entries
-    text: Callable[[Cell], str]
-    feet: Sequence[Sequence[Row]]
+    return [*displays(tableau, entries), *_dense(entries)]
 
 
 def displays(
-    tableau: Tableau,
-    entries: Entries,
-    embedded: Sequence[Row] | None = None,
-    text: Callable[[Cell], str] | None = None,
+    tableau: Tableau, entries: Entries, text: Callable[[Cell], str] | None = None
 ) -> Iterator[str]:
     """The lines of the arrays.
 
     Args:
         tableau: for its colours, and for what they drive.
         entries: its entries.
-        embedded: further weights, below b.
         text: an entry in LaTeX; by default exact ones exactly.
     """
-    feet = [entries.b]
-    if embedded is not None:
-        feet.append(tuple(embedded))
-
-    def usual(cell: Cell) -> str:
-        return _cell(cell, entries)
-
-    shown = _Shown(entries, text or usual, feet)
-    arrays = []
-    columns = 0
-    for letter, stages, driven in parts_of(tableau):
-        array = _array(shown, stages, driven)
-        if not letter:
-            yield from _display(array)
-            return
-        arrays.append([f"{letter}: \\quad", *array])
-        columns += sum(len(entries.b[m]) for m in driven)
-    if columns <= MAX_BESIDE:
+    arrays = [
+        [*([f"{letter}: \\quad"] if letter else []), *_array(entries, text, stages, driven)]
+        for letter, stages, driven in parts_of(tableau)
+    ]
+    if len(arrays) > 1 and sum(map(len, entries.b)) <= MAX_BESIDE:
         positions, momenta = arrays
-        yield from _display([*positions, "\\qquad", *momenta])
-    else:
-        for array in arrays:
-            yield from _display(array)
-
-
-def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
-    """The arrays that a tableau is printed as: a letter or none, a colour for each group of rows,
-    the colours of the columns.
-    """
-    if not tableau.is_partitioned:
-        yield "", distinct_rows(tableau), range(tableau.size)
-        return
-    for letter, part in (("Q", "q"), ("P", "p")):
-        numbered = enumerate(tableau.colours)
-        driven = [m for m, colour in numbered if colour.part == part]
-        yield letter, _stages_of(tableau, driven), driven
-
-
-def _stages_of(tableau: Tableau, driven: Sequence[int]) -> list[int]:
-    """A colour for each stage space whose stages see one of the colours ``driven``."""
-    seeing = []
-    for l in distinct_rows(tableau):
-        blocks = [tableau.block(l, m) for m in driven]
-        if any(block is not None for block in blocks):
-            seeing.append(l)
-    return seeing
+        arrays = [[*positions, "\\qquad", *momenta]]
+    for array in arrays:
+        yield from _display(array)
 
 
 def _display(lines: Sequence[str]) -> Iterator[str]:
@@ -109,32 +53,30 @@ def _display(lines: Sequence[str]) -> Iterator[str]:
     yield r"\]"
 
 
-def _array(shown: _Shown, stages: Sequence[int], colours: Sequence[int]) -> list[str]:
+def _array(
+    entries: Entries,
+    text: Callable[[Cell], str] | None,
+    stages: Sequence[int],
+    colours: Sequence[int],
+) -> Iterator[str]:
     """C | A | …, the stages of one colour of ``stages`` under those of the other, b below."""
-    entries = shown.entries
-    text = shown.text
+
+    def usual(cell: Cell) -> str:
+        return _cell(cell, entries)
+
+    text = text or usual
     groups = "|".join("c" * len(entries.b[m]) for m in colours)
-    lines = [f"\\begin{{array}}{{c|{groups}}}"]
-    for l in stages:
-        for i, node in enumerate(entries.c[l]):
-            cells = [text(node)]
-            for m in colours:
-                block = entries.A[l][m]
-                if block is None:
-                    cells += [""] * len(entries.b[m])
-                else:
-                    cells += map(text, block[i])
-            row = " & ".join(cells)
-            lines.append(f"  {row} \\\\")
-        lines.append(r"  \hline")
-    feet = []
-    for weights in shown.feet:
-        cells = [text(x) for m in colours for x in weights[m]]
-        row = " & ".join(cells)
-        feet.append(f"  & {row}")
-    lines.append(" \\\\\n".join(feet))
-    lines.append("\\end{array}")
-    return lines
+    yield f"\\begin{{array}}{{c|{groups}}}"
+    *lines, last = lines_of(entries, stages, colours)
+    for k, line in enumerate([*lines, last]):
+        if line.is_first and k:
+            yield r"  \hline"
+        cells = [] if line.node is None else [text(line.node)]
+        for m, row in zip(colours, line.groups, strict=True):
+            cells += [""] * len(entries.b[m]) if row is None else map(text, row)
+        end = "" if line is last else r" \\"
+        yield f"  {'& ' if line.node is None else ''}{' & '.join(cells)}{end}"
+    yield "\\end{array}"
 
 
 def _dense(entries: Entries) -> Iterator[str]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 
 from flint import arb
 
 from garkcli.exact.display import to_ball, to_text
-from garkcli.page.cells import cell_text, distinct_rows
+from garkcli.page.cells import cell_text, distinct_rows, lines_of
 from garkcli.page.paint import aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
@@ -48,51 +49,23 @@ def tableau_lines(tableau: Tableau, entries: Entries, width: int = 80) -> list[s
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     """C | A^{1,1} | A^{1,2} | …, one colour under the other, b and embedded weights below."""
-    shown = distinct_rows(tableau)
-    columns = [_node_column(entries, shown)]
-    for m in range(tableau.size):
-        column = _colour_column(tableau, entries, shown, m)
-        columns.append(column)
-    widths = [max(map(len, column)) for column in columns]
-    lines = [" | ".join(map(str.rjust, cells, widths)) for cells in zip(*columns, strict=True)]
-    rule = "-+-".join(["-" * width for width in widths])
-    out = [lines[0], rule]
-    start = 1
-    for l in shown:
-        end = start + len(entries.c[l])
-        out += [*lines[start:end], rule]
-        start = end
-    out += lines[start:]
-    return [line.rstrip() for line in out]
-
-
-def _node_column(entries: Entries, shown: list[int]) -> list[str]:
-    """The nodes of the stage spaces shown, between an empty head and an empty foot."""
-    cells = [""]
-    for l in shown:
-        cells += _texts(entries.c[l], entries.digits)
-    cells += [""] if entries.embedded is None else ["b", "embedded"]
-    return aligned([[text] for text in cells])
-
-
-def _colour_column(tableau: Tableau, entries: Entries, shown: list[int], m: int) -> list[str]:
-    """The name of a colour, its blocks under each other, and its weights."""
     digits = entries.digits
-    weights = _texts(entries.b[m], digits)
-    absent = ["."] * len(weights)
-    rows = [[""] * len(weights)]
-    for l in shown:
-        block = entries.A[l][m]
-        if block is None:
-            rows += [absent] * len(entries.c[l])
-        else:
-            rows += [_texts(row, digits) for row in block]
-    rows.append(weights)
-    if entries.embedded is not None:
-        rows.append(_texts(entries.embedded[m], digits))
-    lines = aligned(rows)
-    lines[0] = tableau.colours[m].name
-    return lines
+    lines = list(lines_of(entries, distinct_rows(tableau), range(tableau.size)))
+    heads = [cell_text(x.node, digits) for x in lines if x.node is not None]
+    heads += [""] if entries.embedded is None else ["b", "embedded"]
+    columns = [aligned([[text] for text in ("", *heads)])]
+    for m, colour in enumerate(tableau.colours):
+        blank = [""] * len(entries.b[m])
+        absent = ["."] * len(blank)
+        rows = (absent if (row := x.groups[m]) is None else _texts(row, digits) for x in lines)
+        columns.append([colour.name, *aligned([blank, *rows])[1:]])
+    widths = [max(map(len, column)) for column in columns]
+    first, *rest = (" | ".join(map(str.rjust, x, widths)) for x in zip(*columns, strict=True))
+    rule = "-+-".join("-" * width for width in widths)
+    shown = (
+        [rule, text] if line.is_first else [text] for line, text in zip(lines, rest, strict=True)
+    )
+    return [line.rstrip() for line in chain([first], *shown)]
 
 
 def _texts(cells: Sequence[Cell], digits: int) -> list[str]:

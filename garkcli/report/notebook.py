@@ -33,8 +33,7 @@ def method_latex(method: GarkMethod) -> str | None:
     """The tableau as arrays of LaTeX; None where it is too large to be looked at."""
     if _is_large(method):
         return None
-    entries = method.entries
-    return "\n".join(displays(method.tableau, entries, entries.embedded))
+    return "\n".join(displays(method.tableau, method.entries))
 
 
 def method_html(method: GarkMethod) -> str:

@@ -73,7 +73,7 @@ def test_latex_is_that_of_the_command() -> None:
     """The arrays of ``gark tableau --format latex``, without its comments."""
     for method in (EMBEDDED, TWO, TWO.pair):
         shown = entries(method.tableau).beside(method.further)
-        wanted = displays(method.tableau, shown, method.embedded)
+        wanted = displays(method.tableau, shown)
         assert method._repr_latex_() == "\n".join(wanted)
 
 

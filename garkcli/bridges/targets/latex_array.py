@@ -24,9 +24,8 @@ DECIMALS = Style(longest=1000, point=False)
 def write(payload: Payload) -> str:
     """The arrays, for amsmath."""
     lines = PERCENT.lines(head(payload, *_notes(payload)))
-    entries = replace(payload.entries, is_exact=True)
-    text = partial(_cell, payload)
-    lines += displays(payload.tableau, entries, payload.embedded, text)
+    entries = replace(payload.entries, is_exact=True, embedded=payload.embedded)
+    lines += displays(payload.tableau, entries, partial(_cell, payload))
     return "\n".join(lines) + "\n"
 
 

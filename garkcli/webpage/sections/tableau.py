@@ -11,13 +11,13 @@ from garkcli.check.analysis import is_pair_of_itself
 from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
-from garkcli.page.cells import remark
-from garkcli.page.tableau_latex import dense_polynomials, parts_of
+from garkcli.page.cells import Line, lines_of, parts_of, remark
+from garkcli.page.tableau_latex import dense_polynomials
 from garkcli.page.tableau_text import readable
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import pair
-from garkcli.tableau.pointwise import Cell, Entries, Row, entries
+from garkcli.tableau.pointwise import Cell, Entries, entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.webpage.mathml import Typeset, typeset, typeset_cell
 from garkcli.webpage.reported import Reported
@@ -46,19 +46,21 @@ class Block(Frozen):
     cells: list[Markup]
 
 
-class Line(Frozen):
+class Shown(Frozen):
     """A row of a tableau.
 
     Attributes:
         head: the node, or the name of the weights.
         blocks: from left to right.
-        group: where it is the first of its colours, their names, else empty.
+        is_first: whether it is the first of its colours, or of the weights.
+        group: the names of these colours; empty for weights.
         size: how many rows the group has.
         colour: the number of the first of these colours, from 1.
     """
 
     head: Markup
     blocks: list[Block]
+    is_first: bool
     group: str = ""
     size: int = 0
     colour: int = 0
@@ -171,19 +173,12 @@ def _part(
     tableau: Tableau, found: Entries, letter: str, stages: Sequence[int], colours: Sequence[int]
 ) -> Content:
     """The rows of some colours over the columns of others."""
-    names = [colour.name for colour in tableau.colours]
-    heads = [(m + 1, names[m], len(found.b[m])) for m in colours]
-    lines = [x for l in stages for x in _lines(tableau, found, l, colours)]
-    feet = [_foot(typeset("b"), found.b, found, colours)]
-    if found.embedded is not None:
-        label = typeset(r"\hat{b}")
-        feet.append(_foot(label, found.embedded, found, colours))
+    heads = [(m + 1, tableau.colours[m].name, len(found.b[m])) for m in colours]
     return {
         "letter": letter,
         "width": _width(sum(len(found.b[m]) for m in colours)),
         "heads": heads,
-        "lines": lines,
-        "feet": feet,
+        "lines": [_line(tableau, found, x, colours) for x in lines_of(found, stages, colours)],
         "has_colours": tableau.size > 1,
     }
 
@@ -195,30 +190,21 @@ def _width(columns: int) -> str:
     return "wide" if columns > _WIDE else ""
 
 
-def _lines(tableau: Tableau, found: Entries, l: int, colours: Sequence[int]) -> Iterator[Line]:
-    """The stages of a colour, and of those that share them."""
-    space = tableau.colours[l].space
-    together = [x.name for x in tableau.colours if x.space == space]
-    nodes = found.c[l]
-    for i, node in enumerate(nodes):
-        blocks = []
-        for m in colours:
-            block = found.A[l][m]
-            row: Sequence[Markup] = [Markup()] * len(found.b[m])
-            if block is not None:
-                row = _typeset(block[i], found)
-            blocks.append(Block(m + 1, l == m, list(row)))
-        head = typeset_cell(node, found.digits)
-        group = ", ".join(together) if i == 0 else ""
-        yield Line(head, blocks, group, len(nodes), l + 1)
-
-
-def _foot(label: Markup, weights: Sequence[Row], found: Entries, colours: Sequence[int]) -> Line:
-    return Line(label, [Block(m + 1, True, _typeset(weights[m], found)) for m in colours])
-
-
-def _typeset(row: Row, found: Entries) -> list[Markup]:
-    return [typeset_cell(cell, found.digits) for cell in row]
+def _line(tableau: Tableau, found: Entries, line: Line, colours: Sequence[int]) -> Shown:
+    """A stage, whose group are the colours that share it, or weights."""
+    blocks = []
+    for m, row in zip(colours, line.groups, strict=True):
+        cells = [Markup()] * len(found.b[m])
+        if row is not None:
+            cells = [typeset_cell(cell, found.digits) for cell in row]
+        blocks.append(Block(m + 1, line.colour == m, cells))
+    if line.colour is None or line.node is None:
+        return Shown(typeset(r"\hat{b}" if line.place else "b"), blocks, line.is_first)
+    space = tableau.colours[line.colour].space
+    together = ", ".join(x.name for x in tableau.colours if x.space == space)
+    node = typeset_cell(line.node, found.digits)
+    size = len(found.c[line.colour])
+    return Shown(node, blocks, line.is_first, together, size, line.colour + 1)
 
 
 SECTION = Section("tableau", "Tableau", _content)
