@@ -8,7 +8,7 @@ the format.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
 
@@ -24,15 +24,13 @@ from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice, order_answer
 from garkcli.tell.parts import part, parts, rows_of, told
 from garkcli.tell.report import Report
 from garkcli.trees.notation import format_tree
 from garkcli.version import __version__
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 DIGITS_OF_ROOT = 100

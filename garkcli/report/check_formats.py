@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
-if TYPE_CHECKING:
-    from garkcli.check.outcome import Outcome
-    from garkcli.page.paint import Paint
+from garkcli.check.outcome import Outcome
+from garkcli.page.paint import Paint
 
 Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None, int], str]"
 

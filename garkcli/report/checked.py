@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from garkcli.check.outcome import Outcome
 from garkcli.report.check import CHECKED, SUMMARY, UNREADABLE
 from garkcli.tell.facts import Row, Section
 from garkcli.tell.parts import part
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.check.outcome import Outcome
 
 
 def _signs(outcome: Outcome) -> dict[str, Any]:

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from garkcli.check.true_claims import TrueClaims
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
 from garkcli.tell.parts import parts, rows_of
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 DATA = Level.DATA
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from string import ascii_lowercase, ascii_uppercase
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from flint import fmpq
 
@@ -38,13 +38,11 @@ from garkcli.report.convergence import REPORT as OF_ONE
 from garkcli.report.costs import Tested, at_equal_errors, curve
 from garkcli.report.failure import FAULT
 from garkcli.report.problem import WORDS
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Choice, Level, Row, Section, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
 from garkcli.tell.parts import part, parts, picture, rows_of, shown, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 _LONGEST = 60  # characters of a Hamiltonian that are still shown

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from flint import arb
 
@@ -19,6 +19,7 @@ from garkcli.report.costs import curve
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED
 from garkcli.tableau.garkmethod import derivation_of
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (
     Answer,
     Choice,
@@ -34,9 +35,6 @@ from garkcli.tell.facts import (
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import part, picture, rows_of, table, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_STEPS = 10

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Step, Whose
@@ -24,13 +24,11 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
 from garkcli.report.design_values import conditions, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
 from garkcli.tell.parts import part, parts, rows_of, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 Rows = list[tuple[str, str]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from flint import arb
 
@@ -19,13 +19,11 @@ from garkcli.reason import Reason
 from garkcli.report.check import verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell import kinds
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
 from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.parts import told as told_kind
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 FORMS = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isfinite, isnan
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.frozen import Frozen
@@ -20,13 +20,11 @@ from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED, WORDS
 from garkcli.tableau.garkmethod import derivation_of, word_for
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
 from garkcli.tell.parts import part, parts, picture, rows_of, table, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_QUANTITIES = 10

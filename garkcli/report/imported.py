@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from garkcli.bridges.collecting import Result
 from garkcli.errors import counted
 from garkcli.frozen import replace
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
 from garkcli.tell.parts import parts, picture, shown
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
 ORDER = replace(COUNT, absent="no method")

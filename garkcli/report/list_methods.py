@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -11,13 +11,11 @@ from garkcli.exact.expression import read_decimal
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import counted
 from garkcli.properties.registry import every_property
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import parts, shown, told
 from garkcli.tell.report import ListReport, Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 Entry: TypeAlias = dict[str, Any]

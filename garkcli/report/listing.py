@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from garkcli.bridges.registry import Bridge
 from garkcli.catalogue import method_names
@@ -13,14 +13,12 @@ from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
 from garkcli.page.paint import counted
 from garkcli.problems.builtin import PROBLEMS
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
 from garkcli.tell.parts import SAID, parts, shown, table, told
 from garkcli.tell.report import ListReport, Report
 from garkcli.transfer import SUMMARIES
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
 

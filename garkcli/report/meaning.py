@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.frozen import replace
 from garkcli.glossary.term import TOPICS, terms_of
 from garkcli.page.paint import folded, indented
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section, optional
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 
 class Told(NamedTuple):

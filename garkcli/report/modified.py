@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.backward.summary import BackwardAnalysis
@@ -13,6 +13,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.paint import counted, numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import WORDS, describe
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Section, Status, maybe, via
 from garkcli.tell.kinds import (
     COUNT,
@@ -29,9 +30,6 @@ from garkcli.tell.kinds import (
 from garkcli.tell.parts import part, parts, rows_of, table, told
 from garkcli.tell.report import Report
 from garkcli.trees.tree import Tree
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_TERMS = 10

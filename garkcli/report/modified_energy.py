@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import ceil
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from garkcli.backward.energy import ModifiedEnergy, ModifiedRun, Verdict
 from garkcli.convergence.result import Row as Step
@@ -15,13 +15,11 @@ from garkcli.report.convergence import STEP_SIZE
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import WORDS, describe, driving
 from garkcli.tableau.garkmethod import derivation_of
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
 from garkcli.tell.parts import parts, rows_of, shown, table, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 12

@@ -6,7 +6,7 @@ import io
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
@@ -15,14 +15,12 @@ from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
 from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
 from garkcli.sweep.row import Row as Judged
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
 from garkcli.tell.parts import table, told
 from garkcli.tell.report import Report
 from garkcli.upward import Shown
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}

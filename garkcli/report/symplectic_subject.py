@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
 from garkcli.frozen import Frozen
 from garkcli.page.paint import counted
-from garkcli.tableau.meant import printed
+from garkcli.tableau.meant import AnyTableau, printed
+from garkcli.tableau.tableau import Tableau
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import COUNT, POSITION, TEXTS, choice
 from garkcli.trees.count import Admissible, counts_upto
@@ -23,10 +23,6 @@ from garkcli.trees.symplectic import (
     independent_classes,
     structure_of,
 )
-
-if TYPE_CHECKING:
-    from garkcli.tableau.meant import AnyTableau
-    from garkcli.tableau.tableau import Tableau
 
 _LETTERS = {"q": "V", "p": "F", "y": "f"}
 _PROBLEMS = {
