@@ -53,7 +53,7 @@ NAMES = {
         "plots.calls": "plot",
         "bridges.calls": "export",
         "report.calls": "cite names",
-        "webpage.calls": "report_page",
+        "webpage.page": "report_page",
         "api.calls": "with_claims",
         "methodfile.file_keys": "method_file_schema",
         "methodfile.problem_keys": "problem_file_schema",

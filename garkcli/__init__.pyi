@@ -80,7 +80,7 @@ from garkcli.tableau.tableau import Tableau as Tableau
 from garkcli.trees.notation import parse_tree as parse_tree
 from garkcli.trees.tree import Tree as Tree
 from garkcli.version import __version__ as __version__
-from garkcli.webpage.calls import report_page as report_page
+from garkcli.webpage.page import report_page as report_page
 
 NAMES: dict[str, dict[str, str]]
 HOMES: dict[str, str]

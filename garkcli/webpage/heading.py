@@ -49,13 +49,9 @@ def heading(method: Reported) -> Heading:
         outcome.file,
         words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
         Markup(_verdict(outcome)),
-        _mark(outcome),
+        MARKS[outcome.exit_code],
         method.description,
     )
-
-
-def _mark(outcome: Outcome) -> str:
-    return MARKS[outcome.exit_code]
 
 
 def _verdict(outcome: Outcome) -> str:
@@ -92,7 +88,7 @@ def claims_text(outcome: Outcome) -> str:
 
 
 COLUMNS = {
-    "claims": "",
+    "claims": "claims_in_brief",
     "order": "order",
     "how": "",
     "embedded": "embedded_order",
@@ -110,25 +106,15 @@ def comparison_row(method: Reported) -> dict[str, Any]:
     """A method among others: its numbers, as ``gark check`` has them."""
     outcome, tableau = method.outcome, method.tableau
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")
-    cells["claims"] = _claims(outcome)
+    d = REPORT.dialect(outcome, "text")
+    facts = REPORT.form(outcome).named(outcome, COLUMNS.values())
+    for column, key in COLUMNS.items():
+        if key in facts and facts[key].value is not None:
+            cells[column] = cell(facts[key], d)
     if tableau is not None:
-        d = REPORT.dialect(outcome, "text")
-        facts = REPORT.form(outcome).named(outcome, COLUMNS.values())
-        for column, key in COLUMNS.items():
-            if key in facts and facts[key].value is not None:
-                cells[column] = cell(facts[key], d)
         cells["how"] = how(facts["order"])
         cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
     if outcome.analysis is not None:
         cells["symmetric"] = str(verdict_words(outcome.analysis.subject.verdict("symmetric")))
-    mark = "none" if outcome.makes_no_claim else _mark(outcome)
+    mark = "none" if outcome.makes_no_claim else MARKS[outcome.exit_code]
     return {"title": outcome.name, "mark": mark, "cells": cells}
-
-
-def _claims(outcome: Outcome) -> str:
-    if not outcome.is_read:
-        return "cannot be read"
-    if not outcome.claims:
-        return "none"
-    failed = len(outcome.failed_claims)
-    return f"{failed} of {len(outcome.claims)} fail" if failed else "all hold"

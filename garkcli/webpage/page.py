@@ -6,24 +6,57 @@ from base64 import b64encode
 from collections.abc import Iterator, Sequence
 from functools import cache
 from hashlib import sha256
+from importlib import import_module
 from importlib.resources import files
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from garkcli.api.anymethod import AnyMethod
+from garkcli.api.numbers import Whole, whole
 from garkcli.doing import doing
-from garkcli.errors import counted, printable
+from garkcli.errors import MethodError, counted, printable
 from garkcli.frozen import replace
 from garkcli.plots.svg import STYLE
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
-from garkcli.webpage.registry import SECTIONS
-from garkcli.webpage.reported import MOST_CONDITIONS, Reported
+from garkcli.webpage.reported import MOST_CONDITIONS, Reported, reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.sections.pictures import of_several
 from garkcli.webpage.tree_picture import dots
 
 MOST_ROWS = 2000
 """Conditions of all methods of a page together: about 3 MB."""
+
+SECTIONS: tuple[Section, ...] = tuple(
+    import_module(f"garkcli.webpage.sections.{name}").SECTION
+    for name in (
+        *("faults", "tableau", "orders", "claims", "simplifying", "properties", "stability"),
+        *("reference", "pictures"),
+        "conditions",  # the longest, and across on paper: pages of its own
+    )
+)
+"""The sections of the page, in their order."""
+
+
+def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool = True) -> str:
+    """All that is found of methods as one HTML page, which needs nothing else: ``gark report``.
+
+    Args:
+        methods: names, paths, or methods; several are compared in a table. The faults of a file
+            that cannot be read are part of the page.
+        order: up to which order conditions are listed; None for the first order that fails.
+        pictures: whether stability, errors and energy are drawn.
+
+    Raises:
+        MethodError: there is no method, or something that is none.
+
+    >>> report_page("heun", pictures=False).splitlines()[0]
+    '<!doctype html>'
+    """
+    if not methods:
+        raise MethodError("a page of no method", "give at least one", code="arrays")
+    listed = None if order is None else whole(order, "order", 1)
+    return render([reported(x, listed, has_pictures=pictures) for x in methods])
 
 
 def render(methods: Sequence[Reported]) -> str:

@@ -40,7 +40,7 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/constructions/schemes.py", "SCHEMES"),
         ("garkcli/constructions/schemes.py", "SPLITTINGS"),
         ("garkcli/cli/table.py", "COMMANDS"),
-        ("garkcli/webpage/registry.py", "SECTIONS"),
+        ("garkcli/webpage/page.py", "SECTIONS"),
         ("garkcli/webpage/sections/orders.py", "SECTION"),
         ("garkcli/glossary/terms/orders.py", "TERMS"),
         ("garkcli/bridges/targets/mfem.py", "BRIDGES"),
