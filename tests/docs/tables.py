@@ -8,7 +8,7 @@ from typing import Any
 
 from garkcli.glossary import read
 from garkcli.glossary import term as glossary
-from garkcli.glossary.faults import TOPICS, FaultKind, FindingKind, faults_of, findings_of
+from garkcli.glossary.faults import TOPICS, faults_of, findings_of
 from garkcli.glossary.fields import field_text
 from garkcli.glossary.key import Key, keys_of
 from garkcli.glossary.term import PAPER, Term
@@ -18,16 +18,12 @@ from garkcli.report.schemas import REPORTS, report_schema
 
 
 def codes_page() -> str:
-    """Every code of an error in Markdown, a table a topic: what it means, and the cure."""
+    """Every code of an error in Markdown, a table per topic; each message has its own cure."""
     parts = []
     for topic, title in TOPICS.items():
-        parts.append(f"### {title}\n\n{_codes_table(faults_of(topic))}")
+        rows = [(f"`{x.code}`", cell(_phrase(x.text, ";:"))) for x in faults_of(topic)]
+        parts.append(f"### {title}\n\n{table(('code', 'what it means'), rows)}")
     return "\n".join(parts)
-
-
-def _codes_table(kinds: Iterable[FaultKind | FindingKind]) -> str:
-    rows = [(f"`{x.code}`", cell(_phrase(x.text, ";:")), cell(_phrase(x.cure))) for x in kinds]
-    return table(("code", "what it means", "what to do"), rows)
 
 
 _WORKS = {
@@ -44,10 +40,14 @@ _WORKS = {
 
 
 def terms_tables() -> str:
-    """The terms in Markdown, a table a topic: names, what it is, where it comes from."""
+    """The terms in Markdown, a table per topic: names, what it is, where it comes from. The page of
+    properties has those that files may claim.
+    """
+    elsewhere = {claim.key for claim in every_definition()} - {"order", "symplectic"}
     parts = []
     for topic, title in glossary.TOPICS.items():
-        rows = [_term_row(x) for x in glossary.terms_of(topic)]
+        terms = glossary.terms_of(topic)
+        rows = [_term_row(x) for x in terms if x.name.lower().replace(" ", "-") not in elsewhere]
         parts.append(f"## {title}\n\n{table(('term', 'what it is', 'source'), rows)}")
     return "\n".join(parts)
 
@@ -71,7 +71,11 @@ def _short_source(source: str) -> str:
     """
     for work, short in _WORKS.items():
         source = re.sub(work, short, source)
-    return source.partition("; ")[0]
+    source = source.partition("; ")[0]
+    if further := re.fullmatch(r"(.+?), [^.]{20,}?(?:, .*)? \((\d{4})\)", source):
+        names = re.findall(r"(?:[\w-]+\. ?)+([^,]+)", further[1])
+        return f"{' & '.join(names) if len(names) < 3 else f'{names[0]} et al.'} {further[2]}"
+    return source
 
 
 def _first_sentence(text: str) -> str:
@@ -129,8 +133,10 @@ _ALIKE = (
 
 
 def findings_table(command: str) -> str:
-    """The findings of a command as a table in Markdown."""
-    return _codes_table(findings_of(command).values())
+    """The findings of a command as a table in Markdown: what each means, and what to do."""
+    found = findings_of(command).values()
+    rows = [(f"`{x.code}`", cell(_phrase(x.text, ";:")), cell(_phrase(x.cure))) for x in found]
+    return table(("code", "what it means", "what to do"), rows)
 
 
 def fields_page() -> str:
