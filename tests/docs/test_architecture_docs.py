@@ -21,7 +21,7 @@ def part(room: str) -> str:
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_every_file_that_is_named_exists(room: str) -> None:
-    """A file without a phrase is what its name says, and is left out."""
+    """The map has the files to begin with."""
     named = set(re.findall(r"\b(\w+\.py)\b", part(room)))
     exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")}
     assert named <= exist
