@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.files import is_inside
+from garkcli.files import is_inside, read_bytes
 from garkcli.frozen import Frozen, field
 from garkcli.page.plain import printable
 
@@ -77,8 +77,7 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
     import tomllib
 
     try:
-        with open(path, "rb") as stream:
-            data = stream.read(MOST_BYTES + 1)
+        data = read_bytes(path, MOST_BYTES)
         if name == SHARED and b"gark" not in data:
             return None
         if len(data) > MOST_BYTES:

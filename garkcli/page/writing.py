@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from garkcli.errors import UsageProblem
-from garkcli.files import is_input, own_stream
+from garkcli.files import is_input, note_input, own_stream
 
 _MOST_LINKS = 40
 """As many links in a row as Linux follows."""
@@ -52,6 +52,8 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
             _replace(target, _encoded(pieces), stat.S_IMODE(before.st_mode))
         else:
             _write_through(target, pieces, stat.S_ISREG(before.st_mode))
+        if not is_renewed:
+            note_input(str(target))  # another report of the command has no place there either
     return stream is None and (before is None or stat.S_ISREG(before.st_mode))
 
 
@@ -97,10 +99,10 @@ def _told(path: str) -> Iterator[None]:
 
 
 def _refuse_input(path: str, status: os.stat_result) -> None:
-    """Never write over what was read, whatever it is called here and there."""
+    """Never write over what was read or has just been written, whatever it is called."""
     if is_input(status):
         raise UsageProblem(
-            f"cannot write {path}: the command reads it",
+            f"cannot write {path}: the command reads it, or has just written it",
             "choose another place",
             code="cannot-write",
         )

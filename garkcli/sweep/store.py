@@ -13,6 +13,7 @@ from contextlib import suppress
 from types import TracebackType
 
 from garkcli.errors import UsageProblem
+from garkcli.files import note_input
 from garkcli.sweep.row import Row, is_row
 
 _BLOCK = 1 << 16
@@ -43,6 +44,7 @@ class RowStore:
             raise UsageProblem(
                 f"{path} cannot be written: {why}", "choose another --rows", code="cannot-write"
             ) from None
+        note_input(path)
         try:
             if self._is_file():
                 self._lock()

@@ -181,6 +181,24 @@ def test_standard_input_that_is_a_file(folder: Path) -> None:
     assert (folder / "m.gark.yaml").read_text() == METHOD
 
 
+def test_the_settings_of_a_project_are_an_input(folder: Path) -> None:
+    """``gark check -o .gark.toml`` in a project whose settings are read from there."""
+    (folder / ".gark.toml").write_text("require-claims = false\n", encoding="utf-8")
+    for command in ("check m.gark.yaml -o .gark.toml", "check . -o ./.gark.toml"):
+        refused(gark(*command.split(), cwd=folder), "cannot write", "the command reads it")
+    assert (folder / ".gark.toml").read_text() == "require-claims = false\n"
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["sweep spec.yaml --rows new -o new", "design family.yaml --order 2 --emit new -o ./new"],
+)
+def test_what_was_just_written_is_not_written_over(command: str, folder: Path) -> None:
+    """The rows of a sweep and its report, the report of a design and its method: one of them."""
+    refused(gark(*command.split(), cwd=folder), "cannot write", "has just written it")
+    assert (folder / "new").read_text()
+
+
 def test_what_is_meant_to_be_written(folder: Path) -> None:
     """Claims go into the file; a report goes where another one was; a file is forgotten when the
     command is over.
