@@ -23,6 +23,7 @@ from garkcli.trees.drawing import draw_text, text_width
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
+    from garkcli.check.every_family import EveryFamily
     from garkcli.order.dense import DenseOrder
     from garkcli.tell.dialect import Plain
 
@@ -69,7 +70,17 @@ def title(outcome: Any, d: Plain) -> str:
     name = d.prose(outcome.file or outcome.name)
     if outcome.every is None:
         return name
-    return f"{name}, every value of {d.prose(_some(outcome.every.parameters))}"
+    return f"{name}, {every_value(outcome.every.family, d)}"
+
+
+def every_value(family: EveryFamily, d: Plain) -> str:
+    """Which values are meant by every value: those where there is a method, and which the file
+    admits.
+    """
+    from garkcli.report.design_values import conditions, where  # of families alone
+
+    of = d.prose(_some(family.family.parameters))
+    return f"every value of {of}{where(conditions(family.family, family.poles), d)}"
 
 
 def _some(names: Sequence[str], most: int = 8) -> str:

@@ -22,7 +22,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
-from garkcli.report.design_values import conditions, zeros
+from garkcli.report.design_values import conditions, where, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
@@ -74,7 +74,7 @@ class Order(NamedTuple):
     @property
     def conditions(self) -> list[Reason]:
         """What else is true of the values."""
-        return conditions(self.design.family, self.step)
+        return conditions(self.design.family, self.step.nonzero)
 
     @property
     def solutions(self) -> list[Solutions]:
@@ -124,15 +124,6 @@ def joined(values: dict[str, RealRoot], d: Plain) -> str:
     if d.is_brief and sum(map(len, texts)) > ROOM:
         texts = [f"{d.expression(name)} = {d.root(x)}" for name, x in values.items()]
     return ("; " if any(", " in x for x in texts) else ", ").join(texts)
-
-
-def _where(found: Order, d: Plain) -> str:
-    """What else is true of values, in words; nothing where nothing is."""
-    texts = [d.reason(x) for x in found.conditions]
-    if not texts:
-        return ""
-    *others, last = texts
-    return f" where {', '.join(others)} and {last}" if others else f" where {last}"
 
 
 def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex") -> str:
@@ -210,13 +201,13 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
         case "undecided":
             yield from map(d.prose, _undecided(found))
         case "every-value":
-            yield f"every value{_where(found, d)}"
+            yield f"every value{where(found.conditions, d)}"
             yield from _real(found, d)
         case kind:
             assert step.ideal is not None
             what = counted(sum(x.solution.degree for x in step.found), "solution")
             if kind == "family":
-                what = f"a family of dimension {step.ideal.dimension}{_where(found, d)}"
+                what = f"a family of dimension {step.ideal.dimension}{where(found.conditions, d)}"
             which = f"real ones by {CRITERION}" if step.is_of_real_values else "real and complex"
             yield f"{what}: {_polynomials(found.zeros, d, which)}" if is_whole else what
             if kind == "family":

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
-from garkcli.design.design import Step
-from garkcli.design.ideal import integral_scale
+from garkcli.design.ideal import factors, integral_scale
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.reason import Reason
 from garkcli.tableau.family import Family, Radical
 from garkcli.tell.kinds import EXPRESSION
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
 
 AnyPolynomial: TypeAlias = "fmpq_mpoly | fmpz_mpoly"
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -28,13 +30,18 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
     return [_text(family, p) for p in polynomials if _terms(p) not in known]
 
 
-def conditions(family: Family, step: Step) -> list[Reason]:
-    """What else is true of the values: where there is a method, and which the file admits."""
+def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
+    """What else is true of the values: where there is a method, and which the file admits.
+
+    Args:
+        family: of methods.
+        nonzero: where one of these is zero there is none.
+    """
 
     def holds(p: fmpq_mpoly, relation: str) -> Reason:
         return Reason(f"{{}} {relation} 0", EXPRESSION(_text(family, p)))
 
-    found = [holds(p, "≠") for p in step.nonzero if _may_vanish(family, p)]
+    found = [holds(p, "≠") for p in factors(nonzero) if _may_vanish(family, p)]
     ends, others = _bounds(family)
     for name, bounds in ends.items():
         least, greatest = (None if x is None else EXPRESSION(str(x)) for x in bounds)
@@ -52,6 +59,14 @@ def conditions(family: Family, step: Step) -> list[Reason]:
     for relation, polynomials in ((">", family.positive), ("≥", others)):
         found += [holds(p, relation) for p in polynomials if not p.is_constant()]
     return list(dict.fromkeys(found))
+
+
+def where(texts: Sequence[Reason], d: Plain) -> str:
+    """What else is true of values, in words; nothing where nothing is."""
+    if not texts:
+        return ""
+    *others, last = map(d.reason, texts)
+    return f" where {', '.join(others)} and {last}" if others else f" where {last}"
 
 
 Ends: TypeAlias = "tuple[fmpq | None, fmpq | None]"

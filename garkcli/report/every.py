@@ -20,6 +20,7 @@ from garkcli.page.exactly import ALGEBRAIC, root_data, sum_latex
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Formula, Reason, joined
 from garkcli.report import check as c
+from garkcli.report.design_values import conditions
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional
 from garkcli.tell.parts import part, parts, rows_of
@@ -172,10 +173,12 @@ def with_time(key: str) -> Row:
     return Row(key, TOLD_ORDER, lambda e: None if e.is_consistent else getattr(e, key))
 
 
+RESTRICTIONS = Kind(S.array(S.TEXT), lambda f, _: list(map(str, conditions(f.family, f.poles))))
 TOLD_ORDER = replace(EVERY_ORDER, is_data=False)
 FAMILY = [
     Row("every_value", kinds.TRUE, lambda _: True, DATA),
     Row("unknowns", kinds.TEXTS, lambda e: list(e.parameters), DATA),
+    Row("restrictions", RESTRICTIONS, lambda e: e.family, DATA),
     Row("colours", kinds.TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
     Row("order", EVERY_ORDER, level=HEADLINE),
     of_several("conjugate_order"),
@@ -322,13 +325,12 @@ STABLE = Section(
 EVERY_STABILITY = Section(
     *kinds.FILE_AND_NAME,
     Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
+    Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
     Row("functions", parts(FUNCTION), level=DATA),
     Row("stability", part(STABLE), lambda x: x, DATA),
     Row("functions_in_words", rows_of(_function_rows), "functions"),
     Row("stability_in_words", rows_of(_stability_rows), lambda x: x),
-    title=lambda x, d: (
-        f"{d.prose(x.file)}: every value of {d.prose(', '.join(x.family.family.parameters))}"
-    ),
+    title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )
 STABILITY: Report[EveryStability] = Report(
     "gark/stability-every/1",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 
 import jsonschema  # type: ignore[import-untyped]
@@ -21,6 +22,7 @@ from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
+from tests.cli.harness import gark
 
 SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 TAU = """parameters: {tau: free}
@@ -227,3 +229,19 @@ def test_patterns_of_several_parameters_are_decided(tmp_path: object) -> None:
     assert every.verdict("explicit").is_everywhere
     assert ("c2", True) in every.verdict("reducible").elsewhere
     assert every.verdict("positive-weights").differs
+
+
+def test_every_value_is_one_where_there_is_a_method() -> None:
+    """A pole and the ends of a range are named with the answer, in text, LaTeX and JSON, of
+    ``gark check`` and ``gark stability``; a denominator without a real zero is none.
+    """
+    family = (
+        "parameters: {t: {free: true, range: [-1, 2]}}\n"
+        'A: [[0, 0], ["1/(2*t*(t**2 + 1)*(t - 3))", 0]]\n'
+        'b: ["1 - t", t]\n'
+    )
+    for command in ("check", "stability"):
+        assert "every value of t where t ≠ 0 and -1 ≤ t ≤ 2" in gark(command, "-", stdin=family).out
+        data = json.loads(gark(command, "-", "--format", "json", stdin=family).out)
+        (found,) = data.get("files", [data])
+        assert found["restrictions"] == ["t ≠ 0", "-1 ≤ t ≤ 2"]
