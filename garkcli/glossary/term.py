@@ -1,21 +1,17 @@
-"""What a term of the field is, and the one list of terms, made of the files in ``terms``."""
+"""What a term of the field is, and the one list of terms, as data/terms-*.toml have it."""
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
-from importlib import import_module
 
 from garkcli.frozen import Frozen
+from garkcli.glossary import read
 
 PAPER = (
     "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
 )
-"""The paper; sources name its sections."""
-
-
-def paper(section: str) -> str:
-    """A section of the paper as a source."""
-    return f"{PAPER}, {section}"
+"""What sources call paper; they name its sections."""
 
 
 class Term(Frozen):
@@ -46,13 +42,30 @@ TOPICS = {
     "design": "Methods with unknowns",
     "reports": "What reports say",
 }
-"""The files of ``terms`` in the order of the documentation, with what they are about."""
+"""The files of terms in the order of the documentation, with what they are about."""
 
 
+@lru_cache(maxsize=len(TOPICS))
 def terms_of(topic: str) -> tuple[Term, ...]:
-    """The terms of a topic."""
-    terms: tuple[Term, ...] = import_module(f"garkcli.glossary.terms.{topic}").TERMS
-    return terms
+    """The terms of a topic; ``short`` in its file has short names of sources."""
+    entries = read(f"terms-{topic}")
+    short = {"paper": PAPER, **entries.pop("short", {})}
+
+    def full(source: str) -> str:
+        first, *rest = re.split("(?=[,;])", source, maxsplit=1)
+        return "".join([full(short[first]), *rest]) if first in short else source
+
+    return tuple(
+        Term(
+            name,
+            " ".join(entry["text"].split()),
+            entry.get("formula", ""),
+            full(entry.get("source", "")),
+            tuple(entry.get("labels", ())),
+            tuple(entry.get("see", ())),
+        )
+        for name, entry in entries.items()
+    )
 
 
 def plain(word: str) -> str:

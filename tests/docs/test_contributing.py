@@ -42,7 +42,6 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/cli/table.py", "COMMANDS"),
         ("garkcli/webpage/page.py", "SECTIONS"),
         ("garkcli/webpage/sections/orders.py", "SECTION"),
-        ("garkcli/glossary/terms/orders.py", "TERMS"),
         ("garkcli/bridges/targets/mfem.py", "BRIDGES"),
         ("garkcli/sources/languages/julia.py", "READER"),
     ):

@@ -1,1 +1,0 @@
-"""The terms, a file a topic; a file is found by its ``TERMS``."""
