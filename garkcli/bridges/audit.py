@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.elsewhere import declared_orders, order_of
@@ -14,9 +16,12 @@ from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.findings import repair_text, witness_text
+from garkcli.crew.hiring import hired
+from garkcli.crew.work import WorkerLost, in_order
 from garkcli.doing import counting, doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
+from garkcli.files import STDIN
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.rounded import find_order_within
@@ -109,18 +114,36 @@ class Audited(Frozen, eq=False):
         return f"<Audited {name} of {self.table.source}: {findings}>"
 
 
-def audited(paths: Iterable[str]) -> Iterator[Audited]:
+def audited(paths: Iterable[str], jobs: int = 1) -> Iterator[Audited]:
     """Every table of some sources, in order.
+
+    Args:
+        paths: of the sources.
+        jobs: how many processes read them; 0 for as many as there are processors.
 
     Raises:
         UsageProblem: a source cannot be read.
     """
     given = list(paths)
-    orders = declared_orders(given)
-    for path in counting("files", given, len(given)):
+    jobs = 1 if STDIN in given else min(jobs or os.cpu_count() or 1, len(given))
+    with hired(partial(_done, orders=declared_orders(given)), _lost, jobs) as workers:
+        for found in counting("files", in_order(workers, given), len(given)):
+            if isinstance(found, Exception):
+                raise found
+            yield from found
+
+
+def _done(path: str, orders: Mapping[str, int]) -> list[Audited] | Exception:
+    """The tables of one source, or what kept it from being read: both travel between processes."""
+    try:
         with doing(path):
-            found = _audited(path, orders)
-        yield from found
+            return _audited(path, orders)
+    except Exception as error:
+        return error
+
+
+def _lost(path: str, why: str) -> list[Audited] | Exception:
+    return WorkerLost(f"the audit of {path} was ended {why}", "use fewer --jobs")
 
 
 def _audited(path: str, orders: Mapping[str, int]) -> list[Audited]:

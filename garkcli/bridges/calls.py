@@ -79,11 +79,12 @@ def results_of(
     return collected(files, readers, is_recognising, left_out)
 
 
-def audit(paths: AnyPath | Iterable[AnyPath]) -> Iterator[Audited]:
+def audit(paths: AnyPath | Iterable[AnyPath], jobs: Whole = 1) -> Iterator[Audited]:
     """Every table of some sources with what is wrong with it: ``gark audit``.
 
     Args:
         paths: files and folders, or one of them.
+        jobs: how many processes read them; 0 for as many as there are processors.
 
     Raises:
         UsageProblem: a source cannot be read.
@@ -93,7 +94,7 @@ def audit(paths: AnyPath | Iterable[AnyPath]) -> Iterator[Audited]:
     """
     if isinstance(paths, (str, os.PathLike)):
         paths = [paths]
-    return audited(_files(paths))
+    return audited(_files(paths), whole(jobs, "jobs", 0))
 
 
 def _files(paths: Iterable[AnyPath]) -> Iterator[str]:

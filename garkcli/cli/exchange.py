@@ -150,7 +150,7 @@ def audit(given: Given, output: Output) -> int:
     from garkcli.report.audited import FORMATS as RENDERERS
 
     files = list(source_files(given.paths, output.note))
-    found = list(audited(files))
+    found = list(audited(files, given.jobs))
     if not found:
         message = "; ".join([_no_table(given.paths, len(files)), *list(unlike(files))[:1]])
         raise UsageProblem(message, "docs/import.md says what is read", code="cannot-import")

@@ -254,6 +254,8 @@ export --digits N 1..1000 = export.digits
     | The format of SOURCE; by default gark goes by its name or content.
 --recognise = import_methods.is_recognising
     | Replace decimals by exact numbers if the order does not fall.
+audit -j --jobs N 0..60 jobs = audit.jobs
+    | The number of processes; 0 is one per processor.
 audit --strict | Fail if gark could not read a possible table.
 
 report --order -n n 1..100 = report_page.order
@@ -346,7 +348,7 @@ exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
     only --output --help
 exchange: audit PATH... | the tables in a source tree: are their declared orders true?
     = audit
-    --strict
+    --strict --jobs
 checking: claims FILE... | what is true of a method, as claims for its file
     = claims_of with_claims
     --write --all --key

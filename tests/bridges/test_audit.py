@@ -10,6 +10,8 @@ from pathlib import Path
 import jsonschema
 import pytest
 
+from garkcli.bridges.audit import audited
+from garkcli.errors import UsageProblem
 from garkcli.report.schemas import report_schema
 from garkcli.sources import evaluate
 from tests.cli.harness import gark
@@ -355,3 +357,17 @@ def test_a_folder_without_tables(tmp_path: Path) -> None:
     run = gark("audit", str(tmp_path))
     assert run.code == 2
     assert "no table is found in" in run.err
+
+
+def test_processes_find_what_one_finds(tmp_path: Path) -> None:
+    """In the same order, whoever reads a source; what keeps one from being read is told."""
+    for name in ("kutta.csv", "ralston.c"):
+        (tmp_path / name).write_text((SOURCES / name).read_text("utf-8"), "utf-8")
+    files = [str(x) for x in sorted(tmp_path.iterdir())] * 2
+    alone, several = (
+        [(x.table, repr(x.order), x.findings) for x in audited(files, jobs)] for jobs in (1, 2)
+    )
+    assert alone == several
+    assert len(alone) > 2
+    with pytest.raises(UsageProblem, match="cannot be read"):
+        list(audited([*files, str(tmp_path / "none.py")], 2))
