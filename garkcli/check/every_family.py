@@ -178,8 +178,7 @@ def carried(
             continue
         low = None if low is None else low / slope
         high = None if high is None else high / slope
-        new = (low, high) if slope > 0 else (high, low)
-        found[other] = _common(other, found[other], new)
+        found[other] = _common(other, found[other], (low, high) if slope > 0 else (high, low))
     return found
 
 
@@ -522,8 +521,7 @@ class EveryFamily(Frozen):
             values[name] = value_of(value, self.ring, values)
         try:
             tableau = member(self.tableau, self.ring, values)  # type: ignore[arg-type]
-            followed = {name: values[name] for name in fixed}
-            ranges = carried(followed, self.family.ranges, left)
+            ranges = carried({name: values[name] for name in fixed}, self.family.ranges, left)
             nonzero = moved_nonzero(self.family, values)
         except (ZeroDivisionError, MethodError):
             return None

@@ -69,8 +69,7 @@ class EveryValue(Frozen):
     def __reduce__(self) -> tuple[object, ...]:
         # polynomials of python-flint do not go between processes; files do
         file = self.file
-        read = (file.text, file.source, dict(file.settings), self.limit)
-        return _again, read
+        return _again, (file.text, file.source, dict(file.settings), self.limit)
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -222,8 +221,7 @@ def check_every(
             message = f"{of_dense[0].key} is claimed, and {name} is free"
             cure = f"dense output is judged for values: --set {name}=1/2"
             return _refused(file, message, cure, "free-parameters")
-        reach = max(limit, highest_order(family.claims) + 1)
-        found = every_value(family, reach)
+        found = every_value(family, max(limit, highest_order(family.claims) + 1))
     except MethodFileError as error:
         return Outcome(file.source, file.source, faults=error.faults, text=file.text)
     except GarkError as error:

@@ -81,8 +81,7 @@ def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]
     colours = range(one.size)
     for l in colours:
         for m in colours:
-            place = BlockGap("A", l, m)
-            yield from compare.blocks(place, one.A[l][m], other.A[l][m])
+            yield from compare.blocks(BlockGap("A", l, m), one.A[l][m], other.A[l][m])
     for kind, first, second in (
         ("b", one.b, other.b),
         ("c", one.c, other.c),
@@ -110,8 +109,7 @@ class _Compare:
         for l in range(len(one or other or ())):
             first = None if one is None else (one[l],)
             second = None if other is None else (other[l],)
-            place = BlockGap(kind, l, power=power)
-            yield from self.blocks(place, first, second)
+            yield from self.blocks(BlockGap(kind, l, power=power), first, second)
 
     def blocks(self, place: BlockGap, one: Block, other: Block) -> Iterator[BlockGap]:
         """One block; nothing where it is the same in both."""
@@ -127,11 +125,9 @@ class _Compare:
             for j, (x, y) in enumerate(zip(first, second, strict=True)):
                 alike = self.likeness.cells(x, y)
                 if alike is not True:
-                    row = None if is_row else i
-                    gaps.append(EntryGap(row, j, x, y, alike is None))
+                    gaps.append(EntryGap(None if is_row else i, j, x, y, alike is None))
         if gaps:
-            count = sum(map(len, one))
-            yield _at(place, entries=count, gaps=tuple(gaps))
+            yield _at(place, entries=sum(map(len, one)), gaps=tuple(gaps))
 
 
 def _at(

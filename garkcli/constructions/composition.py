@@ -201,8 +201,7 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
     drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
     kick = separable_prk((((),), nothing, (ZERO,)), ((), (ONE,), ()))
     parts = [drift, kick]
-    substeps = [Substep(parts[l], g) for l, g in flows if g]
-    made = composed(substeps)
+    made = composed([Substep(parts[l], g) for l, g in flows if g])
     return with_linear(made, ["q"]) if is_nystrom else made
 
 

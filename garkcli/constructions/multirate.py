@@ -114,8 +114,7 @@ def mis_coupling(base: Method) -> Coupling:
     for before, row in pairwise(rows):
         row_of_differences = [x - y for x, y in zip(row, before, strict=True)]
         differences.append((*row_of_differences, ZERO))
-    nodes = (*base.c, ONE)
-    return Coupling(nodes, ((tuple(differences),),))
+    return Coupling((*base.c, ONE), ((tuple(differences),),))
 
 
 def mri(coupling: Coupling, fast: Method, steps: int) -> Tableau:
@@ -210,8 +209,7 @@ class _Infinitesimal:
         for colour, powers in enumerate(self.coupling.matrices, start=SLOW):
             for j in range(len(self.coupling.nodes)):
                 row = tuple(matrix[i][j] for matrix in powers)
-                total = sum(antiderivative(row), ZERO)
-                moved = summed(moved, {(colour, j): total})
+                moved = summed(moved, {(colour, j): sum(antiderivative(row), ZERO)})
         return moved
 
 

@@ -60,8 +60,7 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
     """
     counts = {}
     for name in GENERIC:
-        problems = in_common(name, tableaux, seed)
-        counts[name] = sum(map(_fits, tableaux, problems))
+        counts[name] = sum(map(_fits, tableaux, in_common(name, tableaux, seed)))
         if counts[name] == len(tableaux):
             return name
     # the first of those that are equal
@@ -160,8 +159,7 @@ def converge(
     short_time, short_order = None, None
     is_off = observed is not None and abs(observed - solver.visible.order) > CLOSE
     if is_exact and is_off:
-        longest = min(t_end, usual_time(problem))
-        short_time, short_order = _over_short_times(solver, longest)
+        short_time, short_order = _over_short_times(solver, min(t_end, usual_time(problem)))
     return Convergence(
         solver.problem,
         t_end,
@@ -264,8 +262,7 @@ def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
     """The errors of some step sizes; of one alone where it has none."""
     rows: list[Row] = []
     for h in sorted(set(steps), reverse=True):
-        before = rows[-1] if rows else None
-        row = solver.row(h, before)
+        row = solver.row(h, rows[-1] if rows else None)
         if row.error.is_zero():
             return [row]
         rows.append(row)

@@ -188,8 +188,7 @@ def linear_solver(
     if tolerance is not None:
         is_sharp = fmpq(1, factorial(order + 1)) > tolerance
         spoilt = sum(islice(deviations(step), met), arb(0))
-    visible = Visible(order, is_sharp, LINEAR_ONLY)
-    return LinearSolver(tableau, step, t_end, visible, spoilt)
+    return LinearSolver(tableau, step, t_end, Visible(order, is_sharp, LINEAR_ONLY), spoilt)
 
 
 def _solution(omega: fmpq, t: fmpq) -> tuple[arb, arb]:

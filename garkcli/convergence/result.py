@@ -271,5 +271,4 @@ def observed_order(rows: Sequence[Row]) -> float | None:
             log_h = arb(row.h).log()
             equations.append([arb(1), log_h, ratio, ratio * ratio][: len(last)])
         logarithms = [[row.error.mid().log()] for row in last]
-        unknowns = arb_mat(equations).solve(arb_mat(logarithms))
-        return float(unknowns[1, 0])
+        return float(arb_mat(equations).solve(arb_mat(logarithms))[1, 0])

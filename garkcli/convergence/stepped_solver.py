@@ -107,8 +107,7 @@ class SteppedSolver(Mutable):
 
     def size(self) -> arb:
         """The sum of the sizes of all numbers at the start and at the end."""
-        end = self.reference.to(FLOAT_DIGITS + _SPARE)
-        return magnitude(end, self.problem)
+        return magnitude(self.reference.to(FLOAT_DIGITS + _SPARE), self.problem)
 
     def rests(self) -> bool:
         """Whether no number at the end differs from that at the start."""
@@ -149,8 +148,7 @@ class SteppedSolver(Mutable):
         """The row with the cost of its steps in floats, where these reach its error to a tenth."""
         steps = whole_steps(self.t_end, row.h)
         y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
-        difference = abs(self._distance(y, FLOAT_DIGITS) - row.error)
-        if difference < REACHED * row.error:
+        if abs(self._distance(y, FLOAT_DIGITS) - row.error) < REACHED * row.error:
             return replace(row, cost=cost)
         return row
 

@@ -92,8 +92,7 @@ def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
     for k, space in enumerate(sheet.tableau.spaces):
         rows = _own_rows(sheet, k)
         for i in range(space.stages):
-            own = [ranks[row[i]] for row in rows]
-            signatures[k, i] = (k, *own)
+            signatures[k, i] = (k, *[ranks[row[i]] for row in rows])
     return signatures
 
 
@@ -202,8 +201,7 @@ def _systems(tableau: Tableau, places: Classes) -> list[_System]:
     number: dict[Stage, int] = {}
     for k, stages in enumerate(components(needs)):
         stages.sort(key=lambda stage: (places[stage], stage))
-        first = places[stages[0]]
-        systems.append(_System(stages, (first, k)))
+        systems.append(_System(stages, (places[stages[0]], k)))
         for stage in stages:
             number[stage] = k
     for stage, needed in needs.items():

@@ -149,8 +149,7 @@ class Crew(Generic[Item, Outcome]):
         items = list(worker.items)
         self.waiting.extendleft(reversed(items[1:]))
         if items:
-            why = _cause(worker.process.exitcode)
-            yield items[0], self.crashed(self.items[items[0]], why)
+            yield items[0], self.crashed(self.items[items[0]], _cause(worker.process.exitcode))
         self._hire()
 
 

@@ -103,8 +103,7 @@ class NumberField:
         """The products with one factor more; the indices of a word do not descend."""
         extended: dict[Word, fmpq_poly] = {}
         for word, product in level.items():
-            last = word[-1] if word else 0
-            for index in range(last, len(self.radicals)):
+            for index in range(word[-1] if word else 0, len(self.radicals)):
                 _, radical = self.radicals[index]
                 extended[*word, index] = product * radical % self.modulus
         return extended

@@ -271,8 +271,7 @@ def _bounded(number: Value, at: Expression) -> Value:
         bound = f"above 2^{FLOAT_BITS}"
         if size < 1:
             bound = f"below 2^-{MAX_BITS}"
-        cure = "choose other units"
-        raise LimitExceeded(f"a number {bound}", cure, at.start, at.end)
+        raise LimitExceeded(f"a number {bound}", "choose other units", at.start, at.end)
     return number
 
 

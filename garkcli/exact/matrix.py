@@ -337,10 +337,7 @@ def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]
     by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
     reduced = []
     for rows in zip(*by_power, strict=True):
-        row = []
-        for entry in zip(*rows, strict=True):
-            poly = fmpq_poly(list(entry))
-            row.append(field.element(poly))
+        row = [field.element(fmpq_poly(list(entry))) for entry in zip(*rows, strict=True)]
         reduced.append(tuple(row))
     return reduced
 

@@ -157,8 +157,7 @@ def _interpolated(
     for point, difference in table.items():
         if not difference:
             continue
-        factors = [enumerate(basis[i].coefficients) for i in point]
-        for chosen in product(*factors):
+        for chosen in product(*[enumerate(basis[i].coefficients) for i in point]):
             exponents = tuple(power for power, _ in chosen)
             a = prod([x for _, x in chosen], start=difference)
             terms[exponents] = terms.get(exponents, ZERO) + a

@@ -259,8 +259,7 @@ class Parametric:
 
     def height_bits(self) -> int:
         """Bits of its longest coefficient."""
-        coefficients = [*self.numerator.coeffs(), *self.denominator.coeffs()]
-        return max(map(_height_bits, coefficients))
+        return max(map(_height_bits, [*self.numerator.coeffs(), *self.denominator.coeffs()]))
 
     def latex(self) -> str:
         """The function in LaTeX."""

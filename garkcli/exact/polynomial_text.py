@@ -50,8 +50,7 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     >>> polynomial_text(Polynomial([48, -22, 1]), "x")
     'x^2 - 22*x + 48'
     """
-    terms = [(a, power_text(variable, k)) for k, a in enumerate(p.coefficients)]
-    return sum_text(terms[::-1])
+    return sum_text([(a, power_text(variable, k)) for k, a in enumerate(p.coefficients)][::-1])
 
 
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:

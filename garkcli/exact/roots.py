@@ -109,8 +109,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     for factor, power in factors:
         check_time()
         primitive = factor if factor[factor.degree()] > 0 else -factor
-        balls = isolated(_integers(primitive), FIRST_BITS)
-        for number in range(len(balls)):
+        for number in range(len(isolated(_integers(primitive), FIRST_BITS))):
             root = RealRoot(primitive, number)
             multiplicity = power
             if not p.is_rational:

@@ -136,16 +136,14 @@ class _Corrections:
                 new.append(old[m])
                 continue
             if self.is_implicit:
-                before_it = {old[m]: -width}
-                value = combined([(1, value), (1, increment), (1, before_it)])
+                value = combined([(1, value), (1, increment), (1, {old[m]: -width})])
                 slope = self.stages.implicit_slope(value, width)
                 value = combined([(1, value), (1, {slope: width})])
             else:
                 value = combined([(1, value), (1, increment)])
                 if m:
                     change = {new[-1]: width}
-                    undone = {old[m - 1]: -width}
-                    value = combined([(1, value), (1, change), (1, undone)])
+                    value = combined([(1, value), (1, change), (1, {old[m - 1]: -width})])
                 slope = self.stages.slope_at(value)
             new.append(slope)
             before = node
@@ -154,8 +152,7 @@ class _Corrections:
     def _between(self, m: int, slopes: _Slopes) -> Weights:
         """The integral from the node before to node m of the polynomial through the slopes."""
         upper = self._integral(m, slopes)
-        lower = self._integral(m - 1, slopes) if m else START
-        return combined([(1, upper), (-1, lower)])
+        return combined([(1, upper), (-1, self._integral(m - 1, slopes) if m else START)])
 
     def _integral(self, m: int, slopes: _Slopes) -> Weights:
         """From 0 to node m, or to 1 where m is the number of nodes."""

@@ -104,9 +104,7 @@ def _ssp3(n: int) -> Method:
         value = combined([(1, values[-1]), (1, gained)])
         if i == middle:
             whole = 2 * n - 1
-            old = fmpq(n, whole)
-            new = fmpq(n - 1, whole)
-            value = combined([(old, values[earlier]), (new, value)])
+            value = combined([(fmpq(n, whole), values[earlier]), (fmpq(n - 1, whole), value)])
         values.append(value)
     return stages.method(f"SSPRK({s},3)", values[-1])
 

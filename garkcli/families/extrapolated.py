@@ -72,8 +72,7 @@ def _euler(stages: StageList, n: int) -> Weights:
     h = fmpq(1, n)
     value = START
     for _ in range(n):
-        slope = stages.slope_at(value)
-        value = combined([(1, value), (1, {slope: h})])
+        value = combined([(1, value), (1, {stages.slope_at(value): h})])
     return value
 
 
@@ -81,8 +80,7 @@ def _implicit_euler(stages: StageList, n: int) -> Weights:
     h = fmpq(1, n)
     value = START
     for _ in range(n):
-        slope = stages.implicit_slope(value, h)
-        value = combined([(1, value), (1, {slope: h})])
+        value = combined([(1, value), (1, {stages.implicit_slope(value, h): h})])
     return value
 
 
@@ -92,8 +90,7 @@ def _midpoint(stages: StageList, n: int) -> Weights:
     before, value = START, START
     for i in range(n):
         slope = stages.slope_at(value)
-        reach = h if i == 0 else 2 * h
-        leap = {slope: reach}
+        leap = {slope: h if i == 0 else 2 * h}
         before, value = value, combined([(1, before), (1, leap)])
     return value
 

@@ -48,8 +48,7 @@ class StageList:
     def implicit_slope(self, value: Weights, diagonal: Number) -> int:
         """The stage f(Y) at Y = value + h · diagonal · f(Y)."""
         i = len(self._rows)
-        own = {i: diagonal}
-        self._rows.append(combined([(1, value), (1, own)]))
+        self._rows.append(combined([(1, value), (1, {i: diagonal})]))
         return i
 
     def method(self, name: str, result: Weights) -> Method:

@@ -158,8 +158,7 @@ def oscillator_run(
     line = drift_of(errors.values, _angle(R, problem.omega))
     if errors.is_exact or fate.fate == "elliptic":
         line = Line(0.0, 0.0)
-    powers = _powers(problem.omega, energy, done * h)
-    rate = energy_rate(tableau, tolerance, h, powers)
+    rate = energy_rate(tableau, tolerance, h, _powers(problem.omega, energy, done * h))
     excused = rate * done * h
     kept = np.union1d(extremes(errors.values, points - 2), [0, done])
     history = _history(errors, energy, fate, line, excused, kept, h)

@@ -98,14 +98,12 @@ def long_run(
     problem = bound.problem
     count = count_steps(t_end, step)
     method = bound.at(digits)
-    measure = Measure(problem, method.digits)
-    record = Record(measure, count, points)
+    record = Record(Measure(problem, method.digits), count, points)
     path = trajectory(method, step, count)
     record.take(counting("steps", path, count + 1))
     h = to_float(step)
     if isinstance(problem, Hamiltonian):
-        powers = record.exchange.powers(h)
-        rate = energy_rate(tableau, tolerance, h, powers)
+        rate = energy_rate(tableau, tolerance, h, record.exchange.powers(h))
     else:
         states = [(number * h, y) for number, y in record.states.items()]
         rate = invariant_rate(tableau, tolerance, problem, states)

@@ -231,8 +231,7 @@ class Record:
             self.first = compared.copy()
         known = np.nan_to_num(errors, nan=0.0)
         self.trends.add(start, known)
-        largest = np.abs(known).max(axis=0)
-        np.maximum(self.largest, largest, out=self.largest)
+        np.maximum(self.largest, np.abs(known).max(axis=0), out=self.largest)
         self.done += count
         chosen = self._chosen(errors, start)
         self._numbers += [start + i for i in chosen]

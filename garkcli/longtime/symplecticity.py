@@ -82,8 +82,7 @@ def symplecticity_defects(
     method = bind(tableau, problem).at(max(DIGITS, FLOAT_DIGITS + 1))
     defects = []
     for time, y in states:
-        start = [_exactly(x) for x in y]
-        defects.append(_defect(method, step, time, start))
+        defects.append(_defect(method, step, time, [_exactly(x) for x in y]))
     return tuple(defects)
 
 
@@ -172,8 +171,7 @@ def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = N
     tableau, fields = bound.tableau, bound.fields
     drives: dict[int, set[str]] = {}
     for l, group in fields:
-        term = tableau.colours[l].term
-        drives.setdefault(term, set()).add(group)
+        drives.setdefault(tableau.colours[l].term, set()).add(group)
     is_separable = all(len(groups) == 1 for groups in drives.values())
     if not is_separable:
         return False

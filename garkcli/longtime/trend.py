@@ -109,8 +109,7 @@ class Sums:
         """The errors e_first, e_{first+1}, …, shape (m, signals)."""
         import numpy as np
 
-        largest = np.abs(errors).max(axis=0)
-        np.maximum(self.largest, largest, out=self.largest)
+        np.maximum(self.largest, np.abs(errors).max(axis=0), out=self.largest)
         self._add_to_ranges(first, errors)
         for k, _ in enumerate(_WINDOWS):
             self._add_to_window(k, first, errors)

@@ -340,8 +340,7 @@ class Builder:
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
         structure = description.structure
         is_general = structure == "general"
-        tolerance = description.tolerance
-        blocks = BlockBuilder(self.source, self.values, text, methods, tolerance)
+        blocks = BlockBuilder(self.source, self.values, text, methods, description.tolerance)
         tableau = gark(methods, blocks.built(is_general))
         if is_general:
             return tableau

@@ -33,8 +33,7 @@ class FileSearch(Frozen):
     def of(cls, family: FamilyFile, order: int, whose: Whose = "method") -> FileSearch:
         """The search of a file that is read already."""
         settings: Mapping[str, str] = family.settings
-        given = tuple(settings.items())
-        return cls(family.text, family.source, given, order, whose)
+        return cls(family.text, family.source, tuple(settings.items()), order, whose)
 
     @property
     def family(self) -> FamilyFile:

@@ -216,8 +216,7 @@ class Source:
         if not self._found:
             message = f"this is not a {self.kind.name}"
             self.fault(None, message, f"see {self.kind.page}", code="other-file")
-        once = dict.fromkeys(self._found)
-        faults = told_once(sorted(once, key=place_of))
+        faults = told_once(sorted(dict.fromkeys(self._found), key=place_of))
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"

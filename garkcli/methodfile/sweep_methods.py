@@ -276,8 +276,7 @@ class MethodsReader:
                 )
                 self.source.fault(item, message, cure, code="free-parameters")
             elif missing and all(self.found.grids[x] for x in used):
-                first = {x: self.found.grids[x][0] for x in used}
-                family = loads_family(text, source, first)
+                family = loads_family(text, source, {x: self.found.grids[x][0] for x in used})
                 order = self._order(item, name, missing, family.order or 0)
             self.found.templates.append(TemplateText(name, text, used, order))
 

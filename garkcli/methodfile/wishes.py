@@ -45,8 +45,7 @@ def _wanted() -> Iterator[Key]:
         colours = by_name(value, propertyNames={"pattern": "^[1-9][0-9]*$"})
         schema = either(value, at_mapping=colours).schema
         kind = Kind(schema, partial(_wishes, want))
-        text = f"Wanted: {want.summary}."
-        yield Key(f"{name}: {example}", kind, text)
+        yield Key(f"{name}: {example}", kind, f"Wanted: {want.summary}.")
 
 
 def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:

@@ -121,8 +121,7 @@ class StageSpans(Spans):
         span = AffineSpan(self.tableau.spaces[k].stages * self.degree)
         members: list[Forest] = []
         for part in parts:
-            new = span.insert([self._flat(x.vector) for x in part])
-            members += [part[i] for i in new]
+            members += [part[i] for i in span.insert([self._flat(x.vector) for x in part])]
             if span.is_full:
                 break
         return members
@@ -175,5 +174,4 @@ class Proof(Frozen):
 def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
     """The exact order of a tableau and what decides it; up to the order ``limit``."""
     order = find_order(tableau, limit)
-    orders = range(1, order.order + 1)
-    return Proof(tableau, order, tuple(all_spanning_trees(tableau, orders)))
+    return Proof(tableau, order, tuple(all_spanning_trees(tableau, range(1, order.order + 1))))

@@ -185,8 +185,7 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
             worst_value=None,
         )
 
-    everything = np.ones(len(ids), dtype=bool)
-    return ErrorConstants(order, False, norms(everything), norms(mixes))
+    return ErrorConstants(order, False, norms(np.ones(len(ids), dtype=bool)), norms(mixes))
 
 
 def _floats(row: Iterable[Cell]) -> list[float]:

@@ -303,8 +303,7 @@ def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | 
     at = {**place, **equations.momenta(place)}
     if not all(x in at for x in equations.p):
         return False
-    values = enclosed(list(solved.values()), at)
-    solution = dict(zip(solved, values, strict=True))
+    solution = dict(zip(solved, enclosed(list(solved.values()), at), strict=True))
     back = enclosed(equations.gradient, {**at, **solution})
     pairs = [(value, at[p]) for p, value in zip(equations.p, back, strict=True)]
     known = [v for v in solved if v in at]

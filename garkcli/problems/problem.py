@@ -53,6 +53,5 @@ def merge_terms(problem: Problem, terms: int) -> Problem:
     if isinstance(problem, Hamiltonian):
         total = sum(problem.terms[last:])
         return replace(problem, terms=(*problem.terms[:last], total))
-    by_component = zip(*problem.terms[last:], strict=True)
-    totals = tuple(map(sum, by_component))
+    totals = tuple(map(sum, zip(*problem.terms[last:], strict=True)))
     return replace(problem, terms=(*problem.terms[:last], totals))

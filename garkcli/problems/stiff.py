@@ -154,8 +154,7 @@ def shared(parts: Sequence[Exprs], terms: int) -> tuple[Exprs, ...]:
     """
     if terms <= len(parts):
         last = terms - 1
-        by_component = zip(*parts[last:], strict=True)
-        rest = tuple(map(sum, by_component))
+        rest = tuple(map(sum, zip(*parts[last:], strict=True)))
         return (*parts[:last], rest)
     *kept, rest = parts
     left = terms - len(kept)

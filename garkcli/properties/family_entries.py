@@ -46,8 +46,7 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
 @lru_cache(maxsize=32)
 def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
     """The nodes in ascending order."""
-    M = Polynomial.from_flint(space.modulus)
-    return [node for node, _ in real_roots(M)]
+    return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
 
 
 def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:

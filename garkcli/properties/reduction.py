@@ -196,8 +196,7 @@ def _that_matter(tableau: Tableau) -> list[list[int]]:
             reached |= seen
     kept = []
     for k, space in enumerate(tableau.spaces):
-        stages = [i for i in range(space.stages) if (k, i) in reached]
-        kept.append(stages or [0])
+        kept.append([i for i in range(space.stages) if (k, i) in reached] or [0])
     return kept
 
 
@@ -210,8 +209,7 @@ def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
     """The tableau with the given stages alone."""
     spaces = []
     for space, stages in zip(tableau.spaces, kept, strict=True):
-        nodes = _chosen(space.nodes, stages)
-        spaces.append(PointSpace(nodes))
+        spaces.append(PointSpace(_chosen(space.nodes, stages)))
     colours = []
     for colour in tableau.colours:
         stages = kept[colour.space]
@@ -239,8 +237,7 @@ def merged(tableau: Tableau) -> Tableau:
     firsts = [[members[0] for members in of_space] for of_space in classes]
     spaces = []
     for space, stages in zip(tableau.spaces, firsts, strict=True):
-        nodes = _chosen(space.nodes, stages)
-        spaces.append(PointSpace(nodes))
+        spaces.append(PointSpace(_chosen(space.nodes, stages)))
     colours = []
     for colour in tableau.colours:
         b = _summed(colour.b, classes[colour.space])

@@ -83,8 +83,7 @@ class DependencyGraph(Frozen):
             if len(component) == 1:
                 found.append(StageBlock((), tuple(component)))
                 continue
-            stages = [x for x in component if isinstance(x, Stage)]
-            cut = self._cut(stages)
+            cut = self._cut([x for x in component if isinstance(x, Stage)])
             known = {x for x in component if x not in cut}
             rest = {x: [y for y in after[x] if y in known] for x in component if x in known}
             order = list(chain.from_iterable(components(rest)))
@@ -125,8 +124,7 @@ class DependencyGraph(Frozen):
                     into = before[s] & within
                     out = within.intersection(after[s])
                     ways[s] = len(into) * len(out)
-                busiest = max(component, key=ways.__getitem__)
-                cut.add(busiest)
+                cut.add(max(component, key=ways.__getitem__))
 
     def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
         """Which of ``stages`` the evaluations look at that each of them sums."""
@@ -135,8 +133,7 @@ class DependencyGraph(Frozen):
         for stage in stages:
             seen: set[Stage] = set()
             for evaluation in self.sums[stage]:
-                looked_at = self.arguments[evaluation]
-                seen |= inside.intersection(looked_at)
+                seen |= inside.intersection(self.arguments[evaluation])
             before[stage] = seen
         return before
 

@@ -212,8 +212,7 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     for k, ((m, group), field) in enumerate(fields.items()):
         colour = tableau.colours[m]
         part: Part = "y" if group == TIME else group
-        is_linear = field.is_linear
-        colours.append(replace(colour, space=k, part=part, is_linear=is_linear))
+        colours.append(replace(colour, space=k, part=part, is_linear=field.is_linear))
         spaces.append(tableau.space(m))
     blocks = {}
     for k, ((l, _), field) in enumerate(fields.items()):

@@ -65,8 +65,7 @@ class ChainRule:
         self._layers = []
         for _, group in groupby(block.order, type):
             stages, evaluations = _sorted_out(group)
-            layer = _Layer(stages, self._entries(stages), evaluations)
-            self._layers.append(layer)
+            self._layers.append(_Layer(stages, self._entries(stages), evaluations))
         self._image = self._entries(self.unknowns)
 
     def _entries(self, stages: Sequence[Stage]) -> list[_Entry]:
@@ -132,8 +131,7 @@ def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Float
     W = np.zeros((count, len(of_fields)))
     rows, columns, numbers = np.array(entries).T
     W[rows, columns] = w[numbers]
-    combined = np.tensordot(W, of_fields, axes=1)
-    return np.asarray(combined, dtype=np.float64)
+    return np.asarray(np.tensordot(W, of_fields, axes=1), dtype=np.float64)
 
 
 Slope: TypeAlias = dict[int, str]
@@ -215,8 +213,7 @@ class JacobianWriter:
                 rows = self._slopes_of_sums(vertex, slopes)
             number = self._stages.number[vertex]
             for i, row in enumerate(rows):
-                prefix = f"s{number}_{i}_"
-                slopes[vertex, i] = self._named(row, prefix)
+                slopes[vertex, i] = self._named(row, f"s{number}_{i}_")
         image = []
         for stage in block.unknowns:
             image += self._slopes_of_sums(stage, slopes)
@@ -232,8 +229,7 @@ class JacobianWriter:
             slope = slopes.get((evaluation, i))
             if not slope:
                 continue
-            name = self._stages.weight(stage, evaluation)
-            w = self._prefix + name
+            w = self._prefix + self._stages.weight(stage, evaluation)
             terms.append((w, slope))
         return _sums(terms)
 

@@ -89,8 +89,7 @@ def stage_system(
             if block is not None:
                 _add(W, row, column, term.factor, block)
     for (space, component), row in first.items():
-        ones = tuple((x,) for x in tableau.spaces[space].one)
-        _add(E, row, component, ONE, ones)
+        _add(E, row, component, ONE, tuple((x,) for x in tableau.spaces[space].one))
     return StageSystem(_frozen(W), _frozen(E), _frozen(B))
 
 
@@ -206,8 +205,7 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, problem)
-    fields = [problem.matrix(colour) for colour in tableau.colours]
-    system = stage_system(tableau, fields)
+    system = stage_system(tableau, [problem.matrix(colour) for colour in tableau.colours])
     field = tableau.field
     return LinearStep(
         problem,

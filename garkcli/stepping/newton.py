@@ -135,8 +135,7 @@ class NewtonWriter:
     def _frozen_sum(self, stage: Stage, i: int) -> str:
         terms = []
         for evaluation in self._stages.graph.sums[stage]:
-            field = self.frozen[evaluation.colour, evaluation.group]
-            f = field[i]
+            f = self.frozen[evaluation.colour, evaluation.group][i]
             if f != "0":
                 w = self._stages.weight(stage, evaluation)
                 terms.append(f"{w}*{f}")
@@ -153,14 +152,12 @@ class NewtonWriter:
             size = stages.layout.size(group)
             start += [stages.start(group, i) for i in range(size)]
         code = stages.code(field.components, evaluation, self._is_for_balls)
-        prefix = f"g{evaluation.colour}{evaluation.group}_"
-        self.frozen[key] = stages.emit(code, start, prefix)
+        self.frozen[key] = stages.emit(code, start, f"g{evaluation.colour}{evaluation.group}_")
 
     def _residuals(self, block: StageBlock) -> None:
         k = 0
         for stage in block.unknowns:
-            summed = self._stages.graph.sums[stage]
-            total = self._stages.total(stage, summed, stage.group)
+            total = self._stages.total(stage, self._stages.graph.sums[stage], stage.group)
             for i, text in enumerate(total.texts):
                 c = self._stages.component(stage, i)
                 image = text or "0.0"
@@ -190,8 +187,7 @@ class NewtonWriter:
             if n > _WRITTEN:
                 self._jacobians.by_chain_rule(block, index)
             else:
-                J = self._jacobians.written_out(block)
-                rows = identity_minus(J)
+                rows = identity_minus(self._jacobians.written_out(block))
                 entries = ", ".join(x for row in rows for x in row)
                 self._lines.write(f"inverse = inverted([{entries}], {n})")
             self._lines.write("jacobians += 1")

@@ -55,10 +55,9 @@ class Program(Frozen):
     @property
     def repeated(self) -> tuple[int, ...]:
         """Evaluations of vector fields in one iteration of each implicit block."""
-        counts = []
-        for block in self.implicit:
-            is_evaluation = [isinstance(x, FieldEvaluation) for x in block.order]
-            counts.append(sum(is_evaluation))
+        counts = [
+            sum(isinstance(x, FieldEvaluation) for x in block.order) for block in self.implicit
+        ]
         return tuple(counts)
 
 
@@ -101,8 +100,7 @@ class _ProgramWriter:
             implicit=self.implicit,
             chains=self.jacobians.chains,
         )
-        in_newton = sum(made.repeated)
-        return replace(made, evaluations=evaluations - in_newton)
+        return replace(made, evaluations=evaluations - sum(made.repeated))
 
     def _around(self, body: list[str]) -> list[str]:
         """The function whose loop has this ``body``."""

@@ -83,8 +83,7 @@ class StageWriter:
         self.codes: list[Code] = []
         self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
-        vertices = (*graph.sums, *graph.evaluations)
-        self.number = {vertex: i for i, vertex in enumerate(vertices)}
+        self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))}
         self._known_sums: list[Sum] = []
 
     def explicit(self, block: StageBlock) -> None:

@@ -32,8 +32,7 @@ def _known_by(row: Row) -> str:
     """
     if "values" not in row:
         return str(row["key"])
-    what = [row.get(name) for name in ("method", "parameters", "values")]
-    return json.dumps(what)
+    return json.dumps([row.get(name) for name in ("method", "parameters", "values")])
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
@@ -76,8 +75,7 @@ def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
     for name in by:
         value = row.get(name)
         assert not isinstance(value, dict)
-        is_missing = value is None
-        found.append((is_missing, _size(name, value)))
+        found.append((value is None, _size(name, value)))
     return found
 
 

@@ -40,8 +40,7 @@ def method_found(point: Point, found: Method) -> Tableau:
 
 def _asked(point: Point) -> FileSearch:
     template = point.template
-    settings = tuple(point.settings.items())
-    return FileSearch(template.text, template.name, settings, template.order)
+    return FileSearch(template.text, template.name, tuple(point.settings.items()), template.order)
 
 
 Row: TypeAlias = "dict[str, Value | dict[str, str]]"
@@ -78,8 +77,7 @@ def row_of(criteria: Criteria, point: Point) -> Row:
     """
     row = _start(criteria, point)
     try:
-        is_searched = point.template.is_searched
-        tableau = _searched(point, row) if is_searched else _tableau(point)
+        tableau = _searched(point, row) if point.template.is_searched else _tableau(point)
         if tableau is None:
             return {**row, "kept": not criteria.conditions}
         judged = Judged(tableau)

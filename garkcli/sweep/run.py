@@ -106,6 +106,5 @@ def _results(
     with hired(work, crashed, jobs, scheduler) as workers:
         for _, result in workers.as_they_come(tasks):
             yield result
-        singles = [[point] for points in ended for point in points]
-        for _, result in workers.as_they_come(singles):
+        for _, result in workers.as_they_come([[point] for points in ended for point in points]):
             yield result

@@ -182,10 +182,7 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
     if further.embedded is not None:
         embedded = rows.pop(0)
     if further.dense is not None:
-        blocks = []
-        for of_colour in zip(*rows, strict=True):
-            # from a row per power of θ to a row per stage
-            stages = zip(*of_colour, strict=True)
-            blocks.append(tuple(stages))
+        # from a row per power of θ to a row per stage
+        blocks = [tuple(zip(*of_colour, strict=True)) for of_colour in zip(*rows, strict=True)]
         dense = DenseOutput(tuple(blocks))
     return replace(tableau, colours=tableau.colours[:size]), Further(embedded, dense)

@@ -54,9 +54,7 @@ def spelled_out(
         nodes = c[l]
         if nodes is None:
             nodes = _row_sums(l, A[l], len(weights))
-        name = str(l + 1)
-        is_linear = l in linear
-        colour = Colour(name, l, weights, nodes, l, is_linear=is_linear)
+        colour = Colour(str(l + 1), l, weights, nodes, l, is_linear=l in linear)
         spaces.append(PointSpace(nodes))
         colours.append(colour)
     blocks: _NewBlocks = {}

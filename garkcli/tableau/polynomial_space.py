@@ -47,8 +47,7 @@ class PolynomialSpace(StageSpace):
 
     def __hash__(self) -> int:
         # of integers: flint hashes fractions by Python's, a slow import
-        numerators = tuple(self.modulus.numer())
-        return hash((numerators, self.modulus.denom()))
+        return hash((tuple(self.modulus.numer()), self.modulus.denom()))
 
     @property
     def stages(self) -> int:

@@ -92,8 +92,7 @@ def _at_nodes(tableau: Tableau, digits: int) -> tuple[dict[Edge, arb_mat], list[
     A: dict[Edge, arb_mat] = {}
     for k, m in tableau.blocks:
         row = entries.A[colour_of[k]]
-        block = row[m] or ()
-        A[k, m] = _matrix(block)
+        A[k, m] = _matrix(row[m] or ())
     return A, [_matrix([row]).transpose() for row in entries.b]
 
 
@@ -224,8 +223,7 @@ class RoundedTableau(Frozen, eq=False):
             replace(colour, b=tuple(weights.entries()), c=tuple(nodes))
             for colour, weights, nodes in zip(self.tableau.colours, b, c, strict=True)
         )
-        spaces = tuple(PointSpace((ZERO,) * s) for s in self.balls.stages)
-        return Tableau(spaces, colours, blocks)
+        return Tableau(tuple(PointSpace((ZERO,) * s) for s in self.balls.stages), colours, blocks)
 
     def conjugate(self) -> RoundedTableau:
         """The symplectic conjugate, with an obstacle where a weight that it divides by may be 0.

@@ -98,8 +98,7 @@ class Tableau(Frozen):
         return hash((self.spaces, self.colours))
 
     def __repr__(self) -> str:
-        numbers = [str(self.space(l).stages) for l in range(self.size)]
-        stages = ", ".join(numbers)
+        stages = ", ".join([str(self.space(l).stages) for l in range(self.size)])
         colours = counted(self.size, "colour")
         return f"<Tableau {colours}, stages {stages}>"
 

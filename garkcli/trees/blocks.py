@@ -79,16 +79,14 @@ def iter_blocks(
     lower = TreeTable.of(admissible, max(order - 1, 1))
     if order == 1:
         for root in wanted:
-            vertex = Columns.vertices(range(root, root + 1))
-            yield Block(vertex, lower)
+            yield Block(Columns.vertices(range(root, root + 1)), lower)
         return
     starts = first_ids(admissible, order)
     for root in wanted:
         for _, growth in segments_of(admissible, starts, order, lower.columns, root):
             size = len(growth)
             for start in range(0, size, block_size):
-                stop = min(start + block_size, size)
-                yield Block(growth.make(start, stop), lower)
+                yield Block(growth.make(start, min(start + block_size, size)), lower)
 
 
 def select(
@@ -139,8 +137,7 @@ def select(
         if keep.all():
             yield block
         elif keep.any():
-            kept = block.columns.part(keep)
-            yield Block(kept, block.lower)
+            yield Block(block.columns.part(keep), block.lower)
 
 
 def _narrowed(colours: int, edges: Edges | None, within: Collection[int]) -> list[list[bool]]:

@@ -125,8 +125,7 @@ def count_by_root(
     admissible = Admissible.of(colours, edges, linear)
     leaders = admissible.leaders
     forests = _forests(admissible, leaders, order)
-    last = [forests[leader][-1] for leader in leaders]
-    return tuple(map(int, last))
+    return tuple(map(int, [forests[leader][-1] for leader in leaders]))
 
 
 def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:

@@ -147,8 +147,7 @@ class Structure(Frozen):
             raise ValueError(f"colour {tree.root + 1} does not see colour {branch.root + 1}")
         others = list(tree.branches)
         del others[index]
-        moved = Tree(branch.root, (*branch.branches, Tree(colour, others)))
-        return self.lead(moved)
+        return self.lead(Tree(branch.root, (*branch.branches, Tree(colour, others))))
 
     def rootings(self, tree: Tree) -> Iterator[Tree]:
         """The rooting at every vertex, with repeats where vertices are alike."""
@@ -158,9 +157,9 @@ class Structure(Frozen):
         while waiting:
             here, onward = waiting.pop()
             yield here
-            for u in onward:
-                moved = self.move_root(here, here.branches.index(u))
-                waiting.append((moved, u.branches))
+            waiting.extend(
+                (self.move_root(here, here.branches.index(u)), u.branches) for u in onward
+            )
 
     def is_admissible(self, tree: Tree) -> bool:
         """Whether every edge exists and no linear vector field has two branches."""

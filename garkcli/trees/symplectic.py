@@ -87,8 +87,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
         raise ValueError(f"{kind} problems have 2 terms, not {colours}")
     if kind == "semi-separable":
         return Structure.pair([0], [0, 1])
-    quadratic = [0] if kind == "nystrom" else []
-    return Structure.pair([0], [1], quadratic)
+    return Structure.pair([0], [1], [0] if kind == "nystrom" else [])
 
 
 class ConditionClass(Frozen):
@@ -172,8 +171,7 @@ def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionC
     grower = Grower(structure)
     for root in structure.leaders.values():
         for u in grower.planted(root, order // 2):
-            doubled = Tree(root, (*u.branches, u))
-            yield ConditionClass(doubled, structure)
+            yield ConditionClass(Tree(root, (*u.branches, u)), structure)
 
 
 def class_of(structure: Structure, tree: Tree) -> ConditionClass:

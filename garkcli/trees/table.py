@@ -163,8 +163,7 @@ class Growth:
         begin = self._begin[i:j].copy()
         count = self._count[i:j].copy()
         # the first and the last stem may have trees outside of the piece
-        first_end = int(self._end[i] - self._count[i])
-        skipped = start - first_end
+        skipped = start - int(self._end[i] - self._count[i])
         left_over = int(self._end[j - 1]) - stop
         begin[0] += skipped
         count[0] -= skipped

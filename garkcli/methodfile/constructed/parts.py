@@ -148,8 +148,7 @@ class PartReader(Reading):
             make: what makes it.
             rounding: of its own numbers.
         """
-        parts = tuple(self.parts)
-        return ConstructionText(node, parts, make, self.rounding(rounding))
+        return ConstructionText(node, tuple(self.parts), make, self.rounding(rounding))
 
     def rounding(self, *others: fmpq | None) -> fmpq | None:
         """That of what is made from the parts: the largest; None where all are exact."""
