@@ -13,6 +13,7 @@ from garkcli.glossary.fields import field_text
 from garkcli.glossary.key import Key, keys_of
 from garkcli.glossary.term import PAPER, Term
 from garkcli.properties.definitions import every_definition
+from garkcli.properties.registry import KEYS
 from garkcli.report.field_texts import REFERENCES, fields_of
 from garkcli.report.schemas import REPORTS, report_schema
 
@@ -162,8 +163,15 @@ def _outlines() -> str:
 def _nested(schema: Any, written: dict[str, str], indent: str = "") -> str:
     """The names in a schema as a list; those below a name in brackets, many of them as a list."""
     names, long = [], []
-    for name, below in _below(schema).items():
+    fields = _below(schema)
+    properties = {name for name in fields if name.replace("_", "-") in KEYS}
+    has_all = len(properties) > _MOST_PROPERTIES
+    for name, below in fields.items():
         if name.endswith((*_ENDINGS,)):
+            continue
+        if has_all and name in properties:
+            if _EACH not in names:
+                names.append(_EACH)
             continue
         inner = _nested(below, {})
         is_list = any("items" in x for x in _choices(below))
@@ -185,6 +193,9 @@ def _nested(schema: Any, written: dict[str, str], indent: str = "") -> str:
 
 
 _LONG = 60
+_MOST_PROPERTIES = 12
+_EACH = "each [property](properties.md)"
+"""The entry of more of them."""
 
 
 def _below(schema: Any) -> dict[str, list[Any]]:

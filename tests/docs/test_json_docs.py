@@ -10,12 +10,16 @@ from typing import Any
 
 import pytest
 
+from garkcli.properties.registry import KEYS
 from tests.cli.harness import ROOT, gark
 
 PAGE = (ROOT / "docs" / "json.md").read_text(encoding="utf-8")
 FIELDS = (ROOT / "docs" / "json-fields.md").read_text(encoding="utf-8")
-NESTED = {*re.findall(r"[\w-]+", FIELDS.partition("\n## Fields\n")[0])}
-"""The names that the outlines of reports have; these are made of the schemas."""
+NESTED = {*re.findall(r"[\w-]+", FIELDS.partition("\n## Fields\n")[0]), *KEYS}
+NESTED |= {x.replace("-", "_") for x in KEYS}
+"""The names that the outlines of reports have; these are made of the schemas. An entry of them has
+all properties.
+"""
 METHOD = "methods/collocation.gark.yaml"
 MISPRINTED = "tests/examples/failing/collocation-misprinted.gark.yaml"
 
