@@ -111,8 +111,8 @@ def find_stability(
         method: whatever ``method_of`` takes.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
-        ratios: r_2/r_1 of further additive SSP radii of a method of two colours with exact
-            coefficients.
+        ratios: the ratios r_2/r_1 of further additive SSP radii of a method of two colours with
+            exact coefficients.
 
     Raises:
         MethodError: there are ratios for another method, or one is not positive; or it is the

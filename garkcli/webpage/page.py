@@ -44,7 +44,7 @@ def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool 
     Args:
         methods: names, paths, or methods; several are compared in a table. The faults of a file
             that cannot be read are part of the page.
-        order: up to which order conditions are listed; None for the first order that fails.
+        order: the largest order of the conditions that are listed; by default the first that fails.
         pictures: whether stability, errors and energy are drawn.
 
     Raises:

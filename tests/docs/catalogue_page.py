@@ -42,6 +42,9 @@ WORDS = {
     "symplectic": "symplectic",
     "symmetric": "symmetric",
 }
+OF_HEADINGS = {"erk": "explicit", "irk": "implicit"}
+"""The type of a folder that its heading says."""
+NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
 _EMBEDDED = re.compile(r"^  embedded-order: (\d+)$", re.MULTILINE)
 _INITIALS = re.compile(r"^(?:\w[\w-]*\. ?)+")
 _HEAD = """\
@@ -107,12 +110,13 @@ def _stages(entry: Entry) -> list[int]:
 
 
 def _properties(entry: Entry) -> Iterator[str]:
-    """What the method is, the narrower of two words that say the same."""
-    yield next((word for key, word in TYPES.items() if entry[key]), "")
+    """What the method is, the narrower of two words that say the same, beyond its heading."""
+    kind = next((word for key, word in TYPES.items() if entry[key]), "")
+    if OF_HEADINGS.get(entry["file"].partition("/")[0]) != kind:
+        yield kind
     for key, word in WORDS.items():
-        if key == "a_stable" and entry["l_stable"]:
-            continue
-        if entry[key]:
+        narrower = NARROWER.get(key)
+        if entry[key] and not (narrower and entry[narrower]):
             yield word
     if not entry["exact"]:
         yield f"within {entry['tolerance']}"

@@ -210,8 +210,8 @@ def member(name: str, value: Any) -> tuple[str, str]:
         value = value.__func__
     shape = ""
     if inspect.isfunction(value):
-        shape = str(inspect.signature(value)).partition(" ->")[0]
-        shape = re.sub(r"^\((self|cls)(, )?", "(", shape).replace("'", "")
+        names = [x for x in inspect.signature(value).parameters if x not in ("self", "cls")]
+        shape = f"({', '.join(names)})"
     return f"{name}{shape}", Docstring.of(value).prose
 
 

@@ -54,7 +54,9 @@ def terms_tables() -> str:
 
 
 def _term_row(term: Term) -> tuple[str, str, str]:
-    also = f"; {', '.join(term.labels)}" if term.labels else ""
+    known = {glossary.plain(term.name)}
+    labels = [x for x in term.labels if glossary.plain(x).removesuffix("s") not in known]
+    also = f"; {', '.join(labels)}" if labels else ""
     is_short = len(term.formula.split()) <= _LONGEST_FORMULA
     text = f"{_phrase(term.text)}: {term.formula if is_short else ''}".rstrip(": ")
     return f"**{cell(term.name)}**{cell(also)}", cell(text), _short_source(term.source)

@@ -110,22 +110,27 @@ def test_every_key_is_on_the_page(name: str) -> None:
         assert wanted <= NESTED
 
 
+def agrees(shown: Any, real: Any) -> bool:
+    """Whether a report, shortened where it says …, is as shown."""
+    if isinstance(shown, dict):
+        named = {key for key in shown if key != "…"}
+        is_whole = "…" in shown or named == set(real)
+        return is_whole and all(key in real and agrees(shown[key], real[key]) for key in named)
+    if isinstance(shown, list):
+        first = [x for x in shown if x != "…"]
+        is_whole = len(first) == len(real) or ("…" in shown and len(first) < len(real))
+        return is_whole and all(map(agrees, first, real))
+    return bool(shown == real)
+
+
 def test_the_example_of_a_check_is_real() -> None:
     """Each pair of key and value that it shows is in the report that it is said to be from."""
     found = json.loads(gark("check", METHOD, "--format", "json").out)
     example, _ = re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
-    whole = example.replace("{…}", "null").replace(", …", "")
-    shown = json.loads(whole)
-    assert list(shown) == list(found)
-    assert shown["schema"] == found["schema"]
-    assert shown["summary"] == found["summary"]
-    (method,), (real,) = shown["files"], found["files"]
-    assert set(method) == set(real)
-    assert method["claims"] == real["claims"][:1]
-    shortened = {key for key in method if method[key] is None and real[key] is not None}
-    assert shortened == {"conjugate_witness", "pair_witness", "nonautonomous_witness"}
-    for key in set(method) - shortened - {"claims"}:
-        assert method[key] == real[key], key
+    shown = json.loads(re.sub(r"…(?=\])", '"…"', re.sub(r"…(?=\})", '"…": 0', example)))
+    assert agrees(shown, found)
+    assert set(shown["files"][0]) == set(found["files"][0])
+    assert not agrees({**shown, "schema": "gark/check/0"}, found)
 
 
 def test_the_example_of_an_export_is_real(tmp_path: Path) -> None:
