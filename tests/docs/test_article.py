@@ -45,8 +45,8 @@ def test_its_references_are_there() -> None:
 
 def test_its_numbers_are_those_of_the_program_and_the_pages() -> None:
     """Methods are counted; random pairs are those that the page on pairs has; conditions too."""
-    (count,) = re.findall(r"(\d+) published methods", TEXT)
-    assert int(count) == len(method_names())
+    (count,) = re.findall(r"more than (\d+) published methods", TEXT)
+    assert int(count) < len(method_names()) < 2 * int(count)
     page = (ROOT / "docs" / "pair-order.md").read_text(encoding="utf-8")
     (pairs,) = re.findall(r"([\d ]+) random\s+pairs", TEXT)
     assert f"Theorem B on {pairs.strip()} random pairs" in page
