@@ -93,9 +93,8 @@ ANSWERS = {
     "trees.drawing": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "
     "Witness.html=witness_html Order.html=order_html RoundedOrder.html=order_html "
-    "DenseOrder.html=dense_order_html Condition.html=condition_html",
-    "report.notebook_texts": "Stability.latex=stability_latex "
-    "StabilityFunction.latex=function_latex",
+    "DenseOrder.html=dense_order_html Condition.html=condition_html "
+    "Stability.latex=stability_latex StabilityFunction.latex=function_latex",
     "report.modified": "ModifiedFormula.latex=formula_latex",
     "report.rendering": "GarkMethod.to_latex=latex Analysis.html=html Outcome.html=html "
     "Stability.html=html Comparison.html=html Design.html=html Minimum.html=html "

@@ -3,59 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TypeAlias
 
 from garkcli.check.outcome import Outcome
 from garkcli.page.paint import Paint
 
 Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None, int], str]"
+MACHINES = ("sarif", "junit", "github")
+"""Those that no option changes: the functions of ``check_findings`` that write them."""
 
 
-def _text(
-    outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
+def _render(
+    format: str,
+    outcomes: Sequence[Outcome],
+    paint: Paint,
+    verbosity: int,
+    digits: int | None,
+    width: int,
 ) -> str:
-    from garkcli.report import check_text
+    """All results in a format; findings follow a table of Markdown."""
+    if format == "text":
+        from garkcli.report import check_text
 
-    return check_text.render(outcomes, paint, verbosity, digits, width)
+        return check_text.render(outcomes, paint, verbosity, digits, width)
+    from garkcli.report import check_findings
+    from garkcli.report.checked import REPORT
 
-
-def _told(format: str) -> Renderer:
-    """A format of all results; findings follow a table."""
-
-    def render(
-        outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
-    ) -> str:
-        from garkcli.report.check_findings import markdown_findings
-        from garkcli.report.checked import REPORT
-
-        text = REPORT.render(outcomes, format, paint, verbosity, places=digits, width=width)
-        return text + markdown_findings(outcomes) if format == "markdown" else text
-
-    return render
-
-
-def _machine(name: str) -> Renderer:
-    """A format that is always the same: a function of a file that is imported when used."""
-
-    def render(
-        outcomes: Sequence[Outcome], paint: Paint, verbosity: int, digits: int | None, width: int
-    ) -> str:
-        del paint, verbosity, digits, width  # for people
-        from garkcli.report import check_findings
-
-        text: str = getattr(check_findings, name)(outcomes)
-        return text
-
-    return render
+    if format in MACHINES:
+        return str(getattr(check_findings, format)(outcomes))
+    text = REPORT.render(outcomes, format, paint, verbosity, places=digits, width=width)
+    return text + check_findings.markdown_findings(outcomes) if format == "markdown" else text
 
 
 FORMATS: Mapping[str, Renderer] = {
-    "text": _text,
-    "json": _told("json"),
-    "sarif": _machine("sarif"),
-    "junit": _machine("junit"),
-    "github": _machine("github"),
-    "markdown": _told("markdown"),
-    "latex": _told("latex"),
+    format: partial(_render, format) for format in ("text", "json", *MACHINES, "markdown", "latex")
 }
 """Each choice of ``--format`` with what writes it."""

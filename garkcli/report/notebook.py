@@ -9,7 +9,9 @@ from html import escape
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.findings import witness_text
+from garkcli.exact.polynomial_text import integral
 from garkcli.page.cells import remark
+from garkcli.page.exactly import polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from garkcli.order.conditions import Condition
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder
+    from garkcli.stability.linear import StabilityFunction
+    from garkcli.stability.summary import Stability
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tell.facts import Answer, Kind
 
@@ -100,3 +104,18 @@ def condition_html(condition: Condition) -> str:
 def _text(text: str) -> str:
     """A text without controls, as it stands in HTML."""
     return escape(printable(text))
+
+
+def stability_latex(found: Stability) -> str:
+    """R(z), and the step matrix on the oscillator, as formulas."""
+    from garkcli.report.stability import formulas
+
+    lines = " \\\\\n".join(f"{name} &= {value}" for name, value in formulas(found))
+    return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
+
+
+def function_latex(R: StabilityFunction) -> str:
+    """R(z) as a formula."""
+    over, under = (polynomial_latex(p, "z") for p in integral([R.numerator, R.denominator]))
+    fraction = over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+    return f"$R(z) = {fraction}$"
