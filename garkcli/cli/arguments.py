@@ -240,8 +240,13 @@ def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:
     return callback
 
 
-def rational(option: str, text: str) -> fmpq:
+def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
     """The rational number that was given for ``option``.
+
+    Args:
+        option: what messages call it.
+        text: what was given.
+        cure: for a number that is not rational.
 
     Raises:
         UsageProblem: it is none.
@@ -258,9 +263,8 @@ def rational(option: str, text: str) -> fmpq:
             f"{option} {text}: {error.message}", error.help, code=error.code
         ) from None
     if isinstance(number, Algebraic):
-        raise UsageProblem(
-            f"{option} {text}: a rational number is expected", "such as 1/2", code="option-value"
-        )
+        message = f"{option} {text}: a rational number is expected"
+        raise UsageProblem(message, cure, code="option-value")
     return number
 
 

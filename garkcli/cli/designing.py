@@ -9,27 +9,19 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from garkcli.cli.arguments import rational
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import INTERRUPTED, say_problem
 from garkcli.cli.table import SECONDS
 from garkcli.crew.work import WorkerLost
 from garkcli.deadline import seconds_left, until, within
 from garkcli.doing import doing
-from garkcli.errors import (
-    ExpressionError,
-    MethodError,
-    NotDecided,
-    UsageProblem,
-    counted,
-    did_you_mean,
-)
+from garkcli.errors import MethodError, NotDecided, UsageProblem, counted, did_you_mean
 from garkcli.files import STDIN
 from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
-    from flint import fmpq
-
     from garkcli.api.design import Found
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
@@ -80,7 +72,7 @@ def design(given: Given, output: Output) -> int:
         raise UsageProblem(_PLOT, "ask for --a-stable alone", code="option-alone")
     family = _as_stable(family, asked)
     _check_one_by_one(family, given)
-    _prepare_places(given)
+    _prepare_places(given, output)
     if given.search is not None:
         _refuse_unsettled(family)
         return _search(family, given, output)
@@ -162,12 +154,9 @@ def _refuse_unsettled(family: FamilyFile) -> None:
         raise UsageProblem(message, "give it more, or want less", code="not-found")
 
 
-def _prepare_places(given: Given) -> None:
+def _prepare_places(given: Given, output: Output) -> None:
     """Refuse places that cannot be written to, before the work."""
-    if given.emit is not None:
-        from garkcli.page.writing import refuse_unwritable
-
-        refuse_unwritable(given.emit)
+    output.check_place(given.emit)
     if given.folder is not None:
         make_folder(given.folder)
 
@@ -289,7 +278,7 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
         if name not in unknowns:
             cure = did_you_mean(name, list(unknowns))
             raise UsageProblem(f"--choose: no unknown {name!r}", cure, code="option-value")
-        values[name] = text, _chosen_value(name, text)
+        values[name] = text, rational(f"--choose {name}", text, "--set takes radicals")
     if len(values) == len(unknowns):
         message = "--choose leaves no unknown"
         cure = "gark check with --set judges one method"
@@ -299,24 +288,6 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
     except NotDecided:
         message = "--choose: the rest is not decided in the time of --seconds"
         raise UsageProblem(message, "choose with --set", code="not-found") from None
-
-
-def _chosen_value(name: str, text: str) -> fmpq:
-    """The rational number that --choose gives an unknown."""
-    from garkcli.exact.domain import Domain
-    from garkcli.exact.expression import parse
-    from garkcli.exact.field import Algebraic
-
-    try:
-        expression = parse(text)
-        value = Domain([expression]).evaluate(expression)
-    except ExpressionError as error:
-        message = f"--choose {name}: {error.message}"
-        raise UsageProblem(message, error.help, code="option-value") from None
-    if isinstance(value, Algebraic):
-        message = f"--choose {name}: a rational number is expected"
-        raise UsageProblem(message, "--set takes radicals", code="option-value")
-    return value
 
 
 def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
@@ -361,7 +332,6 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
         return
     from garkcli.api.design import found_files
     from garkcli.design.minimise.result import Minimum
-    from garkcli.page.writing import write_whole
 
     files = list(found_files(found, family))
     if not files and isinstance(found, Minimum):
@@ -375,8 +345,7 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
         cure = "choose values with --set, or ask for a higher order"
         raise UsageProblem(message, cure, code="not-found")
     if given.emit is not None:
-        write_whole(given.emit, [files[0].text])
-        output.note(f"wrote {given.emit}")
+        output.save(given.emit, [files[0].text])
     if given.folder is not None:
         names = file_names(given.folder, family.source)
         for number, file in enumerate(files, start=1):
@@ -386,8 +355,7 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
             except MethodError as error:
                 output.note(f"solution {number} is not written: {error.message}")
                 continue
-            write_whole(path, [text])
-            output.note(f"wrote {path}")
+            output.save(path, [text])
 
 
 def file_names(folder: str, source: str) -> Iterator[str]:
@@ -465,7 +433,6 @@ def _written(
     each method is.
     """
     from garkcli.api.design import found_files
-    from garkcli.page.writing import write_whole
 
     found = list(found_files(result, family))
     files: list[str | None] = [None] * len(found)
@@ -475,8 +442,7 @@ def _written(
     for place, method in enumerate(found):
         for path in (files[place], given.emit if method is best else None):
             if path is not None:
-                write_whole(path, [method.text])
-                output.note(f"wrote {path}")
+                output.save(path, [method.text])
                 files[place] = files[place] or path
     return files
 

@@ -59,12 +59,8 @@ def _place(given: Given, output: Output) -> str | None:
         UsageProblem: it is there already.
     """
     place: str | None = output.path if given.file is None else given.file
-    if place is None:
-        return None
-    from garkcli.page.writing import refuse_unwritable
-
-    refuse_unwritable(place)
-    if os.path.exists(place) and not given.force:
+    output.check_place(place)
+    if place is not None and os.path.exists(place) and not given.force:
         raise UsageProblem(
             f"{place} is there already", "--force writes over it", code="cannot-write"
         )

@@ -404,16 +404,17 @@ class Output:
             output.note(note)
         return output
 
-    def check_place(self) -> None:
-        """Look whether the report may be written where it is to go.
+    def check_place(self, path: str | None = None) -> None:
+        """Look whether the report, or another file, may be written where it is to go.
 
         Raises:
             UsageProblem: it may not.
         """
-        if self.path is not None:
+        path = self.path if path is None else path
+        if path is not None:
             from garkcli.page.writing import refuse_unwritable
 
-            refuse_unwritable(self.path)
+            refuse_unwritable(path)
 
     @property
     def paint(self) -> Paint:
@@ -445,10 +446,14 @@ class Output:
             for piece in pieces:
                 put(piece, format, coloured)
             return
+        self.save(self.path, safe_pieces(pieces, format, coloured))
+
+    def save(self, path: str, pieces: Iterable[str]) -> None:
+        """Write a file, and say so where it is one."""
         from garkcli.page.writing import write_whole
 
-        if write_whole(self.path, safe_pieces(pieces, format, coloured)):
-            self.note(f"wrote {self.path}")
+        if write_whole(path, pieces):
+            self.note(f"wrote {path}")
 
     def tell(self, report: Report[Any], *wholes: Any) -> None:
         """Write results in the format that is asked for."""

@@ -118,7 +118,6 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
     Raises:
         UsageProblem: they are too many for a sheet.
     """
-    from garkcli.page.writing import write_whole
     from garkcli.trees.drawing import draw_svg_sheet
     from garkcli.trees.notation import format_tree
 
@@ -126,8 +125,7 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
     if len(drawn) > MAX_PICTURES:
         message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
         raise UsageProblem(message, "draw one order or one root", code="too-many")
-    write_whole(path, [draw_svg_sheet(drawn, [format_tree(tree, has_colours) for tree in drawn])])
-    output.note(f"wrote {path}")
+    output.save(path, [draw_svg_sheet(drawn, [format_tree(tree, has_colours) for tree in drawn])])
 
 
 def _refuse_millions(lines: int | None, yes: bool) -> None:
