@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
+
+from flint import arb
 
 from garkcli.exact.display import to_latex
 from garkcli.exact.field import Number
@@ -61,14 +63,16 @@ def quotient_latex(p: Polynomial, q: Polynomial, variable: str) -> str:
     return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
 
 
-def sum_latex(terms: Iterable[tuple[Number | Parametric, str]]) -> str:
+def sum_latex(
+    terms: Iterable[tuple[Number | Parametric | arb, str]], latex: Callable[[Any], str] = to_latex
+) -> str:
     """Coefficients with what they are multiplied by in LaTeX; zeros are left out."""
     text = ""
     for a, power in terms:
-        if not a:
+        factor = latex(a)
+        if factor == "0":
             continue
-        factor = to_latex(a)
-        is_sum = " " in str(a)
+        is_sum = not isinstance(a, arb) and " " in str(a)
         is_negative = factor.startswith("-") and not is_sum
         factor = factor.removeprefix("-") if is_negative else factor
         if is_sum:

@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from flint import arb
 
 from garkcli.exact.display import to_latex
+from garkcli.exact.polynomial_text import power_text
 from garkcli.page.cells import cell_text, lines_of, parts_of
+from garkcli.page.exactly import sum_latex
 from garkcli.page.latex import number
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
@@ -97,38 +99,9 @@ def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
     for l, rows in enumerate(found, start=1):
         letter = f"b^{{[{l}]}}" if len(found) > 1 else "b"
         for i, row in enumerate(rows, start=1):
-            terms = _polynomial([_cell(x, entries) for x in row])
+            powers = ((x, power_text(r"\theta", k, f"{{{k}}}")) for k, x in enumerate(row, 1))
+            terms = sum_latex(powers, lambda x: _cell(x, entries))
             yield f"{letter}_{{{i}}}(\\theta)", terms
-
-
-def _polynomial(coefficients: Sequence[str]) -> str:
-    """A polynomial in θ without a constant term, from its coefficients in LaTeX."""
-    text = ""
-    for k, coefficient in enumerate(coefficients, start=1):
-        if coefficient == "0":
-            continue
-        power = r"\theta" if k == 1 else f"\\theta^{{{k}}}"
-        sign, size = "+", coefficient
-        if size.startswith("-"):
-            sign, size = "-", size[1:]
-        if _is_sum(size):
-            sign, size = "+", rf"\left({coefficient}\right)"
-        factor = "" if size == "1" else size
-        if text:
-            text += f" {sign} {factor}{power}"
-        else:
-            text = f"{'-' if sign == '-' else ''}{factor}{power}"
-    return text or "0"
-
-
-def _is_sum(latex: str) -> bool:
-    """Whether a number is written as a sum, outside of braces."""
-    depth = 0
-    for sign in latex:
-        depth += (sign == "{") - (sign == "}")
-        if depth == 0 and sign in "+-":
-            return True
-    return False
 
 
 def _cell(cell: Cell, entries: Entries) -> str:

@@ -205,7 +205,7 @@ def test_tableaus_show_them_in_every_format() -> None:
     assert data["float"]["dense"][0][1] == [0.0, 1.0, pytest.approx(-2 / 3)]
     latex = "\n".join(tableau_lines(method.tableau, found))
     assert r"& \frac{7}{24} & \frac{1}{4}" in latex
-    assert r"b_{4}(\theta) &= -\theta^{2} + \theta^{3}" in latex
+    assert r"b_{4}(\theta) &= -\theta^{2}+\theta^{3}" in latex
     assert "embedded" not in TABLEAU.render([shown._replace(entries=entries(method.tableau))])
     assert "embedded | 7/24  1/4  1/3  1/8" in TABLEAU.render([shown], "markdown")
     assert r"& \frac{7}{24} & \frac{1}{4}" in TABLEAU.render([shown], "latex")
@@ -220,7 +220,7 @@ def test_latex_of_sums_and_zeros() -> None:
     )
     found = entries(method.tableau).beside(method.further)
     latex = "\n".join(tableau_lines(method.tableau, found))
-    assert r"\left(1-\sqrt{2}\right)\theta - \theta^{2}" in latex
+    assert r"\left(1-\sqrt{2}\right)\theta-\theta^{2}" in latex
     assert r"b_{2}(\theta) &= 0" in latex
 
 
