@@ -183,11 +183,7 @@ def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
         '    return "".join(f"file {x.file}\\n" for x in outcomes)\n',
         encoding="utf-8",
     )
-    copy.insert(
-        "garkcli/report/check_formats.py",
-        '"junit", "github")',
-        '"names", ',
-    )
+    copy.insert("garkcli/report/check_formats.py", '"junit", "github")', '"names", ')
     checked, told = copy.gark("check m.yaml --format names", "check --help")
     assert checked == "file m.yaml\n"
     assert "names" in told
