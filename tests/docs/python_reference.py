@@ -13,6 +13,7 @@ from itertools import pairwise
 from typing import Any
 
 import garkcli
+from garkcli.cli.table import OPTIONS
 from tests.docs.tables import cell, table
 
 TYPES = {
@@ -30,6 +31,8 @@ TYPES = {
 OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
 """Those that say all of an argument: it stands in the signature alone."""
 SAID = {"the rounding of the coefficients", "what errors call it.", "of the file."}
+OF_COMMANDS = {option.of for option in OPTIONS.values()}
+"""Arguments that are options, by their functions: the reference of commands tells these."""
 USUAL_ERRORS = {"MethodError", "MethodFileError", "UsageProblem"}
 """Errors of most functions, which the head of the page tells."""
 """What the head of the page says of ``tolerance``, ``source`` and ``text``."""
@@ -249,7 +252,7 @@ def told(name: str, thing: Any) -> list[tuple[str, str]]:
             _DEFAULT.sub("", brief(text)).partition("; ")[0],
         )
         for x, text in items(doc.sections.get("Args", ""))
-        if type_of(x, thing) not in OWN and x not in COMMON
+        if type_of(x, thing) not in OWN and x not in COMMON and f"{name}.{x}" not in OF_COMMANDS
     ]
     return [
         (x, linked(text, name))

@@ -253,32 +253,37 @@ _PLAIN = set(
     re.findall(
         r"\w+",
         """
-    A_alpha R R_alike R_infinity agrees aliases all at_least at_most best bibtex blew_up blocks
-    by_colour by_order by_root c claim claims classes classical_order coefficient column columns
-    compared condition conjugate conjugate_consistent conjugate_witness consistent continuous cosine
-    coupling cure decimal declared_embedded declared_order default degree degrees denominator
+    A_alpha R R_alike R_infinity admissible agrees aliases all among at at_least at_most best bibtex
+    blame blew_up blocks by_colour by_order by_root c choices claim claims classes classical_order
+    coefficient column columns compared complete condition conjugate conjugate_consistent
+    conjugate_witness consistent continuous cosine count coupling culprit cure decided decimal
+    declared_embedded declared_order default defects degree degrees denominator derivation
     description determinant determinant_minus_1 difference differences digits dimension_before
-    drift_uncertainty drifts effective_order embedded_nonautonomous_witness embedded_witness
-    energy_error energy_order entries error_constants error_estimate errors escaped_at evaluations
-    every_property every_value example expected explicit factors failed failing families fast field
-    file files findings first first_only float folder format formulas from from_included function
-    functions genuine h h_exact has_test help holds implicit in_every in_none inconsistent_blocks
-    initial interrupted invariant_errors jacobians kept largest leading_term line linear
-    lowest_terms max_error max_order max_power meanings members message methods minimisers modulus
-    multiplicity new newton_iterations nonautonomous_witness not_claimed notes numerator
-    observed_order of_entries old omega open_points orders pair pair_witness parameter parameters
+    direction doubt drift_in_all drift_uncertainty drifts drives effective_order
+    embedded_nonautonomous_witness embedded_witness energies energy_error energy_order entries
+    equation error_constants error_estimate errors escaped_at eta evaluations every_property
+    every_value exact_order example expected explicit factors facts failed failing families fast
+    field file files findings first first_only float folder format formulas found from from_included
+    function functions genuine h h_exact has_test help holds ideal implicit in_every in_none
+    inconsistent_blocks inf_norm initial interrupted invariant_errors jacobians kept largest
+    leading_term left_behind limits line linear lowest_terms max_error max_order max_power meanings
+    members message methods minimisers misprint modulus multiplicity new newton_iterations
+    no_conjugate no_value_at nonautonomous_witness not_claimed notes numerator objective
+    observed_order of_entries ok old omega open_points orders pair pair_witness parameter parameters
     pareto point power pp predicted_order problem problems properties property proved publication qp
-    qq quantities radius reads_back real reference references repairs representative required
-    results right_hand_sides round_off rounded_coefficients row rows same_as schema schemes
-    second_only seconds seed shapes slope slope_at_end slope_at_start solutions spaces spec
-    splittings ssp ssp_radii stability stages_by_colour start starts step step_exact steps stiffness
-    suffix symplectic_order t t_end t_end_exact tableau tables term terms title to to_included
-    tolerance trees two_norm two_norm_squared uncertainty unknown unknowns unread up_to upto version
-    visible_order wanted witness word worst worst_value written written_by wrong
+    qq quantities r radius reached reads_back real real_ideal reference references repairs repeated
+    representative required restores restrictions results right_hand_sides root_of round_off
+    rounded_coefficients rounding row rows same_as schema schemes second_only seconds seed set
+    shapes sigma slope slope_at_end slope_at_start solutions spaces spec splittings springs ssp
+    ssp_radii stability stages_by_colour start starts step step_exact steps stiffness strips suffix
+    suggestion symplectic_order t t_end t_end_exact tableau tables term terms title to to_included
+    tolerance toward trace trees two_norm two_norm_squared uncertainty unknown unknowns unread up_to
+    upto version visible_order wanted witness word worst worst_value written written_by wrong xi
+    zeta
     """,
     )
 )
-"""Fields whose names say enough beside the outline."""
+"""Fields whose names say enough beside the outline, or that docs/json.md tells of."""
 
 
 def _phrase(text: str, end: str = ";") -> str:
