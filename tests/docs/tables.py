@@ -101,17 +101,18 @@ def keys_table(kind: str) -> str:
     """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
     paths: dict[str, list[str]] = {}
     for key in keys_of(kind).values():
-        if kind == "method" and key.path.partition(".")[0] in IN_SECTIONS and "." in key.path:
+        if kind == "method" and key.path.partition(".")[0] in IN_SECTIONS:
             continue
         paths.setdefault(_said(key, ";" if kind == "method" else ""), []).append(f"`{key.path}`")
     return table(("key", "what it is"), ((", ".join(x), cell(text)) for text, x in paths.items()))
 
 
 IN_SECTIONS = (
-    *("reference", "methods", "dense", "transfer", "tableau", "ark", "prk"),
-    *("compose", "extrapolate", "splitting", "multirate"),
+    *("A", "b", "c", "embedded", "dense", "methods", "transfer", "tableau", "ark", "prk"),
+    *("compose", "adjoint", "extrapolate", "splitting", "multirate", "conjugate", "structure"),
+    *("reference", "tolerance", "expect"),
 )
-"""Keys of method files with a section on the page, which tells what is below them."""
+"""Keys of method files with a section on the page, which tells of them and what is below."""
 
 
 def _said(key: Key, end: str) -> str:
