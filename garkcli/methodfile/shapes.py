@@ -312,8 +312,7 @@ UNKNOWN = mapping(
     Key(
         "shape: [dirk, stiffly-accurate]",
         one_or_more(_SHAPE),
-        "Which entries are unknown and how they hang together: a shape, or several that go "
-        "together.",
+        "Which entries are unknown, zero, equal or given: a shape, or several that go together.",
         is_needed=True,
     ),
     form=FORM,

@@ -17,7 +17,7 @@ from tests.docs.tables import cell, table
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
 MARK = "<!-- reference -->\n"
-OF_ALL = {"-o", "-q", "-v", "--color", "-h"}
+OF_ALL = {"-o", "-q", "-v", "--color", "-h", "--catalogue"}
 USUAL = "text (default), json, markdown, latex"
 """The formats of most commands, which the head of the page tells."""
 
