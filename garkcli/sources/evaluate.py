@@ -51,6 +51,8 @@ MAX_DEPTH = 80
 """Deepest nesting of expressions."""
 MAX_INLINED = 8
 """Deepest nesting of calls of functions of one expression."""
+MAX_OPEN = 2
+"""The same where no argument is known: little comes of it, and the work may double each time."""
 _SELF = frozenset({"self", "this", "cls"})
 _GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
 _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
@@ -444,6 +446,7 @@ class Evaluator:
             record = self._record(of, space)
             if record is not None:
                 record.fields[at[0].text] = value
+                space.lines[at[0].text] = self.line
             return True
         places = self._places(self._box(of, space), at, space)
         if not places:
@@ -756,7 +759,8 @@ class Evaluator:
 
     def applied(self, function: Function, args: Sequence[Value]) -> Value:
         """The value of a function of one expression."""
-        if self._inlined >= MAX_INLINED:
+        is_open = all(isinstance(x, Unknown) for x in args)
+        if self._inlined >= (MAX_OPEN if is_open else MAX_INLINED):
             return self.unknown("calls that are nested too deep")
         inner = Space(function.space)
         inner.update(zip(function.parameters, args, strict=True))

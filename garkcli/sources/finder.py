@@ -13,7 +13,7 @@ from garkcli.sources.evaluate import Space
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of
 from garkcli.sources.parts import role_of_part, roles_of_parts, with_hats
-from garkcli.sources.rklab import block_roles
+from garkcli.sources.rklab import blocks_in
 from garkcli.sources.scalar_names import are_coefficients, scalar_roles
 from garkcli.sources.signatures import PARTS, PRINTED, SIGNATURES, other_kind
 from garkcli.sources.steps import Follower, NoStep
@@ -234,13 +234,16 @@ class TableFinder:
             table = _other(self._source, scope.line, self._format, scope.title, "general linear")
             self._other[scope.title, scope.line] = table
             return
-        for name, value in values.items():
-            roles = block_roles(value) if name.upper().startswith("B") else None
-            if roles is not None and ("order" in roles or name.lower().startswith("butcher")):
-                line = lines.get(name, scope.line)
-                meant = Meant(scope.title or name, line, dict(roles), "B", None, is_sure=True)
-                self._meant.append(meant)
-                return
+        tableaus = [
+            (key, dict(block), lines.get(key, lines.get(name, scope.line)))
+            for name, value in values.items()
+            for key, block in blocks_in(name, value, scope.title)
+        ]
+        for key, block, line in tableaus:
+            own = scope.title if len(tableaus) == 1 and scope.title else key
+            self._meant.append(Meant(own, line, block, "B", None, is_sure=True))
+        if tableaus:
+            return
         parts = roles_of_parts(values)
         if parts is not None:
             is_pair = "H" in values

@@ -1,11 +1,11 @@
-"""Block matrices [c A; q b; p d] of RKLab: a table, its orders and its embedded weights in one."""
+"""Block matrices [c A; q b; p d]: a table, its orders and its embedded weights in one."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.values import Array, Number, Value, whole
+from garkcli.sources.values import ZERO, Array, Number, Record, Value, whole
 
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""
@@ -13,27 +13,55 @@ FAR = 0.5
 """Weights have a sum that is nearer to 1, misprints included."""
 
 
-def block_roles(value: Value) -> Mapping[str, Value] | None:
+def blocks_in(
+    name: str, value: Value, title: str = ""
+) -> Iterator[tuple[str, Mapping[str, Value]]]:
+    """The roles of the parts of each block matrix in a value, which has a name; also of those under
+    the keys of a dictionary, and beside their order. Under a number it is called after ``title``.
+    """
+    if isinstance(value, Record) and not value.kind:
+        for key, x in value.fields.items():
+            yield from blocks_in(f"{title or name} {key}" if key.isdigit() else key, x)
+    elif isinstance(value, Array) and value.is_matrix:
+        roles = _block_roles(value, name.lower())
+        if roles is not None:
+            yield name, roles
+    elif isinstance(value, Array) and len(value.items) == 2 and whole(value.items[1]):
+        for key, roles in blocks_in(name, value.items[0]):
+            yield key, {**roles, "order": value.items[1]}
+
+
+def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     """The roles of the parts of a block matrix; None where it is none.
 
-    q, which has the row of the weights to itself, is a whole number; 0 says nothing.
+    q and p, beside the weights, are the orders of RKLab's B; elsewhere they may be the node 1, or q
+    twice. Without a name all rows but one have their nodes for sums.
     """
-    if not isinstance(value, Array) or not value.is_matrix:
-        return None
-    rows = [x.items for x in value.items if isinstance(x, Array)]
-    lengths = {len(row) for row in rows}
-    if len(lengths) != 1:
-        return None
-    stages = lengths.pop() - 1
+    rows = [list(x.items) for x in value.items if isinstance(x, Array)]
+    columns = max(map(len, rows))
+    stages = columns - 1
     if not 0 < stages <= MAX_STAGES or len(rows) - stages not in (1, 2):
         return None
-    entries = [x for row in rows for x in row]
-    order = whole(rows[stages][0])
-    if order is None or order < 0 or not all(isinstance(x, Number) for x in entries):
+    corners = [row[0] if row else ZERO for row in rows[stages:]]
+    for i, row in enumerate(rows):
+        if len(row) < columns and (i >= stages or len(row) <= i):
+            return None
+        # a triangle, or all of it
+        row += [ZERO] * (columns - len(row))
+    numbers = [x for row in rows[:stages] for x in row] + [
+        x for row in rows[stages:] for x in row[1:]
+    ]
+    if not all(isinstance(x, Number) for x in numbers):
         return None
-    near = [[x.near for x in row if isinstance(x, Number)] for row in rows]
+    near = [[x.near if isinstance(x, Number) else 0.0 for x in row] for row in rows]
     agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
-    if abs(sum(near[stages][1:]) - 1) > FAR or agreeing < (stages / 2 if order else stages):
+    off = abs(sum(near[stages][1:]) - 1)
+    order = whole(corners[0])
+    is_tableau = "butcher" in name or "tabl" in name
+    is_named = is_tableau or (name.startswith("b") and order is not None and order > 0)
+    is_block = off < FAR and 2 * agreeing >= stages
+    is_plain = off < NEAR and agreeing >= max(2, stages - 1)
+    if not (is_block if is_named else is_plain):
         # a matrix like any other
         return None
     roles: dict[str, Value] = {
@@ -41,16 +69,12 @@ def block_roles(value: Value) -> Mapping[str, Value] | None:
         "b": Array(rows[stages][1:]),
         "c": Array([row[0] for row in rows[:stages]]),
     }
-    if order:
-        roles["order"] = rows[stages][0]
+    if order and (name == "b" or order > 1):
+        roles["order"] = corners[0]
     if len(rows) == stages + 2:
-        if whole(rows[-1][0]) is None:
-            return None
-        is_empty = not whole(rows[-1][0]) and all(_is_zero(x) for x in rows[-1][1:])
+        is_empty = not whole(corners[1]) and not any(near[-1][1:])
         if not is_empty:
-            roles |= {"embedded_order": rows[-1][0], "embedded": Array(rows[-1][1:])}
+            roles["embedded"] = Array(rows[-1][1:])
+            if "order" in roles and whole(corners[1]) not in (0, None if name == "b" else order):
+                roles["embedded_order"] = corners[1]
     return roles
-
-
-def _is_zero(value: Value) -> bool:
-    return isinstance(value, Number) and value.is_zero

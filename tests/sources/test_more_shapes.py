@@ -99,6 +99,36 @@ WRITTEN = {
 }
 
 
+DICTIONARY = """
+tables = {}
+tables['RK2 Heun'] = (
+[[sp.sympify(0)],
+[sp.sympify(1), sp.sympify(1)],
+["", sp.Rational(1,2), sp.Rational(1,2)]]
+, 2)
+tables['RK3'] = (
+[[sp.sympify(0)],
+[sp.Rational(1,2), sp.Rational(1,2)],
+[sp.sympify(1), sp.sympify(-1), sp.sympify(2)],
+["", sp.Rational(1,6), sp.Rational(2,3), sp.Rational(1,6)]]
+, 3)
+
+class LobattoIIIA(RungeKutta):
+    tableaux = {
+        2: array([[0., 0., 0.], [1., .5, .5], [1, .5, .5]]),
+        3: array([[0, 0., 0., 0.], [1/2, 5/24, 1/3, -1/24], [1, 1/6, 2/3, 1/6],
+                  [1, 1/6, 2/3, 1/6]]),
+    }
+"""
+EMBEDDED = """
+double rk_AHE[4][3] = {{0.0,0.0,0.0},{1.0,1.0,0.0},{2.0,1.0/2.0,1.0/2.0},{2.0,1.0,0.0}};
+double rk_RK3[4][4] = {{0.0,0.0,0.0,0.0},{1.0/2.0,1.0/2.0,0.0,0.0},{1.0,-1.0,2.0,0.0},
+                       {3.0,1.0/6.0,2.0/3.0,1.0/6.0}};
+double rotation[3][3] = {{1.0,0.0,0.0},{0.0,0.0,-1.0},{0.0,1.0,0.0}};
+double mass[3][3] = {{2.0,1.0,0.0},{1.0,4.0,1.0},{0.0,1.0,2.0}};
+"""
+
+
 def only(find: Find, text: str) -> Audited:
     """What an audit finds of the only table of a source."""
     (table,) = find(text, "x")
@@ -144,6 +174,41 @@ def test_an_entry_that_is_left_out_is_a_zero_at_the_end() -> None:
     text = PACKED.replace("{{0, 0.5, 0, 0, 0.5", "{{0, 0.5, 0, 0.5")
     (error,) = [x for x in only(c.find, text).findings if x.code == "order"]
     assert error.message.startswith("order 2, declared 4")
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "wanted"),
+    [
+        (
+            python.find,
+            DICTIONARY,
+            [
+                ("RK2 Heun", 3, 2, None),
+                ("RK3", 8, 3, None),
+                ("LobattoIIIA 2", 16, 2, None),
+                ("LobattoIIIA 3", 16, 4, None),
+            ],
+        ),
+        (c.find, EMBEDDED, [("rk_AHE", 2, 2, 1), ("rk_RK3", 3, 3, None)]),
+    ],
+)
+def test_blocks_without_names(find: Find, text: str, wanted: list[object]) -> None:
+    """A matrix [c A; q b] is one where its rows have the sums c and b has the sum 1, whatever it is
+    called, but for its key; other matrices are none.
+    """
+    judged = [audit(x) for x in find(text, "x")]
+    found = [
+        (
+            x.table.name,
+            x.table.line,
+            x.order and x.order.order,
+            x.embedded_order and x.embedded_order.order,
+        )
+        for x in judged
+        if x is not None
+    ]
+    assert found == wanted
+    assert not any(x and x.findings for x in judged)
 
 
 def test_general_linear_methods_are_none_of_runge_kutta() -> None:

@@ -172,10 +172,10 @@ class PythonLowering(Lowering):
         pairs = []
         for part in inside:
             key = part.child_by_field_name("key")
-            if part.type == "pair" and key is not None and key.type == "string":
+            if part.type == "pair" and key is not None and key.type in {"string", "integer"}:
                 name = self.expr(key)
-                assert isinstance(name, ir.Text)
-                pairs.append((name.text, self.expr(part.child_by_field_name("value"))))
+                text = name.text if isinstance(name, ir.Text) else self.text(key)
+                pairs.append((text, self.expr(part.child_by_field_name("value"))))
         return ir.Fields(tuple(pairs))
 
     def _call(self, node: Node) -> ir.Expr:
