@@ -26,7 +26,8 @@ def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
     shown = claimed_text(found)
     if found is None:
         shown = f"none: {_why_none(claim.key, analysis)}"
-    return claim_of(claim, shown, agrees(claim.value, found))
+    is_open = claim.key == "dense-smooth" and analysis.dense is not None and found is None
+    return claim_of(claim, shown, None if is_open else agrees(claim.value, found))
 
 
 def _why_none(key: str, analysis: Analysis) -> str:
@@ -78,8 +79,10 @@ def _found(verdict: Verdict) -> str:
     return claimed_text(verdict.value)
 
 
-def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool:
+def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool | None:
     value, wanted = verdict.value, claim.value
+    if verdict.is_undecided:
+        return None
     if isinstance(value, Size):
         return isinstance(wanted, Measure) and wanted.agrees(value.root, subject.tolerance)
     if verdict.is_at_least and isinstance(value, int):
@@ -87,7 +90,7 @@ def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool:
     return agrees(wanted, value)
 
 
-def claim_of(claim: ClaimText, found: str, holds: bool, reason: Reason = NO_REASON) -> Claim:
+def claim_of(claim: ClaimText, found: str, holds: bool | None, reason: Reason = NO_REASON) -> Claim:
     """A claim with what was found."""
     mark = claim.node.start_mark
     return Claim(
@@ -101,15 +104,27 @@ def claim_of(claim: ClaimText, found: str, holds: bool, reason: Reason = NO_REAS
     )
 
 
-def agrees(wanted: object, found: object) -> bool:
-    """Whether a value of a file, a number or a list of numbers or lists, is what was found."""
+def agrees(wanted: object, found: object) -> bool | None:
+    """Whether a value of a file, a number or a list of numbers or lists, is what was found; None
+    where that is a lower bound, and leaves it open.
+
+    >>> agrees(AtLeast(3), 4), agrees(3, AtLeast(4)), agrees(5, AtLeast(4))
+    (True, False, None)
+    """
     if isinstance(wanted, list):
         if not isinstance(found, list) or len(found) != len(wanted):
             return False
-        return all(agrees(x, y) for x, y in zip(wanted, found, strict=True))
+        answers = [agrees(x, y) for x, y in zip(wanted, found, strict=True)]
+        return False if False in answers else None if None in answers else True
+    if isinstance(found, AtLeast):
+        least = wanted.least if isinstance(wanted, AtLeast) else wanted
+        if not isinstance(least, int):
+            return False
+        if isinstance(wanted, AtLeast) and found.least >= least:
+            return True
+        return None if least >= found.least else False
     if isinstance(wanted, AtLeast):
-        known = found.least if isinstance(found, AtLeast) else found
-        return isinstance(known, int) and known >= wanted.least
+        return isinstance(found, int) and found >= wanted.least
     return type(wanted) is type(found) and wanted == found
 
 

@@ -269,18 +269,25 @@ def _fact(key: str, found: EveryValue) -> Fact:
     return value.fact if isinstance(value, EveryOrder) else value or Fact(None)
 
 
-def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool:
-    """Whether a claim is true for every value."""
+def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool | None:
+    """Whether a claim is true for every value; None where that is undecided."""
     wanted = claim.value
-    if fact.is_undecided or fact.where is not None or fact.unknown:
+    if fact.is_undecided and not fact.differs:
+        return None
+    if fact.is_undecided or fact.where is not None:
         return False
     values = [fact.value, *(value for _, value in ((*fact.special, *fact.elsewhere)))]
-    if not all(agrees(wanted, capped(value, limit)) for value in values):
+    answers = [agrees(wanted, capped(value, limit)) for value in values]
+    if False in answers:
         return False
+    if None in answers or fact.unknown:
+        return None
     if not fact.open and not fact.zeros:
         return True
     # where polynomials are zero more conditions hold, never less
-    return claim.key in OF_ORDERS and _is_bound(wanted)
+    if claim.key in OF_ORDERS and _is_bound(wanted):
+        return True
+    return False if fact.zeros else None
 
 
 def _is_bound(wanted: object) -> bool:

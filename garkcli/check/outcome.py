@@ -24,7 +24,7 @@ class Claim(Frozen):
         claim: its key in ``expect``.
         expected: what the file says, as text.
         found: what is true, as text.
-        holds: whether they agree.
+        holds: whether they agree; None where that is undecided.
         line: the line of the claim in the file, from 1.
         column: its column, from 1.
         reason: of a property that is claimed in vain, what speaks against it.
@@ -33,7 +33,7 @@ class Claim(Frozen):
     claim: str
     expected: str
     found: str
-    holds: bool
+    holds: bool | None
     line: int
     column: int
     reason: Reason = NO_REASON
@@ -91,7 +91,7 @@ class Outcome(Shown, Frozen):
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:
-        """The claims that do not hold."""
+        """The claims that do not hold, or are undecided."""
         return tuple(claim for claim in self.claims if not claim.holds)
 
     @property
@@ -121,12 +121,14 @@ class Outcome(Shown, Frozen):
 
     @property
     def exit_code(self) -> int:
-        """0 where all holds, 1 where a claim fails, 2 where the file cannot be read, 3 where the
-        program failed.
+        """0 where all holds, 1 where a claim fails, 2 where the file cannot be read, 3 where a
+        claim is undecided and none fails, or the program failed.
         """
         if not self.is_read:
             return 3 if self.is_crash else 2
-        return 0 if self.ok else 1
+        if self.lacks or any(claim.holds is False for claim in self.claims):
+            return 1
+        return 3 if self.failed_claims else 0
 
     def __repr__(self) -> str:
         said = counted(len(self.faults), "fault")

@@ -42,7 +42,8 @@ def check(given: Given, output: Output) -> int:
     symplecticity; the claims under `expect`. The format auto is github in GitHub Actions and text
     elsewhere.
 
-    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
+    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method, 3 a claim
+    is undecided.
     """
     if given.explain is not None:
         return _explain(given.explain, output)

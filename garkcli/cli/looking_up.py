@@ -250,8 +250,8 @@ def report(given: Given, output: Output) -> int:
     references; a table compares several methods. Claims of a file are about its method: with
     --pair or --conjugate the page has none.
 
-    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method; the page
-    is written in each case, and says so.
+    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method, 3 a claim
+    is undecided; the page is written in each case, and says so.
     """
     from garkcli.webpage.page import render
     from garkcli.webpage.reported import reported

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isnan
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Given, Output, declared, failure_code, faults_of
@@ -24,8 +25,10 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
 
-NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
+DRIFTING = frozenset({"drifts", "unstable"})
 """Verdicts that do not meet ``--bounded``."""
+UNDECIDED = 3
+"""The exit code of what could not be decided."""
 
 
 def refuse_misplaced(given: Given) -> None:
@@ -298,8 +301,9 @@ def energy(given: Given, output: Output) -> int:
     With --modified the energy error over step sizes, of H and of its modified Hamiltonian cut off
     after each power of h.
 
-    Exit code: 1 if --bounded or --max-error is not met, or undecided, a step fails, the energy
-    blows up, the orbit escapes, or --modified shows a lower order.
+    Exit code: 1 if --bounded or --max-error is not met, a step fails, the energy blows up, the
+    orbit escapes, or --modified shows a lower order; 3 if that, or without claims a drift, is
+    undecided.
     """
     from garkcli.api.runs import long_run
     from garkcli.report.energy import REPORT, EnergyReport
@@ -325,8 +329,12 @@ def energy(given: Given, output: Output) -> int:
         from garkcli.plots.energy import energy_scene
 
         output.save_plot(energy_scene(run), given.plot)
-    is_met = all(claim.holds for claim in claims)
-    return 0 if is_met and not run.is_unstable else 1
+    answers = [claim.holds for claim in claims]
+    if run.is_unstable or False in answers:
+        return 1
+    if not claims:
+        answers = [None for x in run.invariants if x.verdict == "undecided"]
+    return UNDECIDED if None in answers else 0
 
 
 def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Problem:
@@ -388,23 +396,27 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
 
 
 def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:
-    """What the options claim. What is undecided is not shown to be bounded."""
+    """What the options claim. What is undecided is neither bounded nor drifting."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
     from garkcli.report.energy import Claim
 
     claims = []
     if given.bounded:
-        wrong = [x for x in run.invariants if x.verdict in NOT_BOUNDED]
-        found = ", ".join(f"{x.name} {x.verdict}" for x in wrong)
-        claims.append(Claim("bounded", found or "bounded", not wrong))
+        wrong = [x for x in run.invariants if x.verdict in DRIFTING]
+        left = [x for x in run.invariants if x.verdict == "undecided"]
+        found = ", ".join(f"{x.name} {x.verdict}" for x in (*wrong, *left))
+        holds = False if wrong else None if left else True
+        claims.append(Claim("bounded", found or "bounded", holds))
     limit = given.max_error
     if limit is not None:
         # the energy, or of what else is conserved the one with the largest error
         energy = run.energy or max(run.invariants, key=lambda x: x.max_error)
-        holds = not run.is_unstable and energy.max_error <= to_float(limit)
+        is_met = None if isnan(energy.max_error) else energy.max_error <= to_float(limit)
+        if run.is_unstable:
+            is_met = False
         found_error = measured(energy.max_error, energy.round_off)
-        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, holds))
+        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, is_met))
     return tuple(claims)
 
 
@@ -431,7 +443,9 @@ def _in_modified(given: Given, output: Output) -> int:
     except GarkError as error:
         return output.tell_failure(error, method.name, REPORT)
     output.tell(REPORT, ModifiedEnergyReport(method.name, run))
-    return 1 if run.is_refuted else 0
+    if run.is_refuted:
+        return 1
+    return UNDECIDED if any(x.verdict == "undecided" for x in run.energies) else 0
 
 
 @declared("modified", FORMATS)

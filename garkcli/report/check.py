@@ -720,7 +720,7 @@ CLAIM = Section(
     Row("claim", kinds.TEXT),
     Row("expected", kinds.TEXT),
     Row("found", kinds.TEXT),
-    Row("holds", kinds.TRUTH),
+    Row("holds", kinds.TRUTH, has_null=True),
     Row("line", kinds.POSITION),
     optional("why", kinds.TEXT, lambda c: c.why or None),
 )
@@ -733,7 +733,7 @@ def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
         said = f"{c.claim}: expected {c.expected}, found {c.found}"
         why = f"; {d.reason(c.reason)}" if c.reason else ""
         place = f" ({outcome.file}:{c.line}:{c.column})"
-        rows.append((d.bad("CLAIM FAILS"), d.prose(said) + why + d.prose(place)))
+        rows.append((kinds.claim_word(c.holds, d), d.prose(said) + why + d.prose(place)))
     missing = [CLAIM_CURE] if outcome.makes_no_claim else [*outcome.lacks, CLAIM_CURE]
     if outcome.lacks:
         rows += [(d.bad("NO CLAIM"), d.prose(message)) for message in missing]

@@ -22,7 +22,7 @@ from garkcli.report.problem import STEPPED, WORDS
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, maybe, optional, via
-from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
+from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
 from garkcli.tell.parts import part, parts, picture, rows_of, table, told
 from garkcli.tell.report import Report
 
@@ -41,11 +41,11 @@ _NEARLY = 2.0
 
 
 class Claim(Frozen):
-    """What is claimed of a run, what was found, and whether the claim holds."""
+    """What is claimed of a run, what was found, and whether the claim holds; None: undecided."""
 
     claim: str
     found: str
-    holds: bool
+    holds: bool | None
 
 
 class EnergyReport(Frozen):
@@ -315,10 +315,7 @@ def _answer(_: str, answer: Answer, d: Plain) -> str:
 
 def _claims(claims: tuple[Claim, ...], d: Plain) -> list[tuple[str, str]]:
     return [
-        (
-            d.good("claim holds") if x.holds else d.bad("CLAIM FAILS"),
-            d.prose(x.claim if x.holds else f"{x.claim}, found: {x.found}"),
-        )
+        (claim_word(x.holds, d), d.prose(x.claim if x.holds else f"{x.claim}, found: {x.found}"))
         for x in claims
     ]
 
@@ -412,7 +409,7 @@ SYMPLECTIC = Section(
     ),
     Row("defects", parts(DEFECT), "symplecticity.defects"),
 )
-CLAIM = Section(Row("claim", TEXT), Row("found", TEXT), Row("holds", TRUTH))
+CLAIM = Section(Row("claim", TEXT), Row("found", TEXT), Row("holds", TRUTH, has_null=True))
 FORMS = {
     kind: Section(
         Row("name", TEXT, level=DATA),

@@ -351,3 +351,10 @@ def bounds_data(found: Bounds) -> dict[str, Any]:
         "at_least": low,
         "at_most": plain_decimal(fmpq((found.high * _PLACES).ceil()) / _PLACES),
     }
+
+
+def claim_word(holds: bool | None, d: Plain) -> str:
+    """What became of a claim: None stands for one that is undecided."""
+    if holds:
+        return d.good("claim holds")
+    return d.note("claim undecided") if holds is None else d.bad("CLAIM FAILS")

@@ -61,14 +61,14 @@ def test_a_command_says_what_it_is_at(command: str) -> None:
     """Something of its own, not only that it works."""
     arguments, something = TOLD[command]
     run, who = told(command, *arguments)
-    assert run.code == 0, run.err
+    assert run.code in {0, 3}, run.err
     assert something in [work.what for work in who.told]
 
 
 def test_a_sweep_counts_its_methods(tmp_path: Path) -> None:
     """How many there are, and in the end all of them are done."""
     run, who = told("sweep", SPEC, "--rows", str(tmp_path / "rows.jsonl"))
-    assert run.code == 0, run.err
+    assert run.code in {0, 3}, run.err
     (methods,) = [work for work in who.told if work.what == "methods"]
     assert methods.done == methods.total != 0
 
@@ -83,7 +83,7 @@ def test_reading_a_problem_is_told(tmp_path: Path) -> None:
         "invariants: {no: x}\n"
     )
     run, who = told("energy", "rk4", "--problem", str(path), "--t-end", "1")
-    assert run.code == 0, run.err
+    assert run.code in {0, 3}, run.err
     said = [work.what for work in who.told]
     for what in (f"reading {path}", "Legendre transform", "invariants along the solution"):
         assert what in said

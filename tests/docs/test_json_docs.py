@@ -105,7 +105,7 @@ def test_every_key_is_on_the_page(name: str) -> None:
     for arguments in REPORTS[name]:
         format = () if "--to" in arguments else ("--format", "json")
         found = gark(*arguments, *format)
-        assert found.code in {0, 1}, found.err
+        assert found.code in {0, 1, 3}, found.err
         wanted = {key for key in keys(json.loads(found.out)) if not GIVEN_NAMES.fullmatch(key)}
         assert wanted <= NESTED
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,7 @@ from garkcli.properties.subject import Subject
 from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import Entry, entries
 from tests.catalogue.method_files import method_file
+from tests.cli.harness import gark
 
 FSAL = ("stiffly-accurate: true", "fsal: true")
 KNOWN = {
@@ -311,7 +313,7 @@ def test_a_weight_near_zero_is_not_decided() -> None:
     """It is positive in the file and may not be."""
     text = "{A: [[0, 0], [1/2, 0]], b: [1e-9, 0.999999999], tolerance: 1e-8,"
     (claim,) = held(f"{text} expect: {{positive-weights: true}}}}")
-    assert (claim.holds, claim.found) == (False, "not decided")
+    assert (claim.holds, claim.found) == (None, "not decided")
 
 
 def test_rounding_decides_algebraic_stability_where_it_can() -> None:
@@ -456,3 +458,55 @@ def test_stage_order_is_that_of_b_and_c() -> None:
     assert not analyse(loads("methods: [{family: gauss, stages: 4}]").tableau).simplifying.is_open(
         8
     )
+
+
+OPEN = """
+A: [[0.167, 3.333], [-1.333, 0.333]]
+b: [0.333, 0.667]
+tolerance: 1e-3
+expect: {algebraically-stable: true, WHAT}
+"""
+
+
+@pytest.mark.parametrize(
+    ("other", "code", "answers"), [("order: 2", 3, [None, True]), ("order: 3", 1, [None, False])]
+)
+def test_an_undecided_claim_neither_holds_nor_fails(
+    other: str, code: int, answers: list[bool | None]
+) -> None:
+    """Rounding leaves a sign open: exit code 3, and 1 where another claim fails. ``null`` in JSON,
+    said so in text, and no success in JUnit.
+    """
+    text = OPEN.replace("WHAT", other)
+    run = gark("check", "-", stdin=text)
+    assert (run.code, "claim undecided  algebraically-stable: expected true" in run.out) == (
+        code,
+        True,
+    )
+    assert ("CLAIM FAILS" in run.out) == (False in answers)
+    data = json.loads(gark("check", "-", "--format", "json", stdin=text).out)
+    assert [claim["holds"] for claim in data["files"][0]["claims"]] == answers
+    failures = sum(x is not True for x in answers)
+    assert f'failures="{failures}"' in gark("check", "-", "--format", "junit", stdin=text).out
+
+
+@pytest.mark.parametrize(
+    ("order", "holds"), [("5", False), ("7", None), ('">= 6"', True), ('">= 7"', None)]
+)
+def test_a_search_that_stops_leaves_larger_orders_open(order: str, holds: bool | None) -> None:
+    """Gauss 3 has order 6; a search up to 6 knows no more than that it is 6 or more."""
+    method = loads(f"methods: [{{family: gauss, stages: 3}}]\nexpect: {{order: {order}}}\n")
+    assert [x.holds for x in verify(method.claims, analyse(method.tableau, limit=6))] == [holds]
+
+
+def test_a_claim_for_every_value_may_be_open() -> None:
+    """Values that differ refute a claim on algebraic stability for every value; where nothing but
+    more parameters is in the way it is undecided.
+    """
+    text = 'parameters: {g: {free: true, range: [1/2, 1]}, k: {free: true, range: [1/2, 1]}}\nA: [["g", 0], ["1 - g - k", "k"]]\nb: [1/2, 1/2]\nexpect: {CLAIM: true}\n'
+    found = {}
+    for claim in ("a-stable", "symplectic"):
+        run = gark("check", "-", "--format", "json", stdin=text.replace("CLAIM", claim))
+        (judged,) = json.loads(run.out)["files"][0]["claims"]
+        found[claim] = (judged["holds"], run.code)
+    assert found == {"a-stable": (None, 3), "symplectic": (False, 1)}

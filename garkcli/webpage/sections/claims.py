@@ -30,6 +30,8 @@ def _shown(outcome: Outcome, claim: Claim) -> Content:
     d = Typeset()
     return {
         "claim": claim,
+        "verdict": {True: "holds", None: "undecided", False: "fails"}[claim.holds],
+        "sign": "holds" if claim.holds else "fails",
         "why": Markup("; ".join(d.reason(x) for x in told if x)),
         "expected": Markup(_value(claim.expected, d)),
         "found": Markup(_value(claim.found, d)),
