@@ -119,4 +119,4 @@ def _properties(entry: Entry) -> Iterator[str]:
         if entry[key] and not (narrower and entry[narrower]):
             yield word
     if not entry["exact"]:
-        yield f"within {entry['tolerance']}"
+        yield f"±{entry['tolerance']}"

@@ -58,6 +58,8 @@ COMMON = {
     "keys": "claims, or one of them",
 }
 """Arguments of several functions, which the page tells once."""
+PLAIN = {"h", "step", "count", "seconds", "stiffness", "keys"}
+"""Those whose names say all."""
 VALUES = (
     "order.certificate:Order",
     "order.certificate:Witness",
@@ -357,7 +359,7 @@ def page() -> str:
     parts = ["## Types of arguments\n"]
     parts += [f"* `{name}`: {type_text(name, place)}" for name, place in TYPES.items()]
     parts.append("\n## Arguments of several functions\n")
-    parts += [f"* `{name}`: {text}" for name, text in COMMON.items()]
+    parts += [f"* `{name}`: {text}" for name, text in COMMON.items() if name not in PLAIN]
     shown: set[str] = set()
     for head, names in groups():
         things = {name: getattr(garkcli, name) for name in names if name not in shown}
