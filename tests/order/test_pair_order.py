@@ -5,12 +5,13 @@ nothing of B, C and D.
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import Path
 from random import Random
 
 import pytest
 from flint import fmpq
 
-from garkcli import loads
+from garkcli import load, loads
 from garkcli.check.analysis import Analysis
 from garkcli.check.check_file import check_method
 from garkcli.check.deciding import analyse
@@ -18,6 +19,7 @@ from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.certificate import find_order
 from garkcli.order.pair_order import pair_criterion
+from garkcli.properties.reduction import is_plainly_irreducible
 from garkcli.report.checked import REPORT
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.tableau import Tableau
@@ -26,6 +28,7 @@ from tests.oracles.points import numbers
 from tests.order import random_pairs
 from tests.order.own_pairs import compare
 
+VALID = Path(__file__).parents[1] / "examples" / "valid"
 THREE_EIGHTHS = (
     "{A: [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]], b: [1/8, 3/8, 3/8, 1/8]}"
 )
@@ -101,14 +104,41 @@ def test_the_criterion_tree_by_tree() -> None:
         assert brute_order(pair(case), 4) == found
 
 
-def test_negative_weights() -> None:
-    """Yoshida's composition has pair order 6 and criterion 4; a reducible rational one 4 and 2."""
-    yoshida = analysis(loads("compose: {scheme: yoshida-6, of: implicit-midpoint}"))
-    found = pair_reason(yoshida)
-    assert yoshida.pair_order is not None
-    assert found is not None
-    assert (yoshida.pair_order.order, found.order) == (6, 4)
-    assert found.text.endswith("a larger order is not excluded: not all weights are positive")
+@pytest.mark.parametrize(
+    ("source", "orders"),
+    [
+        ("compose: {scheme: yoshida-6, of: implicit-midpoint}", (6, 4)),
+        ("compose: {scheme: triple-jump, order: 6, of: implicit-midpoint}", (6, 4)),
+        (VALID / "negative-weights.gark.yaml", (3, 2)),
+        (VALID / "negative-weights-order4.gark.yaml", (4, 2)),
+    ],
+)
+def test_negative_weights(source: str | Path, orders: tuple[int, int]) -> None:
+    """Irreducible methods whose pair has a higher order than the criterion says."""
+    method = loads(source) if isinstance(source, str) else load(source)
+    found = analysis(method)
+    why = pair_reason(found)
+    assert found.pair_order is not None
+    assert why is not None
+    assert (found.pair_order.order, why.order) == orders
+    assert why.text.endswith("a larger order is not excluded: not all weights are positive")
+    assert is_plainly_irreducible(method.tableau)
+
+
+@pytest.mark.parametrize(("name", "order"), [("", 3), ("-order4", 4)])
+def test_negative_weights_tree_by_tree(name: str, order: int) -> None:
+    """The pair has its order and no higher one by all trees; D(1) fails by its definition."""
+    tableau = load(VALID / f"negative-weights{name}.gark.yaml").tableau
+    assert brute_order(pair(tableau), order + 1) == order
+    A, b = tableau.block(0, 0), tableau.colours[0].b
+    assert A is not None
+    nodes = [sum(row, fmpq(0)) for row in A]
+    columns = [sum((b[i] * A[i][j] for i in range(len(b))), fmpq(0)) for j in range(len(b))]
+    assert columns != [b[j] * (1 - nodes[j]) for j in range(len(b))]
+
+
+def test_a_reducible_method_with_negative_weights() -> None:
+    """Its pair has order 4, where the criterion says 2."""
     rows = numbers(
         *("0,0,0,0,0", "5/24,1/3,-1/24,0,0", "1/6,2/3,1/6,0,0", "1/2,0,0,0,0", "1/2,0,0,0,0"),
         "1/6,2/3,1/6,1,-1",
