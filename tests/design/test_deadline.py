@@ -7,9 +7,9 @@ from contextlib import suppress
 from itertools import count
 
 import pytest
-from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx
+from flint import Ordering, arb, fmpq, fmpq_mat, fmpz_mpoly_ctx
 
-from garkcli import deadline, loads, search_methods
+from garkcli import deadline, load, loads, search_methods
 from garkcli.deadline import check_time, only_small, until, within
 from garkcli.design.choices import walk_down
 from garkcli.design.conditions import FamilyConditions
@@ -22,10 +22,12 @@ from garkcli.design.minimise.parts import nodes_as_coordinates, parts_of
 from garkcli.design.minimise.smallest import critical_point_near
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.real_points import has_methods, without_complex
+from garkcli.design.search.recognise import recognised
 from garkcli.design.search.run import results
 from garkcli.design.search.search import Search
 from garkcli.design.solutions import solutions
 from garkcli.design.stability_kinds import TwoSprings
+from garkcli.design.stable_plane import stable_set
 from garkcli.design.stable_values import stable_values
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import apart, first_of
@@ -44,6 +46,8 @@ from garkcli.exact.projection import (
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.family import loads_family
 from garkcli.order.certificate import find_order
+from garkcli.order.hulls import hulls
+from garkcli.order.weak_stages import weak_stage_order
 
 SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 RANGE3 = "parameters: {a: free}\nA: [[0, 0, 0], [2*a, 0, 0], [0, 1/2, 0]]\nb: [0, 0, 1]\n"
@@ -56,6 +60,15 @@ methods:
   - {family: gauss, stages: 1}
 transfer: {default: collocation, blocks: {"2,1": [[1/2 - t, t]]}}
 structure: semi-separable
+"""
+DIRK2 = "parameters: {g: free, d: free}\nA: [[g, 0], [1 - d, d]]\nb: [1/2, 1/2]\n"
+COMBINED = """parameters: {s: free, t: free}
+methods: [{family: gauss, stages: 1}, {family: lobatto-iiia, stages: 2}]
+transfer: {default: collocation, blocks: {"1,2": [[1/4 + s, 1/4 + t]]}}
+"""
+TRANSFERS = """parameters: {s: free}
+methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]
+transfer: {interpolation: s, collocation: 1 - s}
 """
 CONTEXT = fmpz_mpoly_ctx.get(("x", "y"), Ordering.degrevlex)
 X, Y = CONTEXT.gens()
@@ -118,11 +131,20 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
     )
     yield "stable values", lambda: stable_values(sdirk, "a-stable")
     yield "stable on the oscillator", lambda: stable_values(split.family, "p-stable")
-    springs = loads_family(SPRINGS)
+    springs, of_pair = loads_family(SPRINGS), find_parameters(loads_family(TRANSFERS), 4, "pair")
     yield (
         "stable on two springs",
         lambda: stable_values(springs, "p-stable", two_springs=TwoSprings(fmpq(1), 1)),
     )
+    yield "stable in a plane", lambda: stable_set(loads_family(DIRK2), "a-stable")
+    yield "stable in one combination", lambda: stable_set(loads_family(COMBINED), "a-stable")
+    transfers = loads_family(TRANSFERS)
+    yield "order of the pair", lambda: decided(find_parameters(transfers, 5, "pair"))
+    yield "error of the pair", lambda: minimise(of_pair, "error")
+    dirk = load("wso-433").tableau
+    yield "weak stage order", lambda: weak_stage_order(dirk, [0], 9)
+    yield "hulls", lambda: hulls(dirk, 3)
+    yield "recognition of roots", lambda: recognised({"x": arb(2).sqrt()}, 60)
     yield "search", lambda: list(results(Search(sdirk, 3), 3))
     yield "proof of a find", lambda: Search(sdirk, 3).find(1, [0.7886751345948129])
     yield "real roots", lambda: real_roots(QUINTIC)
