@@ -10,6 +10,8 @@ from flint import Ordering, ctx, fmpq, fmpq_mpoly_ctx
 from garkcli import find_parameters, load, load_family, loads
 from garkcli.design.ideal import Ideal
 from garkcli.exact.display import to_ball
+from garkcli.exact.polynomial import Polynomial
+from garkcli.order.certificate import find_order
 from garkcli.order.constants import error_constants
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.oscillator import oscillator_stability
@@ -49,6 +51,20 @@ def test_the_pairs_are_p_stable(name: str) -> None:
     tableau = pair(tableau_of(name))
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
     assert oscillator_stability(tableau, problem).is_p_stable
+
+
+def test_p_stable_with_a_negative_weight() -> None:
+    """Where Theorem E of docs/pair-order.md has w = −1/4: tr R = 2 − x/(1 + x/2) = 4/(2 + x)."""
+    second = "{A: [[0, 0, 0], [1/4, 1/2, -1/4], [0, 1, 0]], b: [-1/2, 2, -1/2]}"
+    transfer = '{blocks: {"2,1": [[0], [1/2], [1]], "1,2": [[-1/4, 1, -1/4]]}}'
+    tableau = pair(
+        loads(f"methods: [{{A: [[1/2]], b: [1]}}, {second}]\ntransfer: {transfer}").tableau
+    )
+    assert find_order(tableau).order == 2
+    found = oscillator_stability(tableau, Oscillator.default(terms_of(tableau), fmpq(1)))
+    x = Polynomial([0, 1])
+    assert found.trace.numerator * (x + 2) == found.trace.denominator * 4
+    assert found.is_p_stable
 
 
 @pytest.mark.parametrize("s", [1, 2, 3, 4])
