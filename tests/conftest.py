@@ -5,11 +5,14 @@ import gc
 import os
 import sys
 from collections.abc import Generator
+from functools import lru_cache
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from garkcli.methodfile import composing
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -21,6 +24,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
 settings.register_profile("gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM)
 settings.load_profile("gark")
+
+# Thousands of runs read a few hundred files: the nodes of a text, which nothing changes, are kept.
+composing.compose = lru_cache(maxsize=600)(composing.compose)
 
 
 @given(st.none())
