@@ -166,7 +166,7 @@ def test_a_problem_is_an_entry(copy: Copy) -> None:
     listed, converged, followed = copy.gark(
         "list problems",
         "converge m.yaml --problem swing",
-        "energy m.yaml --problem swing --t-end 2 --format json",
+        "energy m.yaml --problem swing --t-end 40 --format json",
     )
     assert "swing" in listed
     assert "they agree" in converged
