@@ -2,7 +2,8 @@
 
 The theory of ``proofs/`` is compiled, then the file of ``gark certificate --format coq`` for every
 exact method of ``methods/`` and of the catalogue. Files with one number changed are refused. Theorem
-B says of lines of docs/pair-order.md which conditions hold, from the orders in their certificates.
+B says of lines of docs/pair-order.md which conditions hold, from the orders in their certificates;
+where weights are negative it does not.
 """
 
 from __future__ import annotations
@@ -57,6 +58,19 @@ Proof.
 Qed.
 Print Assumptions not_one_higher.
 """
+NEGATIVE = (("negative-weights", 3), ("negative-weights-order4", 4))
+SIGNS_MATTER = """
+From Gark Require Import Conditions PairOrder.
+Theorem signs_matter : has_order the_pair {order} /\\ ~ criterion the_method (row_sums the_method) 1 {order}.
+Proof.
+  split; [exact order_of_pair|]. intros [_ [CD _]].
+  assert (first : (0 < N the_method)%nat) by (vm_compute; auto).
+  destruct (CD 0%nat 0%nat first first ltac:(discriminate)) as [_ D1].
+  assert (E := D1 1%nat (unit 0) 0%nat ltac:(auto) ltac:(vm_compute; auto)).
+  vm_compute in E. discriminate E.
+Qed.
+Print Assumptions signs_matter.
+"""
 
 
 def coqc(name: str) -> subprocess.CompletedProcess[str]:
@@ -93,6 +107,13 @@ def reasoned(number: int, first: str, second: str, transfer: str, order: int) ->
     method = loads(f"methods: [{first}, {second}]\ntransfer: {transfer}")
     why = CRITERION.format(k=(order - 1) // 2, order=order, next_k=order // 2, next=order + 1)
     return told(f"pair{number}", certificate(method, format="coq") + why)
+
+
+def signs_matter(number: int, name: str, order: int) -> tuple[str, str]:
+    """What Coq says of a method with a negative weight whose pair has that order without D(1)."""
+    method = load(ROOT / "tests" / "examples" / "valid" / f"{name}.gark.yaml")
+    text = certificate(method, format="coq") + SIGNS_MATTER.format(order=order)
+    return told(f"signs{number}", text)
 
 
 def mutant_file(text: str, rng: random.Random, count: int) -> str:
@@ -147,6 +168,10 @@ def main() -> int:
     for number, (first, second, transfer, order) in enumerate(PAIRS):
         verdict, why = reasoned(number, first, second, transfer, order)
         print(f"{verdict:9} why a pair has order {order}: {why.splitlines()[0]}", flush=True)
+        bad += verdict != "proved"
+    for number, (name, order) in enumerate(NEGATIVE):
+        verdict, why = signs_matter(number, name, order)
+        print(f"{verdict:9} order {order} without D(1): {why.splitlines()[0]}", flush=True)
         bad += verdict != "proved"
     files = sorted(str(p) for p in (ROOT / "methods").rglob("*.gark.yaml"))
     sources = [x for x in [*files, *catalogue] if only in x]
