@@ -7,11 +7,11 @@ one parameter between the zeros of the polynomials whose signs matter; A-, L- an
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import chain, pairwise
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq
 
 from garkcli.check.every_facts import Fact, Question, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
@@ -111,7 +111,7 @@ def _of_set(
 def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
     """Whether a set, without gaps within its intervals, is every value with a method."""
     [(least, greatest)] = family.family.ranges.values()
-    poles = {root for p in family.poles for root in _roots(p)}
+    poles = {root for p in family.poles for root, _ in real_roots(in_one(p))}
     first, last = found[0], found[-1]
     has_start = first.has_start or first.start in (None, *poles)
     has_end = last.has_end or last.end in (None, *poles)
@@ -127,11 +127,6 @@ def _same(end: RealRoot | None, bound: fmpq | None) -> bool:
     if end is None or bound is None:
         return end is None and bound is None
     return end == RealRoot.rational(bound)
-
-
-def _roots(p: fmpq_mpoly) -> Iterator[RealRoot]:
-    for root, _ in real_roots(in_one(p)):
-        yield root
 
 
 def _by_signs(family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[object]) -> Fact:

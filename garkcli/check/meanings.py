@@ -237,7 +237,7 @@ def explain(word: str) -> list[Meaning]:
         return field_meanings(word) or field_meanings(key_of(word)) or [_of_message(word)]
     # b is a weight, and B a condition: letters alone are taken at their word
     is_letter = len(plain(word)) == 1
-    return exactly if is_letter and exactly else _once(exactly + nearly)
+    return exactly if is_letter and exactly else list(dict.fromkeys(exactly + nearly))
 
 
 def _known(word: str) -> list[tuple[Sense, str]]:
@@ -247,11 +247,6 @@ def _known(word: str) -> list[tuple[Sense, str]]:
         label = _FIRST_VALUE.split(word)[0]
         return every.get(label, []) if len(label) > 1 else []
     return every[word]
-
-
-def _once(found: list[Meaning]) -> list[Meaning]:
-    """Meanings without those that another word has led to already."""
-    return list(dict.fromkeys(found))
 
 
 def _of_message(text: str) -> Meaning:

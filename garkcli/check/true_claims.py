@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.claims import claimed_text, found_value
@@ -95,11 +95,6 @@ def _of_number(size: Size) -> str:
 def _written(value: object) -> str:
     """A value in YAML; ``>= 4`` would begin a folded text there, so it stands in quotes."""
     if isinstance(value, list):
-        return f"[{', '.join(_parts(value))}]"
+        return f"[{', '.join(map(_written, value))}]"
     text = claimed_text(value)
     return f'"{text}"' if isinstance(value, AtLeast) else text
-
-
-def _parts(values: list[object]) -> Iterator[str]:
-    for value in values:
-        yield _written(value)
