@@ -146,7 +146,7 @@ REPORT: Report[Audit] = Report.only(
     "gark/audit/1",
     "report of gark audit",
     Section(
-        Row("answer", told(_answer), lambda x: x, HEADLINE, label=""),
+        Row("answer", told(_answer), ".", HEADLINE, label=""),
         Row("tables", parts(TABLE), level=DETAIL),
         Row("wrong_tables", shown(WRONG, MOST), "wrong", label="tables", is_short=True),
         Row("summary", part(SUMMARY), "tables", DATA),

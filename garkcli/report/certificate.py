@@ -168,7 +168,7 @@ TRUE_OF = [
     Row("order", COUNT, "order.order", DATA),
     Row("spanning", TREES, level=DATA),
     maybe("witness", part(WITNESS), _witness, DATA),
-    Row("spanning_in_words", rows_of(_tree_rows), lambda x: x, DETAIL),
+    Row("spanning_in_words", rows_of(_tree_rows), ".", DETAIL),
 ]
 TRUTH_OF = Section(*TRUE_OF)
 PROOF = Section(

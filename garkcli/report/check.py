@@ -62,7 +62,7 @@ def _method_words(outcome: Any, d: Plain) -> str:
     return f"{text}; decided in {field}"
 
 
-METHOD = Row("method", told(_method_words, _method_phrase), lambda o: o, line="method")
+METHOD = Row("method", told(_method_words, _method_phrase), ".", line="method")
 
 
 def title(outcome: Any, d: Plain) -> str:
@@ -660,12 +660,7 @@ ANALYSIS = [
         line="method",
         is_short=True,
     ),
-    Row(
-        "simplifying",
-        replace(part(SIMPLIFYING), phrase=_simplifying_phrase),
-        lambda a: a,
-        line="method",
-    ),
+    Row("simplifying", replace(part(SIMPLIFYING), phrase=_simplifying_phrase), ".", line="method"),
     of_several("conjugate_order"),
     of_several("pair_order"),
     with_time("nonautonomous_order", lambda a: a.nonautonomous_order),
@@ -706,7 +701,7 @@ ANALYSIS = [
         line="symplectic",
         is_short=True,
     ),
-    Row("properties", part(PROPERTIES), lambda a: a, line="symplectic"),
+    Row("properties", part(PROPERTIES), ".", line="symplectic"),
     Row("by_colour", told(_colours_words), colours_apart, label="colours", is_short=True),
     Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
 ]
@@ -754,7 +749,7 @@ def _claims_cell(o: Any, d: Plain) -> str:
     return held if o.claims else "none"
 
 
-IN_BRIEF = Row("claims_in_brief", told(_claims_cell), lambda o: o, DATA, label="claims")
+IN_BRIEF = Row("claims_in_brief", told(_claims_cell), ".", DATA, label="claims")
 CLAIMS = (
     IN_BRIEF,
     Row("claims", parts(CLAIM), level=DATA),

@@ -44,7 +44,7 @@ REPORT: Report[Outcome] = Report(
     forms,
     form,
     _signs,
-    tail=Section(Row("summary", part(SUMMARY), lambda xs: xs)),
+    tail=Section(Row("summary", part(SUMMARY), ".")),
     is_open=True,
 )
 

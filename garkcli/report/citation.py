@@ -245,7 +245,7 @@ REPORT: Report[Sequence[Cited]] = Report.only(
     "report of gark cite",
     Section(
         Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
-        Row("methods", shown(LINE, 0), lambda x: x),
+        Row("methods", shown(LINE, 0), "."),
         title=lambda x, _: counted(len(x), "publication"),
     ),
 )

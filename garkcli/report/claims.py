@@ -35,7 +35,7 @@ FILE = Section(
         for row in (
             Row("file", TEXT, level=DATA),
             Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
-            Row("claims_in_words", rows_of(_claim_rows), lambda x: x),
+            Row("claims_in_words", rows_of(_claim_rows), "."),
             Row("not_claimed", TEXTS, lambda x: list(x.left)),
         )
     ),

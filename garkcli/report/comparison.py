@@ -134,10 +134,10 @@ def _tested(row: Row) -> Row:
 
 METHOD = Section(
     Row("letter", TEXT, label=""),
-    _tested(Row("observed", told(lambda x, _: order_text(x.observed_order)), lambda x: x)),
+    _tested(Row("observed", told(lambda x, _: order_text(x.observed_order)), ".")),
     _tested(Row("visible", COUNT, visible)),
     _tested(Row("predicted", COUNT, predicted)),
-    Row("verdict", told(_verdict), lambda x: x),
+    Row("verdict", told(_verdict), "."),
     Row("method", TEXT, "name"),
 )
 
@@ -190,9 +190,7 @@ def _errors(x: Sizes, d: Plain) -> Iterator[tuple[str, str]]:
         yield f"slope {letter}", "" if row.slope is None else f"{row.slope:.2f}"
 
 
-SIZE = Section(
-    Row("h", STEP_SIZE), Row("errors", rows_of(lambda x, d: list(_errors(x, d))), lambda x: x)
-)
+SIZE = Section(Row("h", STEP_SIZE), Row("errors", rows_of(lambda x, d: list(_errors(x, d))), "."))
 
 # the costs
 
@@ -207,7 +205,7 @@ class Work(NamedTuple):
 WORK = Section(
     Row("letter", TEXT, label=""),
     Row("h", STEP_SIZE, "row.h"),
-    Row("error", told(lambda x, d: d.prose(scientific(x.row.error))), lambda x: x),
+    Row("error", told(lambda x, d: d.prose(scientific(x.row.error))), "."),
     maybe("cost", part(COST), "row.cost"),
 )
 EQUAL = Section(
@@ -304,7 +302,7 @@ REPORT: Report[Compared] = Report.only(
     "gark/converge-comparison/1",
     "report of gark converge of several methods",
     Section(
-        Row("answer", told(lambda _, d: "", _answer), lambda c: c, HEADLINE, label=""),
+        Row("answer", told(lambda _, d: "", _answer), ".", HEADLINE, label=""),
         Row("problem_in_words", WORDS, _problem, label="problem"),
         Row("remarks", rows_of(lambda xs, d: [(x, d.prose(text)) for x, text in xs]), _remarks),
         Row("methods", shown(METHOD, MOST_METHODS), "named", label=""),
@@ -312,9 +310,9 @@ REPORT: Report[Compared] = Report.only(
         Row("work", shown(WORK, MOST_METHODS), _work),
         _equal("evaluations"),
         _equal("seconds"),
-        Row("plot", picture(_plot), lambda c: c, DETAIL),
+        Row("plot", picture(_plot), ".", DETAIL),
         Row("results", parts(RESULT), "named", DATA),
-        Row("summary", part(SUMMARY), lambda c: c, DATA),
+        Row("summary", part(SUMMARY), ".", DATA),
     ),
     lines=lambda c: (
         Section(*LINE, *via(lambda x: x[1], (WORKED if c.has_work else STEP).rows)),

@@ -252,11 +252,11 @@ _TREE = (
     Row(
         "tree",
         Kind(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape), lambda x, d: d.tree(x.tree)),
-        lambda x: x,
+        ".",
     ),
     replace(_ROOT, get=lambda x: None if x.is_shape else x.tree.root, has_null=True),
     *_SIZES,
-    Row("condition", Kind(S.TEXT, lambda x, _: x.text(), _formula), lambda x: x, DETAIL),
+    Row("condition", Kind(S.TEXT, lambda x, _: x.text(), _formula), ".", DETAIL),
     optional(
         "for_all",
         Kind(S.array(S.TEXT), words=_for_all, csv=lambda _: {}),
@@ -280,7 +280,7 @@ _VALUES = (
 _CLASS = (
     optional("stands_for", POSITION, lambda x: x.stands_for or None, DETAIL),
     optional("members", TREES, lambda x: [format_tree(u) for u in x.members] or None, DATA),
-    Row("condition", told(_in_words), lambda x: x, is_short=True),
+    Row("condition", told(_in_words), ".", is_short=True),
 )
 _OF_METHOD = (
     Row("derivation", Kind(S.DERIVATION), "valued.derivation", DATA),

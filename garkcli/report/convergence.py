@@ -279,7 +279,7 @@ STIFF = Section(
 )
 _RESULT = [
     Row("t_end", EXACT, level=DATA),
-    Row("answer", told(lambda _, d: "", _answer_phrase), lambda x: x, HEADLINE, label=""),
+    Row("answer", told(lambda _, d: "", _answer_phrase), ".", HEADLINE, label=""),
     Row("visible_order", COUNT, visible),
     Row("visible_order_is_exact", TRUTH, "visible.is_sharp", DATA),
     Row("predicted_order", COUNT, predicted),

@@ -526,7 +526,7 @@ WHOLE = Section(
     Row("file", TEXT, level=DATA),
     Row("name", TEXT, "design.family.name", DETAIL),
     Row("of", choice(*get_args(Whose)), "design.whose", DATA),
-    Row("answer", told(answer), lambda x: x, HEADLINE, label=""),
+    Row("answer", told(answer), ".", HEADLINE, label=""),
     Row("least", told(_least), "minimum", HEADLINE, label=""),
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
     Row("choices", parts(CHOICE), level=DATA),
@@ -538,11 +538,11 @@ WHOLE = Section(
         lambda x: [Order(x.design, step) for step in x.design.steps],
         DATA,
     ),
-    Row("orders_in_words", rows_of(order_rows), lambda x: x),
+    Row("orders_in_words", rows_of(order_rows), "."),
     optional("objective", part(OBJECTIVE), "minimum", DATA),
     Row("best_in_words", rows_of(best_rows), "minimum"),
     optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),
-    Row("stable_in_words", rows_of(stable_rows), lambda x: x),
+    Row("stable_in_words", rows_of(stable_rows), "."),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[DesignReport] = Report.only(

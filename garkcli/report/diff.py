@@ -218,12 +218,12 @@ def _side(which: str, index: int) -> Row:
             return _entry_words(getattr(gap.entry, which), d)
         return gap.block.shapes[index] if gap.block.shapes else ""
 
-    return Row(("first", "second")[index], told_kind(words), lambda gap: gap)
+    return Row(("first", "second")[index], told_kind(words), ".")
 
 
 GAP = (
-    Row("block", told_kind(_block_words), lambda gap: gap, label=""),
-    Row("largest", told_kind(_place_words), lambda gap: gap, label="largest"),
+    Row("block", told_kind(_block_words), ".", label=""),
+    Row("largest", told_kind(_place_words), ".", label="largest"),
     _side("one", 0),
     _side("other", 1),
     Row("difference", ENTRY, "entry.gap", label="off by"),
@@ -313,7 +313,7 @@ REPORT: Report[Compared] = Report.only(
         Row("same", SAID, told),
         maybe("same", part(SAME), "found.sameness", DATA),
         Row("tolerance", SAID, tolerances),
-        Row("orders", told_kind(_orders_words), lambda x: x),
+        Row("orders", told_kind(_orders_words), "."),
         Row("conditions", told_kind(_conditions_words), "found.met"),
         Row("differences", parts(BLOCK), "found.gaps", DATA),
         Row(

@@ -390,8 +390,8 @@ RUN = [
             ("drifts", TRUTH, lambda x: x.drifts),
         )
     ),
-    Row("answer", told(lambda _, d: "", _answer), lambda x: x, HEADLINE, label=""),
-    Row("verdicts", rows_of(_verdicts), lambda x: x),
+    Row("answer", told(lambda _, d: "", _answer), ".", HEADLINE, label=""),
+    Row("verdicts", rows_of(_verdicts), "."),
     Row(
         "quantities",
         table(QUANTITY, MOST_QUANTITIES),

@@ -327,9 +327,9 @@ EVERY_STABILITY = Section(
     Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
     Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
     Row("functions", parts(FUNCTION), level=DATA),
-    Row("stability", part(STABLE), lambda x: x, DATA),
+    Row("stability", part(STABLE), ".", DATA),
     Row("functions_in_words", rows_of(_function_rows), "functions"),
-    Row("stability_in_words", rows_of(_stability_rows), lambda x: x),
+    Row("stability_in_words", rows_of(_stability_rows), "."),
     title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )
 STABILITY: Report[EveryStability] = Report(

@@ -79,10 +79,10 @@ REPORT: Report[Sequence[Found]] = Report.only(
     "gark/import/1",
     "report of gark import",
     Section(
-        Row("methods", parts(METHOD), lambda x: x, DATA),
-        Row("name", shown(LINE, 0), lambda x: x),
+        Row("methods", parts(METHOD), ".", DATA),
+        Row("name", shown(LINE, 0), "."),
         Row("name", shown(NOTE, 0), _notes),
-        Row("texts", picture(_texts), lambda x: x, DETAIL),
+        Row("texts", picture(_texts), ".", DETAIL),
         title=lambda x, _: counted(sum(y.result.method is not None for y in x), "method"),
     ),
 )

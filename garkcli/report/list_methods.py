@@ -153,12 +153,12 @@ def _type(entry: Entry) -> str:
 
 LINE = Section(
     Row("name", TEXT, lambda x: x["name"], label=""),
-    Row("order", told(_order_words), lambda x: x),
-    Row("stages", told(_stages_words), lambda x: x),
+    Row("order", told(_order_words), "."),
+    Row("stages", told(_stages_words), "."),
     Row("kind", TEXT, lambda x: x["kind"] or "unread"),
     Row("explicit", TEXT, _type, label="type"),
-    Row("properties", told(_marks_words), lambda x: x, label="is"),
-    Row("reference", told(_reference_words), lambda x: x),
+    Row("properties", told(_marks_words), ".", label="is"),
+    Row("reference", told(_reference_words), "."),
     is_cut=True,
 )
 """A method in a line."""
@@ -179,8 +179,8 @@ REPORT: Report[Sequence[Entry]] = ListReport.only(
     "",
     "list of gark list methods",
     Section(
-        Row("methods", parts(Section(*METHOD)), lambda x: x, DATA),
-        Row("name", shown(LINE, 0), lambda x: x),
+        Row("methods", parts(Section(*METHOD)), ".", DATA),
+        Row("name", shown(LINE, 0), "."),
         title=_title,
     ),
     lines=lambda entries: (Section(*METHOD), entries),

@@ -70,7 +70,7 @@ FAMILY = Section(
     Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),
     Row("order", TEXT),
     Row("summary", TEXT, level=DATA),
-    Row("summary", told(_family_words), lambda x: x),
+    Row("summary", told(_family_words), "."),
 )
 NAMED = Section(NAME, Row("summary", TEXT, "1"))
 TOPIC = Section(Row("name", TEXT, "0", label=""), Row("count", TEXT, "1"), Row("see", TEXT, "2"))

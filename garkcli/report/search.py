@@ -117,7 +117,7 @@ WHOLE = Section(
     Row("file", TEXT, level=DATA),
     Row("name", TEXT, "search.family.name", DETAIL),
     Row("of", choice(*get_args(Whose)), "search.whose", DATA),
-    Row("answer", told(_found), lambda x: x, HEADLINE, label=""),
+    Row("answer", told(_found), ".", HEADLINE, label=""),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
     Row("order", POSITION, "search.order", DATA),
     *via(

@@ -411,12 +411,7 @@ IMEX = Section(
     Row("implicit", kinds.TEXT, lambda c: c.names[c.pair.implicit], DATA),
     maybe("real_interval", _ray("−z"), "real"),
     maybe("imaginary_interval", _ray("|z|"), "imaginary"),
-    Row(
-        "region",
-        picture(lambda c, _: list(damped_lines(c.pair, c.explicit_alone))),
-        lambda c: c,
-        DETAIL,
-    ),
+    Row("region", picture(lambda c, _: list(damped_lines(c.pair, c.explicit_alone))), ".", DETAIL),
     title=lambda c, d: d.prose(
         f"implicit-explicit pair, z{c.pair.explicit + 1} with |R| ≤ 1 for every"
         f" z{c.pair.implicit + 1} with Re ≤ 0"
@@ -516,7 +511,7 @@ SLOW = Section(
     *via(
         lambda x: x.slow,
         [
-            Row("slow", FROM_TO, lambda s: s, label="two springs, x = (hω_fast)²"),
+            Row("slow", FROM_TO, ".", label="two springs, x = (hω_fast)²"),
             Row("stable", STABLE),
             maybe(
                 "stable_for_every_fast",

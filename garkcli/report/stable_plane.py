@@ -153,9 +153,9 @@ WHOLE = Section(
             Row("unknowns", TEXTS, lambda x: list(x.family.ring.names), DATA),
             Row("wanted", choice("a-stable"), lambda _: "a-stable", DATA),
             maybe("colour", INDEX, level=DATA),
-            Row("answer", told(lambda x, d: _answer(x, d)), lambda x: x, HEADLINE, label=""),
-            Row("ends", rows_of(strips), lambda x: x),
-            Row("strips", STRIPS, lambda x: x, DATA),
+            Row("answer", told(lambda x, d: _answer(x, d)), ".", HEADLINE, label=""),
+            Row("ends", rows_of(strips), "."),
+            Row("strips", STRIPS, ".", DATA),
             Row("undecided", ROOTS, level=DATA),
         )
     ),

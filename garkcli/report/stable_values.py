@@ -120,11 +120,11 @@ WHOLE = Section(
             Row(
                 "answer",
                 told(lambda x, d: f"the {x.whose} is {stability(x, d)}"),
-                lambda x: x,
+                ".",
                 HEADLINE,
                 label="",
             ),
-            Row("ends", rows_of(ends), lambda x: x),
+            Row("ends", rows_of(ends), "."),
             *FOUND,
         )
     ),

@@ -152,7 +152,7 @@ def section(report: SweepReport | None = None) -> Section:
     return Section(
         Row("file", TEXT, "source", DATA),
         Row("name", TEXT, "plan.name", DATA),
-        Row("answer", told(_answer), lambda x: x, HEADLINE, label=""),
+        Row("answer", told(_answer), ".", HEADLINE, label=""),
         Row("methods", COUNT, lambda x: len(x.plan), DATA),
         Row("kept", COUNT, lambda x: len(x.best), DATA),
         Row("repeated", COUNT, level=DATA),

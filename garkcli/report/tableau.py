@@ -93,7 +93,7 @@ TABLEAU = Section(
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
     *via(lambda x: x.entries, _entries(NUMERAL, lambda every, x: cell_text(x, every.digits))),
     Row("float", part(FLOATS), "entries", DATA),
-    Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), lambda x: x),
+    Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "."),
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"

@@ -110,7 +110,7 @@ def pictures(tree: Callable[[Any], Tree]) -> tuple[Row, Row]:
         return "\n".join(d.drawing(draw_text(found, d.has_colours(found))))
 
     return (
-        Row("picture", told(lambda x, d: d.sketch(tree(x))), lambda x: x, DETAIL, label=""),
+        Row("picture", told(lambda x, d: d.sketch(tree(x))), ".", DETAIL, label=""),
         Row(
             "drawn",
             told(small),
@@ -180,7 +180,7 @@ COUNTS = Section(
     optional(
         "by_order", Kind(counts_of("order")), lambda x: x.by_order if x.query.upto else None, DATA
     ),
-    Row("counts", rows_of(lambda x, d: [*_count_rows(x, d)]), lambda x: x),
+    Row("counts", rows_of(lambda x, d: [*_count_rows(x, d)]), "."),
 )
 COUNTED = Section(*(Row(key, COUNT) for key in ("order", "root", "count")))
 

@@ -186,8 +186,8 @@ class Row(Frozen):
         key: its name in JSON; its label and its sentence are found by it.
         kind: of its values.
         get: the value, or an ``Answer``, of what the section describes; a text for a path of
-            attributes and places, such as ``rows.0.value``, along which None stays None; None for
-            the attribute of the key.
+            attributes and places, such as ``rows.0.value``, along which None stays None, or a dot
+            for what is described itself; None for the attribute of the key.
         level: where it is told, or that from its answer.
         has_null: whether there may be no value.
         is_optional: whether JSON leaves it out then.
@@ -219,7 +219,7 @@ class Row(Frozen):
         if path.isidentifier():  # most are, and lists of trees are long
             return getattr(whole, path)
         for name in path.split("."):
-            if whole is not None:
+            if whole is not None and name:
                 whole = whole[int(name)] if name.isdecimal() else getattr(whole, name)
         return whole
 

@@ -47,7 +47,7 @@ def sentence(words: Callable[[Any], str]) -> Row:
         text = words(x)
         return d.sentence(d.prose(text), 0) if text else []
 
-    return Row("sentence", drawing(lines), lambda x: x, label="")
+    return Row("sentence", drawing(lines), ".", label="")
 
 
 def parts(section: Section, words: Words | None = None) -> Kind:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -23,8 +24,8 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Row, Section
-from garkcli.tell.kinds import COUNT, EXPRESSION, TEXT
+from garkcli.tell.facts import Row, Section, maybe, optional
+from garkcli.tell.kinds import COUNT, EXPRESSION, INDEX, TEXT
 from garkcli.tell.parts import part, rows_of, table
 from garkcli.tell.report import Report
 from tests.cli.harness import ROOT, gark
@@ -442,3 +443,34 @@ def test_conjugate_and_pair_of_a_family_of_one_colour_are_details(tmp_path: Path
         "transfer: {interpolation: tau, collocation: 1 - tau}\n"
     )
     assert "pair order" in gark("check", str(two)).out
+
+
+def test_a_row_takes_its_value_by_a_path() -> None:
+    """A path leads through attributes and places, stops at None, and a dot is the whole; without
+    one the key is the attribute. What may be missing says so in the schema.
+    """
+    inner = SimpleNamespace(count=3, text="x")
+    whole = SimpleNamespace(count=1, pair=(None, inner), nothing=None)
+    assert Row("count", COUNT).answer(whole).value == 1
+    assert Row("n", COUNT, "pair.1.count").answer(whole).value == 3
+    assert maybe("n", COUNT, "pair.0.count").answer(whole).value is None
+    assert maybe("n", COUNT, "nothing.count.more").answer(whole).value is None
+    assert Row("n", COUNT, ".").answer(whole).value is whole
+    assert Row("n", COUNT, "count").of(lambda x: x.pair[1]).answer(whole).value == 3
+    assert Row("n", COUNT, "count").of(lambda x: x.nothing).answer(whole).value is None
+    with pytest.raises(AttributeError):
+        Row("n", COUNT, "pair.1.size").answer(whole)
+    section = Section(
+        maybe("null", COUNT, "nothing"), optional("left", COUNT, "nothing"), Row("count", COUNT)
+    )
+    assert section.data(whole, Plain()) == {"null": None, "count": 1}
+    assert section.schema["required"] == ["null", "count"]
+    Draft7Validator(section.schema).validate(section.data(whole, Plain()))
+
+
+def test_what_counts_from_0_is_told_from_1() -> None:
+    """People and programs get the number of a stage or colour from 1."""
+    section = Section(Row("entry", INDEX), maybe("row", INDEX))
+    whole = SimpleNamespace(entry=0, row=None)
+    assert section.data(whole, Plain()) == {"entry": 1, "row": None}
+    assert INDEX(0).words(Plain()) == "1"
