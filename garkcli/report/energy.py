@@ -74,20 +74,21 @@ class Quantity(NamedTuple):
 # verdicts
 
 
+_WORDS: dict[str, tuple[str, str]] = {
+    "exact": ("good", "conserved"),
+    "round-off": ("good", "no error"),
+    "bounded": ("good", "bounded"),
+    "unstable": ("bad", "UNSTABLE"),
+    "undecided": ("note", "undecided"),
+    "drifts": ("bad", "DRIFTS"),
+}
+"""What news a verdict is, and its word."""
+
+
 def _word(history: InvariantHistory, d: Plain) -> str:
     """The verdict."""
-    match history.verdict:
-        case "exact":
-            return d.good("conserved")
-        case "round-off":
-            return d.good("no error")
-        case "bounded":
-            return d.good("bounded")
-        case "unstable":
-            return d.bad("UNSTABLE")
-        case "undecided":
-            return d.note("undecided")
-    return d.bad("DRIFTS")
+    news, word = _WORDS[history.verdict]
+    return str(getattr(d, news)(word))
 
 
 def _because(history: InvariantHistory, run: LongRun) -> str:
@@ -100,7 +101,7 @@ def _because(history: InvariantHistory, run: LongRun) -> str:
         case "unstable":
             return _unstable(history, run)
         case "undecided":
-            return "; ".join([f": {_undecided(history, run)}", *_cure(history, run)])
+            return f": {'; '.join(filter(None, _undecided(history, run)))}"
         case "bounded":
             return _bounded(run)
     return f": {_reason(history, run)}"
@@ -125,51 +126,40 @@ def _unstable(history: InvariantHistory, run: LongRun) -> str:
     return f": the orbit escapes after t = {time:g}, where the error is {error}"
 
 
-def _undecided(history: InvariantHistory, run: LongRun) -> str:
-    """Why."""
-    match history.doubt:
-        case "steps":
-            return f"fewer than {LEAST} steps"
-        case "turns":
-            return f"the motion turns back {counted(run.turns, 'time')} only"
-        case "rest":
-            return "the solution does not move"
-        case "value":
-            return f"it has no value at t = {history.no_value_at}"
-        case "round-off":
-            return "rounding may be as large as it is"
-        case "modulation":
-            slope = f"the slope is {_times(history)} times its uncertainty"
-            return f"{slope}; a slow modulation may do that"
-        case "symplectic":
-            direction = _direction(history)
-            return (
-                f"it {direction} throughout; for a symplectic method that is usually a slow "
-                "oscillation"
-            )
-        case "rounding":
-            return "drifts; rounding of the coefficients may be the cause"
-    return "it moves to another level; that may happen once, or again and again"
-
-
-def _cure(history: InvariantHistory, run: LongRun) -> list[str]:
-    """What decides an undecided run."""
-    match history.doubt:
-        case None:
-            return []
-        case "rest":
-            return ["start elsewhere"]
-        case "value":
-            return ["choose an invariant that has one all along, or an earlier --t-end"]
-        case "round-off":
-            return [f"--digits {2 * (run.digits or FLOAT_DIGITS)} can tell"]
-        case "rounding":
-            return ["coefficients with more digits can tell"]
+def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
+    """Why, and what decides it."""
+    longer = f"--t-end {history.longer}"
+    can_tell = f"{longer} can tell"
     if history.longer is None:
-        return ["a larger step, for a longer time, can tell"]
-    if history.doubt == "symplectic":
-        return [f"try --t-end {history.longer}"]
-    return [f"--t-end {history.longer} can tell"]
+        can_tell = "a larger step, for a longer time, can tell"
+    doubts = {
+        "steps": (f"fewer than {LEAST} steps", can_tell),
+        "turns": (f"the motion turns back {counted(run.turns, 'time')} only", can_tell),
+        "rest": ("the solution does not move", "start elsewhere"),
+        "value": (
+            f"it has no value at t = {history.no_value_at}",
+            "choose an invariant that has one all along, or an earlier --t-end",
+        ),
+        "round-off": (
+            "rounding may be as large as it is",
+            f"--digits {2 * (run.digits or FLOAT_DIGITS)} can tell",
+        ),
+        "modulation": (
+            f"the slope is {_times(history)} times its uncertainty; a slow modulation may do that",
+            can_tell,
+        ),
+        "symplectic": (
+            f"it {_direction(history)} throughout; for a symplectic method that is usually a slow "
+            "oscillation",
+            can_tell if history.longer is None else f"try {longer}",
+        ),
+        "rounding": (
+            "drifts; rounding of the coefficients may be the cause",
+            "coefficients with more digits can tell",
+        ),
+    }
+    level = "it moves to another level; that may happen once, or again and again"
+    return doubts.get(history.doubt or "", (level, can_tell if history.doubt else ""))
 
 
 def _bounded(run: LongRun) -> str:
