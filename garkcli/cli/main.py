@@ -13,21 +13,8 @@ from typing import NoReturn
 import click
 from click.shell_completion import CompletionItem
 
+from garkcli.cli import streams
 from garkcli.cli.options import command_of, help_option
-from garkcli.cli.streams import (
-    INTERRUPTED,
-    READER_GONE,
-    Ended,
-    NoStandardOutput,
-    ReaderGone,
-    complain,
-    drop,
-    ending,
-    flush,
-    prepare,
-    put,
-    say,
-)
 from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import GarkError, UsageProblem, counted
@@ -76,7 +63,7 @@ class _LazyGroup(click.Group):
 
 def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not context.resilient_parsing:
-        put(f"gark {__version__}\n")
+        streams.put(f"gark {__version__}\n")
         context.exit()
 
 
@@ -117,7 +104,7 @@ def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read wh
         transfer: collocation
     """  # noqa: D301 -- click's sign for lines that stay as they are
     if context.invoked_subcommand is None:
-        say(context.get_help())
+        streams.say(context.get_help())
         return 2
     context.with_resource(watching(f"gark {context.invoked_subcommand}"))
     return 0
@@ -134,7 +121,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     the report.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
-    prepare()
+    streams.prepare()
     # there is no use in looking for circles a last time, in all that was loaded
     atexit.register(gc.freeze)
     if COMPLETION in os.environ:
@@ -145,31 +132,31 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 def _exit_code(arguments: list[str]) -> int:
     """Run the command line, say what went wrong, and return the exit code."""
     try:
-        with ending(), noting_inputs():
+        with streams.ending(), noting_inputs():
             code = _run(arguments)
-            flush()
+            streams.flush()
             return code
     except (KeyboardInterrupt, click.Abort):
-        drop(sys.stdout)
-        return INTERRUPTED
-    except Ended as end:
-        drop(sys.stdout)
+        streams.drop(sys.stdout)
+        return streams.INTERRUPTED
+    except streams.Ended as end:
+        streams.drop(sys.stdout)
         return end.exit_code
-    except ReaderGone:
-        drop(sys.stdout)
-        return READER_GONE
-    except NoStandardOutput:
-        say("gark: standard output is closed\nhelp: -o FILE writes the report into a file")
+    except streams.ReaderGone:
+        streams.drop(sys.stdout)
+        return streams.READER_GONE
+    except streams.NoStandardOutput:
+        streams.say("gark: standard output is closed\nhelp: -o FILE writes the report into a file")
         return 2
     except click.ClickException as error:
-        say(usage_text(error))
+        streams.say(usage_text(error))
         return 2
     except GarkError as error:
-        complain(error)
+        streams.complain(error)
         return 2
     except OSError as error:
-        say(f"gark: the report cannot be written: {error.strerror or error}")
-        drop(sys.stdout)
+        streams.say(f"gark: the report cannot be written: {error.strerror or error}")
+        streams.drop(sys.stdout)
         return 2
     except Exception as error:
         _own_up(error, "--debug" in arguments)
@@ -208,7 +195,7 @@ def _own_up(error: Exception, with_traceback: bool) -> None:
     if with_traceback:
         import traceback
 
-        say("".join(traceback.format_exception(error)).rstrip())
+        streams.say("".join(traceback.format_exception(error)).rstrip())
     what = f"{type(error).__name__}: {error}".splitlines()[0]
-    say(f"gark: internal fault: {what[:200]}")
-    say(f"please report it, with the command and the file, to {REPORT_TO}")
+    streams.say(f"gark: internal fault: {what[:200]}")
+    streams.say(f"please report it, with the command and the file, to {REPORT_TO}")

@@ -12,18 +12,7 @@ from garkcli.convergence.result import Convergence
 from garkcli.frozen import Frozen, replace
 from garkcli.page.asciiplot import log10
 from garkcli.page.figures import scientific
-from garkcli.plots.scene import (
-    Axis,
-    Curve,
-    Mark,
-    Panel,
-    Point,
-    Rule,
-    Scene,
-    Shape,
-    capitalized,
-    in_words,
-)
+from garkcli.plots import scene
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.convergence import order_text
 from garkcli.report.costs import curve
@@ -36,12 +25,12 @@ _CLEAR = 0.035
 _LABEL = ((0.02, 0.02), (0.06, 0.03), (0.11, 0.035))
 """Where a label is, from the middle of its line, in widths and heights of the figure."""
 _SAMPLES = 8
-_Points: TypeAlias = Sequence[Point]
+_Points: TypeAlias = Sequence[scene.Point]
 
 
 def place_line(
-    beside: Sequence[Curve], slope: int, curves: Sequence[Curve], is_whole: bool = False
-) -> Rule:
+    beside: Sequence[scene.Curve], slope: int, curves: Sequence[scene.Curve], is_whole: bool = False
+) -> scene.Rule:
     """A line of this slope near one of the curves that it is for, where no other curve is; its
     label is on its far side.
 
@@ -87,7 +76,7 @@ class _Figure(Frozen):
     curves: Sequence[_Points]
 
     @staticmethod
-    def of(curves: Sequence[Curve]) -> _Figure:
+    def of(curves: Sequence[scene.Curve]) -> _Figure:
         """The figure that holds some curves."""
         points = [point for curve in curves for point in curve.points]
         wide = _extent([x for x, _ in points])
@@ -96,7 +85,7 @@ class _Figure(Frozen):
         scaled = [[empty.place(x, y) for x, y in sorted(curve.points)] for curve in curves]
         return _Figure(wide, high, scaled)
 
-    def place(self, x: float, y: float) -> Point:
+    def place(self, x: float, y: float) -> scene.Point:
         """Where a point in decades is."""
         return x / self.wide, y / self.high
 
@@ -116,7 +105,7 @@ def _extent(numbers: Sequence[float]) -> float:
     return max(numbers) - min(numbers) or 1.0
 
 
-def _parts(curve: Curve, is_whole: bool) -> list[_Points]:
+def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
     """The points beside which a line can be: those of the smallest errors, or of the largest."""
     points = curve.points
     if is_whole or len(points) <= 3:
@@ -124,7 +113,7 @@ def _parts(curve: Curve, is_whole: bool) -> list[_Points]:
     return [points[-3:], points[:3]]
 
 
-def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Rule:
+def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.Rule:
     """The line through no point, with this distance from the nearest."""
     left, _ = points[0]
     right, _ = points[-1]
@@ -137,15 +126,15 @@ def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Rule:
         offset = min(offsets) - gap
     start, end = ((x, offset + slope * x) for x in (left, right))
     label = f"slope {slope}".replace("-", "−")
-    return Rule(start, end, label, is_right=(slope > 0) == is_below, is_below=is_below)
+    return scene.Rule(start, end, label, is_right=(slope > 0) == is_below, is_below=is_below)
 
 
-def _clearance(line: Rule, figure: _Figure) -> float:
+def _clearance(line: scene.Rule, figure: _Figure) -> float:
     """The least vertical distance of the line and its label from the curves, in heights of the
     figure.
     """
     (left, start), (right, end) = line.start, line.end
-    points: list[Point] = []
+    points: list[scene.Point] = []
     for k in range(_SAMPLES + 1):
         part = k / _SAMPLES
         points.append(figure.place(left + (right - left) * part, start + (end - start) * part))
@@ -172,13 +161,15 @@ _MOST_STEPS = 6
 _LONGEST_STEP = 6  # characters
 
 
-def convergence_scene(result: Convergence, name: str) -> Scene:
+def convergence_scene(result: Convergence, name: str) -> scene.Scene:
     """Error and energy error of the method called ``name``."""
     observed = order_text(result.observed_order)
-    return Scene(f"{name}\n{_about(result)}: observed order {observed}", [errors_panel(result)])
+    return scene.Scene(
+        f"{name}\n{_about(result)}: observed order {observed}", [errors_panel(result)]
+    )
 
 
-def comparison_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> Scene:
+def comparison_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Scene:
     """Errors of several methods.
 
     Args:
@@ -186,19 +177,19 @@ def comparison_scene(named: Sequence[tuple[str, Convergence]], against: str = "h
         against: h, evaluations or seconds; the latter two need rows with costs.
     """
     _, first = named[0]
-    return Scene(_about(first), [comparison_panel(named, against)])
+    return scene.Scene(_about(first), [comparison_panel(named, against)])
 
 
-def errors_panel(result: Convergence) -> Panel:
+def errors_panel(result: Convergence) -> scene.Panel:
     """Error and energy error against h, log–log, with a line whose slope is the visible order."""
     order = result.visible_order
     energies = [(row.h, row.energy_error) for row in result.rows if row.energy_error is not None]
-    errors = Curve(0, _decades(curve(result, "h")), "error", has_dots=True)
-    energy = Curve(2, _decades(energies), "energy error", has_dots=True)
+    errors = scene.Curve(0, _decades(curve(result, "h")), "error", has_dots=True)
+    energy = scene.Curve(2, _decades(energies), "energy error", has_dots=True)
     curves = [x for x in (errors, energy) if x.points]
     if errors.points:
         line = place_line([errors], order, curves, is_whole=True)
-        reference = Curve(1, [line.start, line.end], f"reference, slope {order}")
+        reference = scene.Curve(1, [line.start, line.end], f"reference, slope {order}")
         curves.insert(1, reference)
     sizes = [row.h for row in result.rows]
     observed = order_text(result.observed_order)
@@ -209,12 +200,12 @@ def errors_panel(result: Convergence) -> Panel:
     return _panel(description, curves, [], "h", [result])
 
 
-def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h") -> Panel:
+def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Panel:
     """Errors of several methods, log–log, with a line for each visible order."""
-    curves: list[Curve] = []
-    of_order: dict[int, list[Curve]] = {}
+    curves: list[scene.Curve] = []
+    of_order: dict[int, list[scene.Curve]] = {}
     for style, (name, result) in enumerate(named):
-        errors = Curve(style, _decades(curve(result, against)), name, has_dots=True)
+        errors = scene.Curve(style, _decades(curve(result, against)), name, has_dots=True)
         if errors.points:
             curves.append(errors)
             of_order.setdefault(result.visible_order, []).append(errors)
@@ -230,42 +221,42 @@ def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h
 
 def _panel(
     description: str,
-    curves: Sequence[Curve],
-    rules: Sequence[Rule],
+    curves: Sequence[scene.Curve],
+    rules: Sequence[scene.Rule],
     against: str,
     results: Sequence[Convergence],
-) -> Panel:
-    shapes: list[Shape] = [*rules, *curves]
+) -> scene.Panel:
+    shapes: list[scene.Shape] = [*rules, *curves]
     drawn = [point for x in curves for point in x.points]
     drawn += [end for rule in rules for end in (rule.start, rule.end)]
     given = step_marks([row.h for x in results for row in x.rows]) if against == "h" else []
-    x = Axis.around(_AXES[against], [a for a, _ in drawn], True, given)
-    y = Axis.around("error", [b for _, b in drawn], True)
-    return Panel(_TITLE, description, x, y, shapes, height=_HEIGHT, has_grid=True)
+    x = scene.Axis.around(_AXES[against], [a for a, _ in drawn], True, given)
+    y = scene.Axis.around("error", [b for _, b in drawn], True)
+    return scene.Panel(_TITLE, description, x, y, shapes, height=_HEIGHT, has_grid=True)
 
 
-def _decades(points: Iterable[tuple[Any, Any]]) -> list[Point]:
+def _decades(points: Iterable[tuple[Any, Any]]) -> list[scene.Point]:
     """The decimal logarithms of points, without those where there are none."""
     return [(log10(x), log10(y)) for x, y in points if y > 0]
 
 
-def step_marks(sizes: Sequence[fmpq]) -> list[Mark]:
+def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:
     """The step sizes themselves, as many as there is space for."""
     places = {h: log10(h) for h in sorted(set(sizes), reverse=True)}
     least = (max(places.values()) - min(places.values())) / _MOST_STEPS
-    found: list[Mark] = []
+    found: list[scene.Mark] = []
     for h, at in places.items():
         if not found or found[-1].at - at >= least:
             exact = str(h)
-            label = exact if len(exact) <= _LONGEST_STEP else in_words(scientific(h, 2))
-            found.append(Mark(at, label))
+            label = exact if len(exact) <= _LONGEST_STEP else scene.in_words(scientific(h, 2))
+            found.append(scene.Mark(at, label))
     return found
 
 
 def _about(result: Convergence) -> str:
     """The problem and the time, with a capital."""
     problem = result.problem
-    about = capitalized(name_of(result.problem))
+    about = scene.capitalized(name_of(result.problem))
     if isinstance(problem, RightHandSide) and problem.stiffness is not None:
         about += f", stiffness {problem.stiffness},"
     return f"{about} to t = {result.t_end}"

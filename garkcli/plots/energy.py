@@ -7,18 +7,7 @@ from math import isfinite
 from garkcli.frozen import replace
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured
-from garkcli.plots.scene import (
-    Axis,
-    Curve,
-    Panel,
-    Point,
-    Rule,
-    Scene,
-    capitalized,
-    common_exponent,
-    in_words,
-    power_of_ten,
-)
+from garkcli.plots import scene
 from garkcli.report.problem import name_of
 
 _TITLE = "Energy error over a long time"
@@ -34,19 +23,19 @@ _WORDS = {
 }
 
 
-def energy_scene(run: LongRun) -> Scene:
+def energy_scene(run: LongRun) -> scene.Scene:
     """The energy error against time, and below it a panel for the error of each other invariant."""
-    title = f"{capitalized(name_of(run.problem))}, h = {run.step}, {run.steps} steps"
-    return Scene(title, [history_panel(run, history) for history in run.invariants])
+    title = f"{scene.capitalized(name_of(run.problem))}, h = {run.step}, {run.steps} steps"
+    return scene.Scene(title, [history_panel(run, history) for history in run.invariants])
 
 
-def history_panel(run: LongRun, history: InvariantHistory) -> Panel:
+def history_panel(run: LongRun, history: InvariantHistory) -> scene.Panel:
     """One quantity against time, with the line of its drift where it has one."""
     pairs = zip(run.times, history.errors, strict=True)
     points = [(t, error) for t, error in pairs if isfinite(error)]
-    exponent = common_exponent([error for _, error in points] or [0.0])
+    exponent = scene.common_exponent([error for _, error in points] or [0.0])
     factor = 10.0**-exponent
-    errors = Curve(0, _scaled(points, factor), width=1.1, is_dense=True)
+    errors = scene.Curve(0, _scaled(points, factor), width=1.1, is_dense=True)
     start, end = 0.0, run.end
     shapes = [errors]
     if history.verdict == "drifts" and history.shape == "line" and history.drift is not None:
@@ -55,25 +44,25 @@ def history_panel(run: LongRun, history: InvariantHistory) -> Panel:
         left = [error - drift * t for t, error in points]
         middle = (max(left) + min(left)) / 2
         line = [(t, middle + drift * t) for t in (start, end)]
-        label = f"its drift, {in_words(f'{drift:.2e}')} per unit of time"
+        label = f"its drift, {scene.in_words(f'{drift:.2e}')} per unit of time"
         shapes = [
             replace(errors, label=f"{history.name} error"),
-            Curve(1, _scaled(line, factor), label),
+            scene.Curve(1, _scaled(line, factor), label),
         ]
     is_first = history is run.invariants[0]
     label = f"error of {history.name}" if is_first else "error"
     if history.name == "energy":
         label = "H(t) − H(0)"
     if exponent:
-        label += f" in {power_of_ten(exponent)}"
+        label += f" in {scene.power_of_ten(exponent)}"
     became = became_of(history)
-    y = Axis.around(label, [0.0, *(error for _, error in errors.points)])
-    return Panel(
+    y = scene.Axis.around(label, [0.0, *(error for _, error in errors.points)])
+    return scene.Panel(
         _TITLE,
-        f"{capitalized(history.name)} error against time, from 0 to {end:g}: {became}.",
-        Axis("time t", start, end),
+        f"{scene.capitalized(history.name)} error against time, from 0 to {end:g}: {became}.",
+        scene.Axis("time t", start, end),
         y,
-        [*shapes, Rule((start, 0.0), (end, 0.0))],
+        [*shapes, scene.Rule((start, 0.0), (end, 0.0))],
         f"{history.name}: {became}",
         _HEIGHT if is_first else _LOWER,
         has_grid=True,
@@ -85,9 +74,9 @@ def became_of(history: InvariantHistory) -> str:
     words = _WORDS[history.verdict]
     if history.verdict in ("exact", "round-off") or not isfinite(history.max_error):
         return words
-    largest = in_words(measured(history.max_error, history.round_off, 2))
+    largest = scene.in_words(measured(history.max_error, history.round_off, 2))
     return f"the largest error is {largest}; {words}"
 
 
-def _scaled(points: list[Point], factor: float) -> list[Point]:
+def _scaled(points: list[scene.Point], factor: float) -> list[scene.Point]:
     return [(t, error * factor) for t, error in points]

@@ -11,24 +11,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import TypeAlias
 
-from garkcli.plots.scene import (
-    COLOURS,
-    DASHES,
-    WIDTH,
-    Area,
-    Curve,
-    Panel,
-    Point,
-    Rule,
-    Shape,
-    shortened,
-)
+from garkcli.plots import scene
 
 Value: TypeAlias = str | float | None
 """Of an attribute; numbers are lengths, None is for those that are left out."""
 _LEFT, _RIGHT, _TOP, _BOTTOM = 58, 12, 10, 40
 """Around the frame: numbers and a label on the left and below."""
-_INSIDE = WIDTH - _LEFT - _RIGHT
+_INSIDE = scene.WIDTH - _LEFT - _RIGHT
 ON_ANY = ("#2f7dc8", "#d24a3a", "#3f8f36", "#9b6ac0")
 """Of a page without STYLE, a notebook for instance, light or dark: 3 to 1 and more on both."""
 _DARK_COLOURS = ("#8ab8f5", "#ff9d8c", "#8fd08a", "#d3a6f2")
@@ -44,7 +33,7 @@ def _variables(colours: Sequence[str]) -> str:
 
 
 def _style() -> str:
-    light = _variables(COLOURS[: len(ON_ANY)])
+    light = _variables(scene.COLOURS[: len(ON_ANY)])
     dark = _variables(_DARK_COLOURS)
     return (
         f":root{{{light}}}\n"
@@ -65,7 +54,7 @@ def colour(style: int | None) -> str:
     return f"var(--picture-{place + 1},{ON_ANY[place]})"
 
 
-def svg(panel: Panel) -> str:
+def svg(panel: scene.Panel) -> str:
     """A panel as an element, with its title and description for those who do not see it."""
     frame = _Frame(panel)
     foot = frame.bottom + _BOTTOM
@@ -74,7 +63,7 @@ def svg(panel: Panel) -> str:
         "svg",
         **{"class": "plot"},
         role="img",
-        viewBox=f"0 0 {WIDTH} {height}",
+        viewBox=f"0 0 {scene.WIDTH} {height}",
         font_size="12",
         fill="currentColor",
         stroke_linejoin="round",
@@ -94,7 +83,7 @@ def svg(panel: Panel) -> str:
 class _Frame:
     """The axes in units of the picture."""
 
-    def __init__(self, panel: Panel) -> None:
+    def __init__(self, panel: scene.Panel) -> None:
         x, y = panel.x, panel.y
         self._x, self._y = x, y
         width, height = float(_INSIDE), panel.height
@@ -114,11 +103,11 @@ class _Frame:
         """How far down a coordinate is."""
         return self.bottom - self.height * (y - self._y.low) / (self._y.high - self._y.low)
 
-    def path(self, points: Iterable[Point]) -> str:
+    def path(self, points: Iterable[scene.Point]) -> str:
         """A line through points as the data of a path."""
         return _path((self.across(x), self.down(y)) for x, y in points)
 
-    def axes(self, panel: Panel) -> Iterator[str]:
+    def axes(self, panel: scene.Panel) -> Iterator[str]:
         """The frame, the marks and the labels of both axes."""
         left, bottom = self.left, self.bottom
         middle = left + self.width / 2, self.top + self.height / 2
@@ -139,20 +128,20 @@ class _Frame:
             "text", panel.y.label, x=start, y=middle[1], text_anchor="middle", transform=turned
         )
 
-    def cut_off(self, shapes: Sequence[Shape]) -> Iterator[str]:
+    def cut_off(self, shapes: Sequence[scene.Shape]) -> Iterator[str]:
         """A nested picture cuts off what is outside of it, and needs no id for that."""
         box = {"x": self.left, "y": self.top, "width": self.width, "height": self.height}
         yield _opened("svg", **box, viewBox=" ".join(map(_number, box.values())))
         for shape in shapes:
-            if isinstance(shape, Curve):
+            if isinstance(shape, scene.Curve):
                 yield from self._curve(shape)
-            elif isinstance(shape, Area):
+            elif isinstance(shape, scene.Area):
                 yield from self._area(shape)
             else:
                 yield from self._rule(shape)
         yield "</svg>"
 
-    def _curve(self, curve: Curve) -> Iterator[str]:
+    def _curve(self, curve: scene.Curve) -> Iterator[str]:
         if curve.has_line and curve.points:
             yield element("path", d=self.path(curve.points), fill="none", **_stroke(curve))
         if curve.has_dots:
@@ -160,7 +149,7 @@ class _Frame:
                 place = {"cx": self.across(x), "cy": self.down(y), "r": _RADIUS}
                 yield element("circle", **place, style=f"fill:{colour(curve.style)}")
 
-    def _area(self, area: Area) -> Iterator[str]:
+    def _area(self, area: scene.Area) -> Iterator[str]:
         if not area.loops:
             return
         data = "".join(self.path(loop) + "Z" for loop in area.loops)
@@ -171,7 +160,7 @@ class _Frame:
             "path", d=data, style=style, fill_opacity=opacity, fill_rule="evenodd", **stroke
         )
 
-    def _rule(self, rule: Rule) -> Iterator[str]:
+    def _rule(self, rule: scene.Rule) -> Iterator[str]:
         ends = [rule.start, rule.end]
         yield element("path", d=self.path(ends), stroke="currentColor", stroke_width=0.7)
         if not rule.label:
@@ -188,24 +177,24 @@ class _Frame:
         )
 
 
-def _legend_rows(named: Sequence[Curve | Area], y: float) -> Iterator[str]:
+def _legend_rows(named: Sequence[scene.Curve | scene.Area], y: float) -> Iterator[str]:
     for shape in named:
         start, end = (_LEFT - 46, y), (_LEFT - 12, y)
-        if not isinstance(shape, Curve) or shape.has_line:
+        if not isinstance(shape, scene.Curve) or shape.has_line:
             yield element("path", d=_path([start, end]), **_stroke(shape) | {"stroke_width": 2.0})
         else:
             place = {"cx": (start[0] + end[0]) / 2, "cy": y, "r": _RADIUS}
             yield element("circle", **place, style=f"fill:{colour(shape.style)}")
-        yield element("text", shortened(shape.label, _LONGEST), x=_LEFT - 4, y=y + 4)
+        yield element("text", scene.shortened(shape.label, _LONGEST), x=_LEFT - 4, y=y + 4)
         y += _LEGEND_ROW
 
 
-def _stroke(shape: Curve | Area) -> dict[str, Value]:
+def _stroke(shape: scene.Curve | scene.Area) -> dict[str, Value]:
     """The attributes of its line."""
-    dashes = () if shape.style is None else DASHES[shape.style % len(ON_ANY)]
+    dashes = () if shape.style is None else scene.DASHES[shape.style % len(ON_ANY)]
     return {
         "style": f"stroke:{colour(shape.style)}",
-        "stroke_width": shape.width if isinstance(shape, Curve) else 1.6,
+        "stroke_width": shape.width if isinstance(shape, scene.Curve) else 1.6,
         "stroke_dasharray": " ".join(f"{x:g}" for x in dashes) or None,
     }
 
@@ -232,7 +221,7 @@ def _opened(name: str, **attributes: Value) -> str:
     return f"<{' '.join(parts)}>"
 
 
-def _path(points: Iterable[Point]) -> str:
+def _path(points: Iterable[scene.Point]) -> str:
     """A polygon or polyline as the data of a path."""
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
 

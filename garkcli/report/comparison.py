@@ -19,22 +19,7 @@ from garkcli.page.paint import counted
 from garkcli.page.schema import Schema, one_of, published
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.report.convergence import (
-    COST,
-    NO_TIME,
-    STEP,
-    STEP_SIZE,
-    WORKED,
-    ConvergenceReport,
-    notes,
-    order_text,
-    predicted,
-    steps,
-    verdict_words,
-    visible,
-)
-from garkcli.report.convergence import FORMS as ALONE
-from garkcli.report.convergence import REPORT as OF_ONE
+from garkcli.report import convergence as alone
 from garkcli.report.costs import Tested, at_equal_errors, curve
 from garkcli.report.failure import FAULT
 from garkcli.report.problem import WORDS
@@ -106,10 +91,10 @@ class Named(NamedTuple):
     has_work: bool
 
     @property
-    def test(self) -> ConvergenceReport | None:
+    def test(self) -> alone.ConvergenceReport | None:
         """Its test, where there is one."""
-        result = self.entry.result
-        return None if result is None else ConvergenceReport(result, self.entry.name, self.has_work)
+        result, name = self.entry.result, self.entry.name
+        return None if result is None else alone.ConvergenceReport(result, name, self.has_work)
 
 
 def letters(count: int) -> list[str]:
@@ -125,7 +110,7 @@ def _verdict(x: Named, d: Plain) -> str:
     if x.entry.result is None:
         return d.bad("FAILED")
     verdict = x.entry.result.verdict
-    return d.note(verdict) if verdict == "reduced" else verdict_words(verdict, d)
+    return d.note(verdict) if verdict == "reduced" else alone.verdict_words(verdict, d)
 
 
 def _tested(row: Row) -> Row:
@@ -134,9 +119,9 @@ def _tested(row: Row) -> Row:
 
 METHOD = Section(
     Row("letter", TEXT, label=""),
-    _tested(Row("observed", told(lambda x, _: order_text(x.observed_order)), ".")),
-    _tested(Row("visible", COUNT, visible)),
-    _tested(Row("predicted", COUNT, predicted)),
+    _tested(Row("observed", told(lambda x, _: alone.order_text(x.observed_order)), ".")),
+    _tested(Row("visible", COUNT, alone.visible)),
+    _tested(Row("predicted", COUNT, alone.predicted)),
     Row("verdict", told(_verdict), "."),
     Row("method", TEXT, "name"),
 )
@@ -151,13 +136,13 @@ def _remarks(compared: Compared) -> list[tuple[str, str]]:
         if x.test is not None:
             result = x.test.result
             seen.setdefault(result.visible.trees, []).append(x.letter)
-            texts = [str(predicted(result).reason)] if result.hides_failure else []
-            texts += [text for text in notes(x.test) if text != NO_TIME]
+            texts = [str(alone.predicted(result).reason)] if result.hides_failure else []
+            texts += [text for text in alone.notes(x.test) if text != alone.NO_TIME]
         said += [(x.letter, text) for text in texts]
     said += [(", ".join(who) if len(seen) > 1 else "note", text) for text, who in seen.items()]
     costs = [row.cost for _, result in compared.tested for row in result.rows]
     if compared.has_work and any(x is None or x.seconds is None for x in costs):
-        said.append(("note", NO_TIME))
+        said.append(("note", alone.NO_TIME))
     if compared.has_work and at_equal_errors(compared.tested, "evaluations"):
         said.append(
             ("note", "costs of equal errors are read off between rows, on logarithmic scales")
@@ -190,7 +175,9 @@ def _errors(x: Sizes, d: Plain) -> Iterator[tuple[str, str]]:
         yield f"slope {letter}", "" if row.slope is None else f"{row.slope:.2f}"
 
 
-SIZE = Section(Row("h", STEP_SIZE), Row("errors", rows_of(lambda x, d: list(_errors(x, d))), "."))
+SIZE = Section(
+    Row("h", alone.STEP_SIZE), Row("errors", rows_of(lambda x, d: list(_errors(x, d))), ".")
+)
 
 # the costs
 
@@ -204,9 +191,9 @@ class Work(NamedTuple):
 
 WORK = Section(
     Row("letter", TEXT, label=""),
-    Row("h", STEP_SIZE, "row.h"),
+    Row("h", alone.STEP_SIZE, "row.h"),
     Row("error", told(lambda x, d: d.prose(scientific(x.row.error))), "."),
-    maybe("cost", part(COST), "row.cost"),
+    maybe("cost", part(alone.COST), "row.cost"),
 )
 EQUAL = Section(
     Row("letter", TEXT, "0", label=""), Row("costs", rows_of(lambda cells, _: cells), "1")
@@ -280,10 +267,10 @@ HEAD = (Row("file", TEXT, "entry.file"), Row("ok", TRUTH, lambda x: x.entry.exit
 TESTED = {
     kind: Section(
         *HEAD,
-        Row("schema", constant(OF_ONE.schema_name), lambda _: OF_ONE.schema_name),
+        Row("schema", constant(alone.REPORT.schema_name), lambda _: alone.REPORT.schema_name),
         *via(lambda x: x.test, section.rows),
     )
-    for kind, section in ALONE.items()
+    for kind, section in alone.FORMS.items()
 }
 UNTESTED = Section(
     *HEAD, Row("name", TEXT, "entry.name"), Row("errors", parts(FAULT), "entry.faults")
@@ -315,12 +302,12 @@ REPORT: Report[Compared] = Report.only(
         Row("summary", part(SUMMARY), ".", DATA),
     ),
     lines=lambda c: (
-        Section(*LINE, *via(lambda x: x[1], (WORKED if c.has_work else STEP).rows)),
-        [(x.entry, step) for x in c.named if x.test is not None for step in steps(x.test)],
+        Section(*LINE, *via(lambda x: x[1], (alone.WORKED if c.has_work else alone.STEP).rows)),
+        [(x.entry, step) for x in c.named if x.test is not None for step in alone.steps(x.test)],
     ),
 )
 
 
 def schema() -> Schema:
     """The JSON Schema of what the command writes, of one method or of several."""
-    return published(OF_ONE.title, one_of(*OF_ONE.documents, *REPORT.documents))
+    return published(alone.REPORT.title, one_of(*alone.REPORT.documents, *REPORT.documents))
