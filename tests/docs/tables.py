@@ -62,8 +62,8 @@ def _term_row(term: Term) -> tuple[str, str, str]:
     return f"**{cell(term.name)}**{cell(also)}", cell(text), _short_source(term.source)
 
 
-_MOST_LABELS = 3
-_LONGEST_FORMULA = 7
+_MOST_LABELS = 2
+_LONGEST_FORMULA = 5
 """In words; ``gark explain`` shows longer ones, and knows more labels."""
 
 
@@ -239,9 +239,9 @@ def _fields_table() -> str:
                 meanings.setdefault(path[-1], {}).setdefault(meaning, {})[report] = None
     rows = [(f"`…{ending}`", _phrase(text)) for ending, text in _ENDINGS.items()]
     for name, found in sorted(meanings.items()):
-        if name in _PLAIN and len(found) == 1:
-            continue
         (first, words), *others = sorted(found, key=lambda x: -len(found[x]))
+        if not others and (name in _PLAIN or (not words and len(first.split()) <= _SAYS_LITTLE)):
+            continue
         parts = [f"{first}: {words}" if words else first]
         for text, words in others:
             said = ": ".join(x for x in (text, words) if x not in ("", first))
@@ -251,6 +251,8 @@ def _fields_table() -> str:
     return table(("field", "what it holds"), rows)
 
 
+_SAYS_LITTLE = 5
+"""Words of a text that adds nothing to the name of its field."""
 _PLAIN = set(
     re.findall(
         r"\w+",
