@@ -36,8 +36,8 @@ ROOT = Path(__file__).parents[2]
 CATALOGUE = sorted((ROOT / "garkcli/catalogue/data").glob("*/*.gark.yaml"))
 IS_WHOLE = bool(os.environ.get("GARK_WHOLE_CATALOGUE"))
 SHOWN = ("paper", "found", "sprk", "splitting", "gark", "rkn")
-EVERY = 32
-"""Of the other folders every thirty-second method is in the sample."""
+EVERY = 16
+"""Of the other folders every sixteenth method is in the sample."""
 READERS = {
     "json": "json",
     "csv": "csv",
@@ -65,7 +65,7 @@ def sample() -> list[Path]:
         return CATALOGUE
     few = CATALOGUE[::EVERY]
     special = [x for x in CATALOGUE if x.parent.name in SHOWN]
-    return sorted({*few, *special[::9]})
+    return sorted({*few, *special[::5]})
 
 
 @cache
