@@ -162,18 +162,25 @@ Definition is_local l :=
 Definition zb l e (x : zvec) : Q :=
   let y := zapp (zt [weights M l e]) x in nth 0 (fst y) 0%Z # snd y.
 
-Definition unit_defect l m e (i j : nat) : Q :=
-  zb l e (zmul (zt (P_rows M l)) (zunit i) (zapp (zt (A_rows C l m)) (zunit j)))
-  + zb m e (zmul (zt (P_rows M m)) (zapp (zt (A_rows M m l)) (zunit i)) (zunit j))
-  - fold_right Qplus 0 (map (fun p => in_field M e (fst p) (snd p) * (zb l (fst p) (zunit i) * zb m (snd p) (zunit j)))
+(** The defect at two units; the tables are made once for all of them. *)
+Definition unit_defect_by Pl Pm Alm Aml l m e (i j : nat) : Q :=
+  zb l e (zmul Pl (zunit i) (zapp Alm (zunit j)))
+  + zb m e (zmul Pm (zapp Aml (zunit i)) (zunit j))
+  - fold_right Qplus 0 (map (fun p =>
+        in_field M e (fst p) (snd p) * (zb l (fst p) (zunit i) * zb m (snd p) (zunit j)))
       (list_prod (seq 0 (degree M)) (seq 0 (degree M)))).
+Definition unit_defect l m := unit_defect_by (zt (P_rows M l)) (zt (P_rows M m))
+  (zt (A_rows C l m)) (zt (A_rows M m l)) l m.
 
 Definition conjugate_is_proved : bool :=
   tables_are_whole M && tables_are_whole C && all (N M) is_local &&
   all (N M) (fun l => all (N M) (fun m =>
     eqb (is_seen C l m) (is_seen M m l) &&
-    (negb (is_seen M m l) || all (degree M) (fun e => all (dim l) (fun i => all (dim m) (fun j =>
-      Qeq_bool (unit_defect l m e i j) 0)))))).
+    (negb (is_seen M m l) ||
+      let Pl := zt (P_rows M l) in let Pm := zt (P_rows M m) in
+      let Alm := zt (A_rows C l m) in let Aml := zt (A_rows M m l) in
+      all (degree M) (fun e => all (dim l) (fun i => all (dim m) (fun j =>
+        Qeq_bool (unit_defect_by Pl Pm Alm Aml l m e i j) 0)))))).
 
 Hypothesis same_field : field C = field M.
 Hypothesis same_spaces : spaces C = spaces M.
@@ -188,7 +195,7 @@ Lemma unit_defect_val l m e i j : tables_are_whole M = true -> tables_are_whole 
   (l < N M)%nat -> (m < N M)%nat -> (e < degree M)%nat ->
   defect l m e (unit i) (unit j) == unit_defect l m e i j.
 Proof.
-  intros T T' Hl Hm He. unfold defect, unit_defect.
+  intros T T' Hl Hm He. unfold defect, unit_defect, unit_defect_by.
   destruct (tables_of M T l Hl) as [_ [Pl _]].
   destruct (tables_of M T m Hm) as [_ [Pm [Am _]]].
   assert (Hl' : (l < N C)%nat) by (unfold N; rewrite same_colours; exact Hl).
@@ -227,7 +234,7 @@ Proof.
   intros l m Hl Hm. pose proof (all_at _ _ (all_at _ _ D l Hl) m Hm) as K. cbv beta in K.
   apply andb_prop in K. destruct K as [Se K]. apply eqb_prop in Se.
   split; [rewrite !seen_iff, Se; reflexivity|].
-  intros Hs e x y He. rewrite seen_iff in Hs. rewrite Hs in K. cbn [negb orb] in K.
+  intros Hs e x y He. rewrite seen_iff in Hs. rewrite Hs in K. cbn [negb orb] in K. cbv zeta in K.
   pose proof (all_at _ _ Lo l Hl) as Ll. pose proof (all_at _ _ Lo m Hm) as Lm.
   unfold is_local in Ll, Lm.
   apply andb_prop in Ll. destruct Ll as [Ll LA]. apply andb_prop in Ll. destruct Ll as [LP LW].
