@@ -11,7 +11,8 @@ from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_
 from garkcli.deadline import within
 from garkcli.design import design as designing
 from garkcli.design.choices import Chosen, accepted_methods
-from garkcli.design.design import CLAIMS, Design, Whose
+from garkcli.design.design import CLAIMS, Design
+from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.minimise import minimise as minimising
 from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.objectives import OBJECTIVES
@@ -101,8 +102,8 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
         seconds: after which it is given up; None for never.
 
     Raises:
-        UsageProblem: there is no such objective, it has no meaning for the methods, nothing was
-            decided, or the family is to be stable.
+        UsageProblem: there is no such objective, it or stability that is wanted has no meaning for
+            the methods, or nothing was decided.
         NotDecided: a Gröbner basis or a trial takes too long.
 
     >>> from garkcli import loads_family
@@ -141,7 +142,6 @@ def search_methods(
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        UsageProblem: the family is to be stable.
 
     >>> from garkcli import loads_family
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
@@ -203,7 +203,7 @@ def stable_values(
     read = family_of(family)
     springs = alone = None
     if slow is not None:
-        tableau = designing.TABLEAUS[whose](read.tableau)
+        tableau = TABLEAUS[whose](read.tableau)
         fast_one = colour_of(fast, "fast", tableau.size)
         springs = TwoSprings(
             rational(slow, "slow"), tableau.colours[fast_one].term, rational_or_none(up_to, "up_to")
@@ -292,8 +292,7 @@ def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterato
     """The methods that were found, as their files say it."""
     source = f"found by gark design {family.source}"
     if isinstance(found, Design):
-        of_all = [f", {x.kind}: true" for x in found.family.stable if x.colour is None]
-        further = "".join(of_all) if found.whose == "method" else ""
+        further = _stable(found.family, found.whose)
         for chosen in accepted_methods(found):
             claim = f"{CLAIMS[found.whose]}: {chosen.order}{further}"
             yield Found(family, chosen, f"{source}: {claim}", claim)
@@ -301,7 +300,8 @@ def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterato
         whose, order = found.design.whose, found.step.order
         options = "" if whose == "method" else f" --{whose}"
         options += f" --order {order} --minimise {found.objective.key}"
-        further = _claim(found) if whose == "method" else ""
+        further = _stable(found.design.family, whose)
+        further += _claim(found) if whose == "method" else ""
         for candidate in found.minimisers:
             solution, own = candidate.found.solution, candidate.found.order
             elements = {x: solution.values[x] for x in family.parameters}
@@ -312,12 +312,18 @@ def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterato
             yield Found(family, chosen, f"{source}{options}: {claim}", claim + further)
     else:
         for method in found.methods:
-            claim = f"{CLAIMS[found.whose]}: {method.order}"
+            claim = f"{CLAIMS[found.whose]}: {method.order}{_stable(family, found.whose)}"
             head = f"{source} --order {found.order}, start {method.start} of seed {found.seed}\n"
             head += f"{HEADS[method.proof]}: {claim}"
             if not method.is_exact:
                 head += f", residuals below {method.residual} before rounding"
             yield Found(family, method, head, claim, method.is_exact)
+
+
+def _stable(family: Family, whose: Whose) -> str:
+    """What a method file may claim of stability that was wanted."""
+    wanted = [f", {x.kind}: true" for x in family.stable if x.colour is None]
+    return "".join(wanted) if whose == "method" else ""
 
 
 def _claim(minimum: Minimum) -> str:

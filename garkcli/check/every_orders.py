@@ -10,9 +10,9 @@ from garkcli.check.every_facts import Fact
 from garkcli.check.every_family import EveryFamily
 from garkcli.deadline import within
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.design import TABLEAUS, Whose, order_of
+from garkcli.design.design import order_of
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import is_admissible
+from garkcli.design.member import TABLEAUS, Whose, is_admissible
 from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.roots import RealRoot

@@ -71,7 +71,6 @@ def design(given: Given, output: Output) -> int:
     if given.plot is not None:
         raise UsageProblem(_PLOT, "ask for --a-stable alone", code="option-alone")
     family = _as_stable(family, asked)
-    _check_one_by_one(family, given)
     _prepare_places(given, output)
     if given.search is not None:
         _refuse_unsettled(family)
@@ -99,20 +98,6 @@ def _check_stability(given: Given) -> None:
     )
     cure = "use one; --order limits it to the solutions of that order"
     raise UsageProblem(message, cure, code="options-clash")
-
-
-def _check_one_by_one(family: FamilyFile, given: Given) -> None:
-    """Refuse what does not look at stability, where that is wanted too.
-
-    Raises:
-        UsageProblem: a search or a minimum is asked for.
-    """
-    for option in ("search", "minimise"):
-        if family.stable and getattr(given, option) is not None:
-            kind = family.stable[0].kind
-            message = f"{kind} is decided for exact solutions, --{option} has others"
-            cure = "leave it out, and ask gark check of what is found"
-            raise UsageProblem(message, cure, code="wanted-without-meaning")
 
 
 @contextmanager
@@ -254,7 +239,7 @@ def _sets(found: Design, given: Given) -> tuple[StableValues, ...] | None:
     """The values that are as stable as is wanted, where all have the order; None, and it is said,
     where they take too long.
     """
-    from garkcli.design.stable_values import stable_sets
+    from garkcli.design.design import stable_sets
 
     try:
         with until(given.moment):
@@ -294,7 +279,7 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
     """The set of values with a kind of stability."""
     from garkcli.api.design import stable_values
     from garkcli.cli.stability import colour_named
-    from garkcli.design.design import TABLEAUS
+    from garkcli.design.member import TABLEAUS
     from garkcli.design.stable_plane import StablePlane
     from garkcli.report import stable_plane as planes
     from garkcli.report.stable_values import REPORT, StableReport

@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from itertools import chain
 from time import monotonic
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 from flint import fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.conditions import Condition, FamilyConditions
 from garkcli.design.ideal import Ideal, without_multiples
-from garkcli.design.member import is_admissible, is_stable, member, method_at
+from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_as_stable, member
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
+from garkcli.design.parts import diagonal_unknowns, nodes_as_coordinates, parts_of
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
+from garkcli.design.stable_parts import has_stable_method, joined, stable_part
+from garkcli.design.stable_values import StableValues, Wanted, stable_values
 from garkcli.errors import NotDecided, ZeroWeight
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
-from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.family import Family
-from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
@@ -72,6 +73,8 @@ class Step(Frozen):
         is_real: of a family and of every value, whether a real value is a method of the file; None
             where that is not decided.
         criterion: by which the real values were found; None where all conditions were looked at.
+        stable: where stability is wanted of a family and of every value, and hangs on one unknown:
+            the values of that, for each kind.
     """
 
     order: int
@@ -85,6 +88,7 @@ class Step(Frozen):
     found: tuple[Found, ...] = ()
     is_real: bool | None = None
     criterion: PairConditions | None = None
+    stable: tuple[StableValues, ...] = ()
 
     @property
     def has_methods(self) -> bool | None:
@@ -119,9 +123,6 @@ class Step(Frozen):
 
     def __repr__(self) -> str:
         return f"<Step order {self.order}: {self.kind}>"
-
-
-Whose: TypeAlias = Literal["method", "conjugate", "pair"]
 
 
 class Design(Shown, Frozen):
@@ -161,12 +162,6 @@ SHARE = 0.25
 """The part of the time that python-flint has where msolve is there too: what it finds is proved."""
 PART = 0.25
 """The part of the time that is left in which a real method of a family is looked for."""
-TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
-    "method": lambda tableau: tableau,
-    "conjugate": conjugate,
-    "pair": pair,
-}
-"""The tableau that is meant, from that of a file."""
 CLAIMS: dict[Whose, str] = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
 """What a file claims of the order found, by whose it is."""
 
@@ -329,7 +324,29 @@ class _Finding(Frozen):
             step = replace(step, real=real, polynomials_of_real=tuple(polynomials))
         if real.dimension == 0:
             step = replace(step, found=self._found(real))
+        if self.family.stable and step.kind == "family":
+            return self._with_stable(step, ideal)
         return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
+
+    def _with_stable(self, step: Step, ideal: Ideal) -> Step:
+        """A family of which stable methods are wanted with what is known of them.
+
+        Raises:
+            NotDecided: the time is not enough, or stability hangs on several unknowns.
+        """
+        tableau = TABLEAUS[self.whose](self.family.tableau)
+        kept = diagonal_unknowns(tableau, ideal.ring)
+        parts = list(parts_of(ideal, nodes_as_coordinates(tableau, ideal.ring), kept))
+        with_lines = [x for x in parts if x.dimension > 0]
+        found = []
+        for part in with_lines:
+            with suppress(NotDecided):
+                found.append(stable_part(self.family, self.whose, part))
+        is_real = has_stable_method(self.family, found)
+        if is_real is not True and len(found) < len(parts):
+            is_real = None
+        is_whole = len(found) == len(with_lines)
+        return replace(step, is_real=is_real, stable=joined(found) if is_whole else ())
 
     def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
         """Whether there is a method where the unknowns that are free are 0."""
@@ -363,27 +380,19 @@ class _Finding(Frozen):
         """A solution of which those real roots are accepted that are as stable as is wanted."""
         sorted_: dict[bool | None, list[int]] = {True: [], False: [], None: []}
         for index in found.accepted:
-            verdict = self._is_stable(found.solution, found.solution.real[index])
+            verdict = is_as_stable(
+                self.family, self.whose, found.solution, found.solution.real[index]
+            )
             sorted_[verdict].append(index)
         accepted, unstable, left = (tuple(sorted_[key]) for key in (True, False, None))
         return replace(found, accepted=accepted, unstable=unstable, open=left)
 
-    def _is_stable(self, solution: Solution, root: RealRoot) -> bool | None:
-        """Whether a method is as stable as is wanted; None where its field is too large, or the
-        time is over.
-        """
-        if not self.family.stable:
-            return True
-        with suppress(NotDecided):
-            tableau = method_at(self.family.tableau, self.family.ring, solution, root)
-            if tableau is not None:
-                meant = TABLEAUS[self.whose](tableau)
-                return all(is_stable(key, meant) for key in self.family.stable)
-        return None
-
     def _is_method(self, solution: Solution, root: RealRoot) -> bool:
         """Whether a real solution is a method as the file wants it."""
-        return is_admissible(self.family, solution, root) and bool(self._is_stable(solution, root))
+        stable = is_admissible(self.family, solution, root) and is_as_stable(
+            self.family, self.whose, solution, root
+        )
+        return bool(stable)
 
 
 def _kind(ideal: Ideal, start: Ideal) -> Kind:
@@ -451,3 +460,21 @@ def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
         return find_order(TABLEAUS[whose](tableau))
     except (ZeroDivisionError, ZeroWeight):
         return None
+
+
+def stable_sets(design: Design) -> tuple[StableValues, ...]:
+    """The values of one unknown that have each kind of stability that is wanted; nothing where
+    solutions are looked at one by one.
+    """
+    family = design.family
+    reached = [step.stable for step in design.steps if step.stable]
+    if reached:
+        return reached[-1]
+    if design.last.kind != "every-value" or len(family.ring.names) > 1:
+        return ()
+    return tuple(
+        stable_values(family, kind, design.whose, colour=x.colour)
+        for kind in get_args(Wanted)
+        for x in dict.fromkeys(family.stable)
+        if x.kind == kind
+    )

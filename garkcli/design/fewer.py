@@ -85,12 +85,10 @@ def fewest(family: Family, tableau: Tableau, fields: Sequence[Matrix]) -> tuple[
     return smaller, forms
 
 
-def _directions(
+def step_polynomials(
     tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
-) -> tuple[list[int], list[list[fmpq]]]:
-    """A basis of the directions along which the step stays: each has 1 at its pivot, a late
-    parameter, where the others have 0.
-    """
+) -> tuple[fmpq_mpoly, list[fmpq_mpoly]]:
+    """D and the entries of N of the step N/D, in z, which comes first, and the parameters."""
     system = stage_system(tableau, fields)
     d = len(fields[0])
     D = characteristic_coefficients(system.W)
@@ -106,6 +104,16 @@ def _directions(
             functions.append([a if i == j else a - b for a, b in zip(entry, D, strict=True)])
     common = common_denominator(list(chain.from_iterable(functions)), ring)
     denominator, *numerators = (joined(x, common, ring) for x in functions)
+    return denominator, numerators
+
+
+def _directions(
+    tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
+) -> tuple[list[int], list[list[fmpq]]]:
+    """A basis of the directions along which the step stays: each has 1 at its pivot, a late
+    parameter, where the others have 0.
+    """
+    denominator, numerators = step_polynomials(tableau, ring, fields)
     number = len(ring.names)
     equations = []
     for numerator in numerators:

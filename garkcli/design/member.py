@@ -4,14 +4,16 @@ the family wants it, and its stability.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import cast
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import Literal, TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.solutions import Solution, value_at
-from garkcli.errors import VanishingDenominator
+from garkcli.errors import NotDecided, VanishingDenominator
+from garkcli.exact.cells import Interval, has
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, Parametric, fraction
@@ -20,9 +22,19 @@ from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
 from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.family import Family, Stability
+from garkcli.tableau.forms import pair
 from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
+
+Whose: TypeAlias = Literal["method", "conjugate", "pair"]
+TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
+    "method": lambda tableau: tableau,
+    "conjugate": conjugate,
+    "pair": pair,
+}
+"""The tableau that is meant, from that of a file."""
 
 
 def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
@@ -140,8 +152,15 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
             return sign_at(Polynomial.from_flint(value.poly), root)
         return sign(value)
 
+    if not all(is_in(x, solution.values[name], root) for name, x in family.sets):
+        return False
     is_positive = all(sign_of(p) > 0 for p in family.positive)
     return is_positive and all(sign_of(p) >= 0 for p in not_negative(family))
+
+
+def is_in(intervals: Sequence[Interval], value: Number, root: RealRoot) -> bool:
+    """Whether an element of ℚ[u]/modulus is in a set where u is a real root of the modulus."""
+    return has(intervals, value_at(value, root))
 
 
 MOST_DEGREE = 6
@@ -164,6 +183,20 @@ def method_at(
         for name, x in solution.values.items()
     }
     return member(tableau, ring, values)
+
+
+def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoot) -> bool | None:
+    """Whether a method is as stable as a family wants it; None where its field is too large, or the
+    time is over.
+    """
+    if not family.stable:
+        return True
+    with suppress(NotDecided):
+        tableau = method_at(family.tableau, family.ring, solution, root)
+        if tableau is not None:
+            meant = TABLEAUS[whose](tableau)
+            return all(is_stable(key, meant) for key in family.stable)
+    return None
 
 
 def is_stable(wanted: Stability, tableau: Tableau) -> bool:

@@ -11,8 +11,7 @@ from typing import Protocol
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.design import TABLEAUS, Whose
-from garkcli.design.member import member, shares_of
+from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.step_plane import Step, StepPlane, step_plane, through_members
 from garkcli.errors import UsageProblem, ZeroWeight
 from garkcli.exact.cells import Interval, Point, between, sign_of
@@ -62,6 +61,10 @@ class Members(Frozen):
             return TABLEAUS[self.whose](tableau)
         except (ZeroDivisionError, ZeroWeight):
             return None
+
+    def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
+        """Their step for every value."""
+        return step_plane(tableau, self.family.ring, fields)
 
 
 class Kind(Protocol):
@@ -115,7 +118,7 @@ class AStability:
         self.shares = shares_of(tableau, colour)
         fields = driven(tableau, "a-stable", colour)
         self.members = members
-        self.plane = step_plane(tableau, members.family.ring, fields)
+        self.plane = members.plane(tableau, fields)
         self.Q = self.plane.denominator
         self.P = self.plane.numerators[0][0]
         self.E = squared_modulus(self.Q) - squared_modulus(self.P)
@@ -153,7 +156,7 @@ class PStability:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
         fields = driven(tableau, "p-stable")
-        self.plane = step_plane(tableau, members.family.ring, fields)
+        self.plane = members.plane(tableau, fields)
         self.signs, others = oscillator_curves(self.plane)
         poles = in_square(self.plane.denominator)
         self.essential = projected(curves([poles, *self.signs]), [ZERO])

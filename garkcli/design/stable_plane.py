@@ -22,9 +22,8 @@ from typing import Any, TypeAlias
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.design.design import TABLEAUS, Whose
 from garkcli.design.fewer import fewest
-from garkcli.design.member import member, shares_of
+from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.stability_functions import FamilyFunction, function_of, joined
 from garkcli.design.stability_kinds import TwoSprings, driven
 from garkcli.design.stable_values import (
@@ -201,7 +200,7 @@ def stable_set(
     tableau = TABLEAUS[whose](family.tableau)
     entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
     is_plain = common_denominator(list(entries), family.ring).is_constant()
-    is_open = all(ends == (None, None) for ends in family.ranges.values())
+    is_open = not family.sets and all(x == (None, None) for x in family.ranges.values())
     if is_plain and is_open and two_springs is None and not has_wishes(family):
         smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
         if len(forms) == 1:

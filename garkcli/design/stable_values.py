@@ -18,12 +18,12 @@ P-stability often holds at isolated points, which no sampling finds.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias
 
 from flint import fmpq
 
-from garkcli.design.design import TABLEAUS, Design, Whose
 from garkcli.design.fewer import Form
+from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.stability_kinds import (
     AStability,
     Kind,
@@ -33,11 +33,10 @@ from garkcli.design.stability_kinds import (
     TwoSprings,
 )
 from garkcli.errors import UsageProblem, counted
-from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
 from garkcli.frozen import Frozen
-from garkcli.stability.two_frequencies import has
 from garkcli.tableau.family import Family
 from garkcli.upward import Shown
 
@@ -103,22 +102,7 @@ class StableValues(Shown, Frozen):
 def has_wishes(family: Family) -> bool:
     """Whether a file asks for more of the parameters than stability."""
     wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
-    return any(p.total_degree() != 0 for p in wanted)
-
-
-def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """Where every value has the highest order: the values that have each kind
-    of stability that is wanted; nothing where solutions are looked at one by one.
-    """
-    family = design.family
-    if design.last.kind != "every-value" or len(family.ring.names) > 1:
-        return ()
-    return tuple(
-        stable_values(family, kind, design.whose, colour=x.colour)
-        for kind in get_args(Wanted)
-        for x in dict.fromkeys(family.stable)
-        if x.kind == kind
-    )
+    return bool(family.sets) or any(p.total_degree() != 0 for p in wanted)
 
 
 def stable_values(
@@ -127,6 +111,7 @@ def stable_values(
     whose: Whose = "method",
     two_springs: TwoSprings | None = None,
     colour: int | None = None,
+    members: Members | None = None,
 ) -> StableValues:
     """The set of values of the one free parameter, of those that are as the file wants them.
 
@@ -137,6 +122,7 @@ def stable_values(
         whose: of the method, its symplectic conjugate, or its symplectic pair.
         two_springs: P-stability is meant on them.
         colour: A- or L-stability of this colour alone, counted from 0.
+        members: its methods, where there are more than those of the family.
 
     Raises:
         UsageProblem: the stability has no meaning for the method, there are several parameters, or
@@ -148,7 +134,7 @@ def stable_values(
     if len(family.parameters) > 1:
         raise too_many(family)
     tableau = TABLEAUS[whose](family.tableau)
-    members = Members(family, whose)
+    members = members or Members(family, whose)
     if wanted == "p-stable":
         oscillating: Kind
         if two_springs is None:
@@ -160,9 +146,9 @@ def stable_values(
     kind = AStability(members, tableau, colour)
     found, undecided = _decided(family, kind)
     if wanted == "l-stable":
-        critical = [*kind.critical, *_ends(found)]
+        critical = [*kind.critical, *ends_of(found)]
         stable = found
-        found = where(lambda t: _holds_at(stable, t) and kind.is_damped(t), critical)
+        found = where(lambda t: has(stable, t) and kind.is_damped(t), critical)
         undecided = tuple(t for t in undecided if kind.is_damped(t))
     found, undecided = _wanted(family, found, undecided)
     return StableValues(family, whose, wanted, found, undecided, colour=colour)
@@ -180,8 +166,8 @@ def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[
     """A set without values that are not decided."""
     if not undecided:
         return tuple(found)
-    critical = [*_ends(found), *(Polynomial.from_flint(t.polynomial) for t in undecided)]
-    return where(lambda t: _holds_at(found, t) and t not in undecided, critical)
+    critical = [*ends_of(found), *(Polynomial.from_flint(t.polynomial) for t in undecided)]
+    return where(lambda t: has(found, t) and t not in undecided, critical)
 
 
 def _wanted(
@@ -196,22 +182,20 @@ def _wanted(
         (family.not_negative, {0, 1}),
     ):
         asked += [(in_one(p), frozenset(signs)) for p in polynomials]
-    if not asked:
+    sets = [x for _, x in family.sets]
+    if not asked and not sets:
         return found, undecided
 
     def is_wanted(t: Point) -> bool:
-        return all(sign_of(p, t) in signs for p, signs in asked)
+        signs_fit = all(sign_of(p, t) in signs for p, signs in asked)
+        return signs_fit and all(has(x, t) for x in sets)
 
-    critical = [*_ends(found), *(p for p, _ in asked)]
-    kept = where(lambda t: is_wanted(t) and _holds_at(found, t), critical)
+    critical = [*ends_of(found), *(p for p, _ in asked)]
+    for x in sets:
+        critical += ends_of(x)
+    kept = where(lambda t: is_wanted(t) and has(found, t), critical)
     still_open = tuple(t for t in undecided if is_wanted(t))
     return _without(kept, still_open), still_open
-
-
-def _ends(found: Sequence[Interval]) -> list[Polynomial]:
-    """Polynomials that are zero at the ends of the parts of a set."""
-    ends = [end for x in found for end in (x.start, x.end) if end is not None]
-    return [Polynomial.from_flint(end.polynomial) for end in ends]
 
 
 def too_many(family: Family) -> UsageProblem:
@@ -299,8 +283,3 @@ class _Decision:
             self.undecided.append(t)
             return True
         return self.kind.decide(number)
-
-
-def _holds_at(intervals: Sequence[Interval], t: Point) -> bool:
-    """Whether a number belongs to a set."""
-    return has(intervals, t if isinstance(t, RealRoot) else RealRoot.rational(t))

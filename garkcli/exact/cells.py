@@ -43,6 +43,30 @@ class Interval(Frozen):
         return self.start is not None and self.start == self.end
 
 
+def contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
+    """Whether [left, right] is a part of it."""
+    start, end = interval.start, interval.end
+    if start is not None and left < start:
+        return False
+    if end is not None and end < right:
+        return False
+    if start == left and not interval.has_start:
+        return False
+    return interval.has_end or end != right
+
+
+def has(intervals: Iterable[Interval], point: Point) -> bool:
+    """Whether a number belongs to one of several intervals."""
+    x = point if isinstance(point, RealRoot) else RealRoot.rational(point)
+    return any(contains(interval, x, x) for interval in intervals)
+
+
+def ends_of(intervals: Iterable[Interval]) -> list[Polynomial]:
+    """Polynomials that are zero at the ends of intervals."""
+    ends = (end for x in intervals for end in (x.start, x.end) if end is not None)
+    return [Polynomial.from_flint(end.polynomial) for end in dict.fromkeys(ends)]
+
+
 def sign_of(p: Polynomial, point: Point) -> int:
     """The sign of p at a point, decided exactly."""
     if isinstance(point, RealRoot):

@@ -15,9 +15,10 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from garkcli.deadline import check_time
 from garkcli.exact.apart import apart
-from garkcli.exact.cells import between_roots
+from garkcli.exact.cells import Interval, between_roots, ends_of, has
+from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import real_roots, sign
+from garkcli.exact.roots import number_of, real_roots, sign
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 """ℚ[y, t]: y is what is looked along, t is what stays."""
@@ -204,17 +205,30 @@ def _in_plane(p: fmpq_mpoly, used: Sequence[int]) -> int | None:
     return None
 
 
-def is_nowhere_negative(p: fmpq_mpoly) -> bool:
-    """Whether p(y, t) ≥ 0 in the plane.
+MOST_FIELD = 6
+"""Single lines of a larger degree are not looked at."""
+
+
+def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None) -> bool | None:
+    """Whether p(y, t) ≥ 0 in the plane, or for the t of a set; None where that has a single number
+    of a large degree.
 
     Between the roots of the projection (``garkcli.exact.projection``) the signs on the lines
     t = const do not change, so that one line each decides; that p is continuous settles the others.
     """
-    critical = projected(curves([p]), [])
-    return all(_is_nowhere_negative(_on_line(p, t)) for t in between_roots(critical))
+    lines: list[Number] = []
+    if within is not None:
+        points = [number_of(x.start, MOST_FIELD) for x in within if x.is_point and x.start]
+        if None in points:
+            return None
+        lines += [t for t in points if t is not None]
+    if within is None or not all(x.is_point for x in within):
+        critical = [*projected(curves([p]), []), *ends_of(within or ())]
+        lines += [t for t in between_roots(critical) if within is None or has(within, t)]
+    return all(_is_nowhere_negative(_on_line(p, t)) for t in lines)
 
 
-def _on_line(p: fmpq_mpoly, t: fmpq) -> Polynomial:
+def _on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
     """p(y, t) for one t."""
     degree, _ = p.degrees()
     return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(degree + 1)])

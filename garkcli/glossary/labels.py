@@ -15,6 +15,7 @@ LABELS = {
     "p_stable": "P-stable",
     "conserved": "conserved form",
     "degenerate": "in floats with no method near",
+    "unstable": "not shown to be stable",
     "discriminant": "4D² − N²",
     "e_polynomial": "E(x), x = y²",
     "esdirk": "ESDIRK",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from garkcli.design.design import Whose
+from garkcli.design.member import Whose
 from garkcli.design.search.run import Task, Timed, do
 from garkcli.design.search.search import Search
 from garkcli.frozen import Frozen

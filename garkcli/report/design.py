@@ -8,8 +8,9 @@ from itertools import groupby
 from typing import Any, NamedTuple, get_args
 
 from garkcli.design.choices import Choice
-from garkcli.design.design import Design, Found, Step, Whose
+from garkcli.design.design import Design, Found, Step
 from garkcli.design.design import Kind as Verdict
+from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
 from garkcli.design.minimise.result import Candidate, Extent, Minimum, Proof
 from garkcli.design.minimise.smallest import DECIMALS
@@ -315,7 +316,7 @@ def stable_rows(x: DesignReport, d: Plain) -> Rows:
     """What the ends of the stable values are; how stability is decided where it is not."""
     kinds = ", ".join(map(str, x.design.family.stable))
     if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:
-        text = f"{kinds}: decided for single solutions, or for one parameter: --set"
+        text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
         return [("stable", d.prose(text))]
     return [row for values in x.sets for row in ends(values, d)]
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple, get_args
 
-from garkcli.design.design import Whose
+from garkcli.design.member import Whose
 from garkcli.design.search.run import Ending, Method, Result
 from garkcli.design.search.search import Proof, Search
 from garkcli.errors import counted
@@ -126,6 +126,7 @@ WHOLE = Section(
             Row("starts", COUNT, level=DATA),
             Row("successes", COUNT, level=DATA),
             Row("degenerate", COUNT, level=lambda a: USUAL if a.value else DATA),
+            Row("unstable", COUNT, level=lambda a: USUAL if a.value else DATA),
             Row("interrupted", TRUTH, "is_interrupted", DATA),
             Row("seconds", SECONDS, lambda x: round(x.seconds, 3), DATA),
         ],

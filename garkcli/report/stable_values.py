@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, get_args
 
-from garkcli.design.design import Whose
+from garkcli.design.member import Whose
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial_text import root_decimal, root_text

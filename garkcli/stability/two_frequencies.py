@@ -14,7 +14,7 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, counted
-from garkcli.exact.cells import Interval, Point, where
+from garkcli.exact.cells import Interval, Point, contains, has, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, outer, reciprocal_characteristic, subtract
 from garkcli.exact.multivariate import Exponents, Multivariate, lattice, through_points
@@ -327,7 +327,7 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
             undecided.append(root)
             return True
         slow = stable_where([_with_fast(p, number) for p in plane])
-        return any(_contains(interval, *ends) for interval in slow)
+        return any(contains(interval, *ends) for interval in slow)
 
     intervals = where(is_stable, critical, start=ZERO)
     stable = tuple(
@@ -358,23 +358,6 @@ def _with_fast(p: Multivariate, x: Number) -> Polynomial:
     """A polynomial in (a, x) as one in a."""
     exchanged: dict[Exponents, Number] = {(k, j): c for (j, k), c in p.terms}
     return _with_slow(Multivariate.of(2, exchanged), x)
-
-
-def has(intervals: Sequence[Interval], x: RealRoot) -> bool:
-    """Whether a number belongs to one of several intervals."""
-    return any(_contains(interval, x, x) for interval in intervals)
-
-
-def _contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
-    """Whether [left, right] is a part of it."""
-    start, end = interval.start, interval.end
-    if start is not None and left < start:
-        return False
-    if end is not None and end < right:
-        return False
-    if start == left and not interval.has_start:
-        return False
-    return interval.has_end or end != right
 
 
 def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:

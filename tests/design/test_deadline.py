@@ -18,15 +18,16 @@ from garkcli.design.groebner import groebner_basis, grown_basis, unproved_basis
 from garkcli.design.ideal import Ideal, characteristic_polynomial, least_meeting
 from garkcli.design.minimise.climbing import climbed
 from garkcli.design.minimise.minimise import minimise
-from garkcli.design.minimise.parts import nodes_as_coordinates, parts_of
 from garkcli.design.minimise.smallest import critical_point_near
 from garkcli.design.minimise.squared_error import squared_error
+from garkcli.design.parts import nodes_as_coordinates, parts_of
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.search.recognise import recognised
 from garkcli.design.search.run import results
 from garkcli.design.search.search import Search
 from garkcli.design.solutions import solutions
 from garkcli.design.stability_kinds import TwoSprings
+from garkcli.design.stable_parts import stable_part
 from garkcli.design.stable_plane import stable_set
 from garkcli.design.stable_values import stable_values
 from garkcli.errors import NotDecided
@@ -130,6 +131,11 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
         lambda: critical_point_near([fmpq(1), fmpq(1)], [P - 1, Q - 1], [], PAIR),
     )
     yield "stable values", lambda: stable_values(sdirk, "a-stable")
+    dirk = designed("unknown: {stages: 2, shape: sdirk}\ndesign: {a-stable: true}\n", 2)
+    assert dirk.last.ideal is not None
+    [part, *_] = parts_of(dirk.last.ideal, kept=["gamma"])
+    yield "stable parts", lambda: stable_part(dirk.family, "method", part)
+    yield "minimise of stable methods", lambda: minimise(dirk, "coefficients")
     yield "stable on the oscillator", lambda: stable_values(split.family, "p-stable")
     springs, of_pair = loads_family(SPRINGS), find_parameters(loads_family(TRANSFERS), 4, "pair")
     yield (

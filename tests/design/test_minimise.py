@@ -9,17 +9,16 @@ from pathlib import Path
 import pytest
 from flint import ctx, fmpq, fmpq_mpoly
 
-from garkcli import find_order, load, loads, search_methods
+from garkcli import find_order, load, loads
 from garkcli.deadline import within
-from garkcli.design.design import Whose, find_parameters
+from garkcli.design.design import find_parameters
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import member
+from garkcli.design.member import Whose, member
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.climbing import climbed
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.objectives import OBJECTIVES
-from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Minimum
 from garkcli.design.minimise.smallest import (
     critical_equations,
@@ -27,8 +26,9 @@ from garkcli.design.minimise.smallest import (
     is_of_one_dimension,
 )
 from garkcli.design.minimise.squared_error import squared_coupling_error, squared_error
+from garkcli.design.parts import Part
 from garkcli.design.solutions import value_at
-from garkcli.errors import NotDecided, UsageProblem
+from garkcli.errors import NotDecided
 from garkcli.exact.display import to_ball
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial_text import root_text
@@ -688,16 +688,3 @@ def test_components_of_several_dimensions() -> None:
     assert not is_of_one_dimension(both)
     sphere = part_of(x**2 + y**2 + z**2 - 1)
     assert is_of_one_dimension(sphere)
-
-
-def test_stability_is_not_looked_at() -> None:
-    """A family that is to be stable is refused, in a minimum and in a search, as on the command
-    line.
-    """
-    text = "unknown: {stages: 2, shape: sdirk}\ndesign: {a-stable: true}\n"
-    family = loads_family(text)
-    design = find_parameters(family, 2)
-    with pytest.raises(UsageProblem, match="A-stable is decided for exact"):
-        minimise(design, "error")
-    with pytest.raises(UsageProblem, match="A-stable is decided for exact"):
-        search_methods(family, 2, starts=1)

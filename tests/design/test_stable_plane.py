@@ -11,12 +11,12 @@ from flint import fmpq
 
 from garkcli import loads
 from garkcli.design.stable_plane import StablePlane, stable_set
+from garkcli.exact.cells import has
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.plots.scene import Area
 from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.stability.linear import is_a_stable, stability_function
-from garkcli.stability.two_frequencies import has
 from tests.cli.harness import gark
 
 FREE = "parameters: {g: free, d: free}\n"

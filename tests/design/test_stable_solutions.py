@@ -9,11 +9,16 @@ import jsonschema
 import pytest
 from flint import fmpq, fmpq_poly, fmpz_poly
 
+from garkcli import minimise
 from garkcli.design.choices import accepted_methods
-from garkcli.design.design import Design, find_parameters
+from garkcli.design.design import Design, find_parameters, stable_sets
+from garkcli.design.minimise.line import Within
+from garkcli.design.stable_values import stable_values
 from garkcli.errors import MethodFileError
+from garkcli.exact.cells import Interval, where
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import NumberField
+from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
@@ -69,17 +74,107 @@ def test_order_and_stability_as_a_command(tmp_path: Path) -> None:
     assert [x["point"] for x in data["stable"][0]["set"]] == ["1 - sqrt(2)/2", "1 + sqrt(2)/2"]
 
 
-def test_wishes_that_have_no_meaning(tmp_path: Path) -> None:
-    """P-stability of one colour is refused with its cure; so is a search, whose methods need not be
-    exact.
-    """
+def test_wishes_that_have_no_meaning() -> None:
+    """P-stability of one colour is refused with its cure."""
     text = "unknown: {stages: 2, shape: imex}\ndesign: {p-stable: {2: true}}\n"
     with pytest.raises(MethodFileError, match="meant of the whole method"):
         loads_family(text)
-    path = tmp_path / "family.yaml"
-    path.write_text(THREE, encoding="utf-8")
-    refused = gark("design", str(path), "--order", "4", "--search", "3")
-    assert (refused.code, "gark check" in refused.err) == (2, True)
+
+
+TWO = "unknown: {stages: 2, shape: sdirk}\ndesign: {order: 2, %s: true}\n"
+
+
+@pytest.mark.parametrize(
+    ("kind", "ends"), [("a-stable", ["1/4"]), ("l-stable", ["1 - sqrt(2)/2", "1 + sqrt(2)/2"])]
+)
+def test_stable_methods_of_a_family_of_two_dimensions(kind: str, ends: list[str]) -> None:
+    """R of SDIRK methods of two stages and order 2 depends on gamma alone: the set is that of the
+    family of one parameter, and methods beside its ends are stable or not as it says.
+    """
+    found = find_parameters(loads_family(TWO % kind))
+    [values] = stable_sets(found)
+    assert found.last.is_real is True
+    assert values.parameter == "gamma"
+    shown = [root_text(end) for x in values.found for end in (x.start, x.end) if end is not None]
+    assert list(dict.fromkeys(shown)) == ends
+    alone = stable_values(loads_family(SDIRK), "a-stable" if kind == "a-stable" else "l-stable")
+    assert values.found == alone.found
+    text = "parameters: {g: %s, c: 3/5}\nA: [[g, 0], [c - g, g]]\nb: [1 - (1/2 - g)/(c - g), (1/2 - g)/(c - g)]\n"
+    for g, stable in (("1/5", False), ("1/4", True), ("2", True), ("1 - sqrt(2)/2", True)):
+        R = stability_function(loads(text % f'"{g}"').tableau)
+        assert is_a_stable(R) is stable
+        assert is_l_stable(R) is (g == "1 - sqrt(2)/2")
+
+
+def test_the_best_of_the_stable_methods() -> None:
+    """Of A-stable methods the least error is that of one of both methods of order 3; of the theta
+    methods the least coefficients are at the end of the stable ones, where no derivative vanishes.
+    """
+    free = minimise(
+        loads_family("unknown: {stages: 2, shape: sdirk}\ndesign: {order: 2}\n"), "error"
+    )
+    stable = minimise(loads_family(TWO % "a-stable"), "error")
+    assert (len(free.minimisers), len(stable.minimisers)) == (2, 1)
+    [best] = stable.minimisers
+    assert root_text(best.found.solution.real_values[best.index]["gamma"]) == "1/2 + sqrt(3)/6"
+    theta = "parameters: {t: free}\nA: [[t]]\nb: [1]\ndesign: {order: 1%s}\n"
+    least = minimise(loads_family(theta % ", a-stable: true"), "coefficients")
+    assert (least.value, least.extent) == (RealRoot.rational(fmpq(5, 4)), "all")
+    assert minimise(loads_family(theta % ""), "coefficients").value == RealRoot.rational(fmpq(1))
+
+
+def test_the_least_error_of_l_stable_methods() -> None:
+    """17/18 − 2√2/3 at gamma = 1 − √2/2, and none is less: by the certificate's engine over ℚ(√2),
+    and by all trees at many other nodes with gamma to 30 digits.
+    """
+    least = minimise(loads_family(TWO % "l-stable"), "error")
+    assert least.value is not None
+    assert root_text(least.value) == "17/18 - 2*sqrt(2)/3"
+    assert least.extent == "nearly"
+    gamma = fmpq(292893218813452475599155637895, 10**30)
+    errors = []
+    for k in range(-20, 40):
+        c = fmpq(2 * k + 1, 19)
+        b = (fmpq(1, 2) - gamma) / (c - gamma)
+        A, weights, nodes = [[gamma, fmpq(0)], [c - gamma, gamma]], [1 - b, b], [gamma, c]
+        product = [sum(a * x for a, x in zip(row, nodes, strict=True)) for row in A]
+        cubic = sum(w * x * x for w, x in zip(weights, nodes, strict=True)) - fmpq(1, 3)
+        tall = sum(w * x for w, x in zip(weights, product, strict=True)) - fmpq(1, 6)
+        errors.append(cubic**2 / 4 + tall**2)  # σ of [τ, τ] is 2
+    about = fmpq(17, 18) - fmpq(2, 3) * (2 - 2 * gamma)
+    assert min(errors) > about - fmpq(1, 10**20)
+    assert min(errors) < about + fmpq(1, 1000)
+
+
+def test_a_search_for_stable_methods(tmp_path: Path) -> None:
+    """Each find is A-stable and its file claims it; one start leads to a method that is not."""
+    path, folder = tmp_path / "family.yaml", tmp_path / "found"
+    path.write_text(
+        "unknown: {stages: 3, shape: sdirk}\ndesign: {a-stable: true}\n", encoding="utf-8"
+    )
+    asked = ["design", str(path), "--order", "3", "--search", "8", "--format", "json"]
+    run = gark(*asked, "--output-dir", str(folder))
+    data = json.loads(run.out)
+    jsonschema.validate(data, report_schema("design-search"))
+    assert (len(data["methods"]), data["unstable"]) == (5, 1)
+    files = sorted(folder.iterdir())
+    assert all("a-stable: true" in x.read_text(encoding="utf-8") for x in files)
+    assert gark("check", *map(str, files)).code == 0
+
+
+def test_values_in_a_set() -> None:
+    """T + 1/t is in [√5, 3] for t between the roots of t² − √5 t + 1 and of t² − 3 t + 1."""
+    root5, three = RealRoot(fmpz_poly([-5, 0, 1]), 1), RealRoot.rational(fmpq(3))
+    numerator, denominator = Polynomial([1, 0, 1]), Polynomial([0, 1])
+    within = Within(numerator, denominator, (Interval(root5, three, has_start=True, has_end=True),))
+    for x in where(within.holds, within.polynomials):
+        assert x.start is not None
+        assert x.end is not None
+        assert sorted(round(t + 1 / t, 9) for t in (float(x.start), float(x.end))) == [
+            2.236067977,
+            3.0,
+        ]
+    assert not within.holds(fmpq(0))
 
 
 IMEX = """unknown: {stages: 4, shape: [imex, stiffly-accurate]}
@@ -103,6 +198,22 @@ def test_implicit_explicit_methods_with_an_l_stable_part() -> None:
     method = loads(IMEX.split("design")[0], settings=chosen.values)
     R = stability_function(method.tableau, [fmpq(0), fmpq(1)])
     assert is_l_stable(R)
+
+
+def test_the_best_implicit_explicit_method_with_an_l_stable_part() -> None:
+    """e43 is free besides gamma: where gamma is written down as the root that is L-stable there is
+    one solution, the same.
+    """
+    free = IMEX.replace("e42: e43, e32: 2/5", "e32: 2/5")
+    found = minimise(loads_family(free), "coefficients")
+    assert found.extent == "nearly"
+    [best] = found.minimisers
+    values = best.found.solution.real_values[best.index]
+    assert float(values["gamma"]) == pytest.approx(0.4358665215)
+    text = free.replace("  l-stable: {2: true}\n", "").replace("b1: 0,", "b1: 0, gamma: %s,")
+    given = "'root_of(6*x**3 - 18*x**2 + 9*x - 1, 0.43586652)'"
+    other = minimise(loads_family(text % given), "coefficients")
+    assert other.value == found.value
 
 
 def test_all_solutions_are_written(tmp_path: Path) -> None:

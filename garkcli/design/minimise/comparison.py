@@ -4,25 +4,29 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
+from garkcli.deadline import check_time
 from garkcli.design.design import Design, Found, Step, order_of
-from garkcli.design.member import is_admissible, member, not_negative, value_of
-from garkcli.design.minimise.climbing import GRID, climbed
-from garkcli.design.minimise.line import Conditions
+from garkcli.design.member import is_admissible, is_as_stable, member, not_negative, value_of
+from garkcli.design.minimise.climbing import GRID, Point, climbed
+from garkcli.design.minimise.line import Conditions, Within
 from garkcli.design.minimise.objective import Level, Objective, Size
-from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.pairs import least_error
+from garkcli.design.parts import Chart, Part, charts
 from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.design.stable_parts import is_on, stable_part
 from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
-from garkcli.exact.field import Number, NumberField
+from garkcli.exact.cells import Interval, ends_of
+from garkcli.exact.field import Number
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Mutable, field, replace
 from garkcli.tableau.tableau import Tableau
 
@@ -134,7 +138,7 @@ class Comparison(Mutable):
         best = least_error(criterion, self.step.order, ideal)
         for solution in () if best is None else solutions(best):
             for index, root in enumerate(solution.real):
-                if is_admissible(self.design.family, solution, root):
+                if self.takes(solution, root):
                     self.add(solution, index)
         return bool(self.candidates)
 
@@ -142,25 +146,47 @@ class Comparison(Mutable):
         """The candidates of one part."""
         if part.dimension == 0:
             for point in _points(part):
-                solution = self.whole(part, point)
+                solution = part.whole(point)
                 for index, root in enumerate(solution.real):
-                    if is_admissible(self.design.family, solution, root):
+                    if self.takes(solution, root, part):
                         self.add(solution, index)
-        elif part.is_free and part.dimension == 1:
+        elif part.is_free and part.dimension == 1 and self.is_settled(part):
             self.over_line(part)
         else:
             self.over_variety(part)
 
-    def whole(self, part: Part, solution: Solution) -> Solution:
-        """A solution in the coordinates of a part as one in all unknowns."""
-        values: dict[str, Number] = {}
-        for name, x in part.values.items():
-            over, under = fraction(x, part.ring)
-            numerator = value_of(over, part.ring, solution.values)
-            values[name] = numerator / value_of(under, part.ring, solution.values)
-        return Solution(
-            solution.modulus, solution.field, values, solution.multiplicity, solution.real
-        )
+    def over_whole(self, part: Part) -> None:
+        """The candidates of one part of the solution set, of which the stable ones are taken."""
+        family = self.design.family
+        parts = [part]
+        if family.stable and part.dimension > 0:
+            with suppress(NotDecided):
+                stable = stable_part(family, self.design.whose, part)
+                parts = list(stable.parts)
+                if not stable.is_decided:
+                    self.extent = "found"
+        check_time()
+        for one in parts:
+            self.parts.append(one)
+            self.over(one)
+
+    def is_settled(self, part: Part) -> bool:
+        """Whether the sets of a part say which of its methods are as stable as is wanted."""
+        return bool(part.sets) or not self.design.family.stable
+
+    def takes(self, solution: Solution, root: RealRoot, part: Part | None = None) -> bool:
+        """Whether a method is one of those that are compared."""
+        design = self.design
+        if part is not None and not is_on(design.family, part, solution, root):
+            return False
+        if part is not None and self.is_settled(part):
+            return True
+        if not is_admissible(design.family, solution, root):
+            return False
+        stable = is_as_stable(design.family, design.whose, solution, root)
+        if stable is None:
+            self.extent = "found"
+        return bool(stable)
 
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
@@ -175,9 +201,9 @@ class Comparison(Mutable):
         values = cast("Mapping[str, Number]", part.values)
         return member(self.design.tableau, self.design.family.ring, values)
 
-    def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[fmpq, ...] | None:
-        """The coordinates of a good method of a part with several free ones, which proves nothing
-        of others; None where none is found.
+    def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[Chart, Point] | None:
+        """A good method of a part, by the free coordinates of a chart, which proves nothing of
+        others; None where none is found.
 
         Args:
             part: where there is one.
@@ -187,28 +213,42 @@ class Comparison(Mutable):
             NotDecided: it has more coordinates than are tried, it is curved, or it takes too long.
         """
         self.extent = "found"
-        names = part.ring.names
-        if not part.is_free or len(names) > max(GRID):
+        every = charts(part)
+        if not every or len(every[0].names) > max(GRID):
             raise NotDecided
+        best: tuple[Any, Chart, Point] | None = None
+        for chart in every:
 
-        def ranked(point: tuple[fmpq, ...]) -> Any:
-            solution = self.at_point(part, point)
-            if solution is None:
-                return None
-            return (rank(self.value_of(solution, 0)),)
+            def ranked(point: Point, chart: Chart = chart) -> Any:
+                solution = self.at_point(part, chart, point)
+                if solution is None:
+                    return None
+                return (rank(self.value_of(solution, chart.index)),)
 
-        return climbed(ranked, len(names))
+            point = climbed(ranked, len(chart.names))
+            if point is not None and (best is None or ranked(point) > best[0]):
+                best = ranked(point), chart, point
+        return None if best is None else best[1:]
 
-    def at_point(self, part: Part, point: tuple[fmpq, ...]) -> Solution | None:
-        """The method at rational coordinates; None where there is none within the ranges."""
-        values: dict[str, Number] = dict(zip(part.ring.names, point, strict=True))
-        if not all(value_of(p, part.ring, values) for p in part.nonzero):
-            return None
-        origin = RealRoot.rational(fmpq(0))
-        solution = self.whole(part, Solution(fmpq_poly([0, 1]), None, values, 1, (origin,)))
-        if not is_admissible(self.design.family, solution, origin):
+    def at_point(self, part: Part, chart: Chart, point: Point) -> Solution | None:
+        """A method by its free coordinates; None where there is none that is compared."""
+        solution = chart.point(part, point)
+        if solution is None or not self.takes(solution, solution.real[chart.index], part):
             return None
         return solution
+
+    def edges(self, part: Part) -> Iterator[fmpq_mpoly]:
+        """Polynomials in the coordinates that are zero where the methods that are compared end."""
+        family = self.design.family
+        for end in not_negative(family):
+            yield fraction(part.expressed(end, family.ring), part.ring)[0]
+        for name, intervals in (*family.sets, *part.sets):
+            x = cast("Any", part.values[name])
+            for polynomial in ends_of(intervals):
+                value: Any = fmpq(0)
+                for a in reversed(polynomial.coefficients):
+                    value = value * x + a
+                yield fraction(value, part.ring)[0]
 
     def conditions(self, part: Part) -> Conditions:
         """Which values of the one coordinate are allowed."""
@@ -219,8 +259,17 @@ class Comparison(Mutable):
             return [in_one(sign_polynomial(x, part.ring)) for x in expressed]
 
         return Conditions(
-            [in_one(p) for p in part.nonzero], signs(family.positive), signs(not_negative(family))
+            [in_one(p) for p in part.nonzero],
+            signs(family.positive),
+            signs(not_negative(family)),
+            [self._within(part, *x) for x in (*family.sets, *part.sets)],
         )
+
+    @staticmethod
+    def _within(part: Part, name: str, intervals: tuple[Interval, ...]) -> Within:
+        """That the value of an unknown is in a set, on a line."""
+        over, under = fraction(part.values[name], part.ring)
+        return Within(in_one(over), in_one(under), intervals)
 
 
 def _points(part: Part) -> Iterator[Solution]:
@@ -234,20 +283,6 @@ def _points(part: Part) -> Iterator[Solution]:
     for solution in solutions(part.ideal):
         if all(value_of(p, part.ring, solution.values) for p in part.nonzero):
             yield solution
-
-
-def at_root(name: str, root: RealRoot) -> Solution:
-    """A real number as the value of an unknown, in the field that it generates."""
-    monic = Polynomial.from_flint(root.polynomial).monic()
-    modulus = monic.to_flint()
-    value: Number
-    if root.exact is not None:
-        number_field, value = None, root.exact
-    else:
-        number_field = NumberField(modulus, ())
-        value = number_field.from_coordinates([fmpq(0), fmpq(1)])
-    roots = tuple(x for x, _ in real_roots(monic))
-    return Solution(modulus, number_field, {name: value}, 1, roots)
 
 
 _STRENGTH = ("exact", "exists", "numerical")

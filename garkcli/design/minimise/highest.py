@@ -21,11 +21,11 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.design.design import Found
 from garkcli.design.member import member, method_at
-from garkcli.design.minimise.comparison import Comparison, at_root
+from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.line import Conditions, Toward
 from garkcli.design.minimise.objective import ORIGIN, Level, Signs, Size
-from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
+from garkcli.design.parts import Part, at_root
 from garkcli.design.solutions import Solution
 from garkcli.exact.cells import Point, between, sign_of
 from garkcli.exact.fibre import Fibre, Root
@@ -327,7 +327,7 @@ class Highest(Comparison):
         if not levels.is_decided:
             self.extent = "found"
         for high in levels.attained:
-            solution = self.whole(part, at_root(name, high.t))
+            solution = part.whole(at_root(name, high.t))
             method = Found(solution, None, (high.t.number,))
             # between critical numbers levels are monotone: the greatest is one of a constant
             is_constant = high.is_sample and not levels.limits
@@ -337,11 +337,12 @@ class Highest(Comparison):
 
     def over_variety(self, part: Part) -> None:
         """A good method by trial."""
-        point = self.tried(part, height)
-        if point is not None:
-            solution = self.at_point(part, point)
+        best = self.tried(part, height)
+        if best is not None:
+            chart, point = best
+            solution = self.at_point(part, chart, point)
             assert solution is not None
-            self.add(solution, 0, proof="numerical")
+            self.add(solution, chart.index, proof="numerical")
 
 
 class TooLarge(Exception):

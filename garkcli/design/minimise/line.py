@@ -13,11 +13,44 @@ from flint import fmpq
 
 from garkcli.deadline import check_time
 from garkcli.design.solutions import value_at
-from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
 from garkcli.exact.field import NumberField
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen
+
+
+class Within(Frozen):
+    """That a rational function N/D of t has values in a set.
+
+    Attributes:
+        numerator: N.
+        denominator: D.
+        intervals: the set.
+    """
+
+    numerator: Polynomial
+    denominator: Polynomial
+    intervals: tuple[Interval, ...]
+
+    def holds(self, t: Point) -> bool:
+        """Whether the value at t is one of the set."""
+        if sign_of(self.denominator, t) == 0:
+            return False
+        root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
+        return has(self.intervals, _value(self.numerator, self.denominator)(root))
+
+    @property
+    def polynomials(self) -> list[Polynomial]:
+        """Polynomials in t: between their zeros nothing changes."""
+        N, D = self.numerator, self.denominator
+        found = [D]
+        for end in ends_of(self.intervals):
+            total = Polynomial([])
+            for k, a in enumerate(end.coefficients):
+                total += N**k * D ** (end.degree - k) * a
+            found.append(total)
+        return found
 
 
 class Conditions(Frozen):
@@ -25,11 +58,13 @@ class Conditions(Frozen):
 
     Attributes:
         nonzero, positive, not_negative: polynomials with that sign there.
+        sets: functions whose values are in sets of numbers.
     """
 
     nonzero: Sequence[Polynomial] = ()
     positive: Sequence[Polynomial] = ()
     not_negative: Sequence[Polynomial] = ()
+    sets: Sequence[Within] = ()
 
     def hold(self, t: Point) -> bool:
         """Whether a number is allowed."""
@@ -37,6 +72,7 @@ class Conditions(Frozen):
             all(sign_of(p, t) for p in self.nonzero)
             and all(sign_of(p, t) > 0 for p in self.positive)
             and all(sign_of(p, t) >= 0 for p in self.not_negative)
+            and all(x.holds(t) for x in self.sets)
         )
 
     @property
@@ -47,7 +83,10 @@ class Conditions(Frozen):
     @property
     def polynomials(self) -> list[Polynomial]:
         """All of them."""
-        return [*self.nonzero, *self.positive, *self.not_negative]
+        critical = [*self.nonzero, *self.positive, *self.not_negative]
+        for x in self.sets:
+            critical += x.polynomials
+        return critical
 
 
 class At(Frozen):

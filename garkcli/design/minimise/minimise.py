@@ -1,6 +1,6 @@
 """Which methods of a solution set have the least value of an objective.
 
-The set is taken apart (``garkcli.design.minimise.parts``). Of single points all are compared. On a
+The set is taken apart (``garkcli.design.parts``). Of single points all are compared. On a
 part with one coordinate the objective is a rational function of it, and everything is compared:
 critical points, ends, limits. On a part of larger dimension the critical points are found; what
 happens at infinity is not looked at.
@@ -16,9 +16,9 @@ from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.highest import Highest
 from garkcli.design.minimise.objective import Either, Level, Objective
 from garkcli.design.minimise.objectives import OBJECTIVES
-from garkcli.design.minimise.parts import nodes_as_coordinates, parts_of
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
+from garkcli.design.parts import diagonal_unknowns, nodes_as_coordinates, parts_of
 from garkcli.errors import UsageProblem
 
 SHARE = 0.25
@@ -54,16 +54,10 @@ def minimise(
         seconds: after which it is given up; None for never.
 
     Raises:
-        UsageProblem: the objective has no meaning for the methods, nothing was decided, or the
-            family is to be stable.
+        UsageProblem: the objective, or stability that is wanted, has no meaning for the methods, or
+            nothing was decided.
         NotDecided: a Gröbner basis or a trial takes too long.
     """
-    if design.family.stable:
-        raise UsageProblem(
-            f"{design.family.stable[0]} is decided for exact solutions, a minimum has others",
-            "leave it out, and ask gark check of what is found",
-            code="wanted-without-meaning",
-        )
     step = step_to_minimise(design)
     if isinstance(objective, str):
         objective = OBJECTIVES[objective]
@@ -82,8 +76,11 @@ def minimise(
         elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
             assert step.ideal is not None
             nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
+            kept: list[str] = []
+            if design.family.stable:
+                kept = diagonal_unknowns(design.tableau, step.ideal.ring)
             with until(comparison.share):
-                comparison.parts += parts_of(step.ideal, nodes)
-            for part in comparison.parts:
-                comparison.over(part)
+                parts = list(parts_of(step.ideal, nodes, kept))
+            for part in parts:
+                comparison.over_whole(part)
         return comparison.result()

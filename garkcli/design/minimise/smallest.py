@@ -12,12 +12,12 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, until
 from garkcli.design.design import Found
-from garkcli.design.member import member, not_negative
-from garkcli.design.minimise.comparison import Comparison, at_root
+from garkcli.design.member import member
+from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
-from garkcli.design.minimise.parts import Part, parts_within
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
+from garkcli.design.parts import Chart, Part, at_root, charts, parts_within, values_on
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import (
     System,
@@ -51,10 +51,7 @@ def critical_equations(
         NotDecided: there are too many of them.
     """
     size = len(part.ring.names)
-    gradient = []
-    for i in range(size):
-        over = numerator.derivative(i) * denominator
-        gradient.append(over - numerator * denominator.derivative(i))
+    gradient = gradient_of(numerator, denominator, size)
     if part.is_free:
         return gradient
     equations = part.equations
@@ -71,6 +68,14 @@ def critical_equations(
             minor = [[row[j] for j in columns] for row in rows]
             zeros.append(_determinant(minor))
     return zeros
+
+
+def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> list[fmpq_mpoly]:
+    """The numerators of the derivatives of N/D by so many variables."""
+    return [
+        numerator.derivative(i) * denominator - numerator * denominator.derivative(i)
+        for i in range(size)
+    ]
 
 
 def is_of_one_dimension(part: Part) -> bool:
@@ -139,23 +144,41 @@ def critical_point_near(
     return rounded
 
 
-def is_nowhere_less(numerator: fmpq_mpoly, denominator: fmpq_mpoly, m: fmpq) -> bool | None:
-    """Whether N/D ≥ m on the plane; None where that would take too long.
+def is_nowhere_less(
+    numerator: fmpq_mpoly,
+    denominator: fmpq_mpoly,
+    m: fmpq,
+    place: int = 1,
+    lines: Sequence[Interval] | None = None,
+) -> bool | None:
+    """Whether N/D ≥ m on the plane, or on some lines; None where that would take too long.
 
     Args:
         numerator: N, in two variables.
         denominator: D.
         m: the bound.
+        place: of the variable that is constant on a line.
+        lines: its values; None for all.
     """
-    difference = _in_plane(numerator - denominator * m)
-    if any(p.total_degree() > MOST_DEGREE for p in curves([difference])):
+    difference = _in_plane(numerator - denominator * m, place)
+    is_plane = lines is None or not all(x.is_point for x in lines)
+    if is_plane and any(p.total_degree() > MOST_DEGREE for p in curves([difference])):
         return None
-    return is_nowhere_negative(difference * _in_plane(denominator))
+    return is_nowhere_negative(difference * _in_plane(denominator, place), lines)
 
 
-def _in_plane(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The same with the names of ``PLANE``."""
-    return PLANE.from_dict(dict(p.to_dict()))
+def _in_plane(p: fmpq_mpoly, place: int) -> fmpq_mpoly:
+    """The same with the names of ``PLANE``, the second of them for the variable at a place."""
+    return PLANE.from_dict({(int(e[1 - place]), int(e[place])): a for e, a in p.to_dict().items()})
+
+
+def _lines(part: Part) -> tuple[int, tuple[Interval, ...] | None]:
+    """A coordinate of a part with two of which a set of values is known, and that; None for all."""
+    for place, name in enumerate(part.ring.names):
+        values = values_on(part, name)
+        if values is not None:
+            return place, values
+    return 1, None
 
 
 CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
@@ -215,10 +238,11 @@ class Smallest(Comparison):
         rounding.
         """
         if part.dimension == 0 or (part.is_free and part.dimension == 1):
-            return True
-        if not part.is_free or part.dimension > 2:
+            return self.is_settled(part)
+        if not charts(part) or len(part.ring.names) != 2:
             return False
-        return bool(is_nowhere_less(*self._formula(part), _bound(best)))
+        place, lines = _lines(part)
+        return bool(is_nowhere_less(*self._formula(part), _bound(best), place, lines))
 
     def value_of(self, solution: Solution, index: int) -> Size:
         ring = self.design.family.ring
@@ -244,7 +268,7 @@ class Smallest(Comparison):
                 self._over_interval(part, name, interval)
             return
         for low in values.attained:
-            solution = self.whole(part, at_root(name, low.t))
+            solution = part.whole(at_root(name, low.t))
             method = Found(solution, None, (low.t.number,))
             self.candidates.append(Candidate(low.value, method, low.t.number))
         for toward in values.limits:
@@ -257,7 +281,7 @@ class Smallest(Comparison):
             root = interval.start
         else:
             root = RealRoot.rational(between(interval.start, interval.end))
-        solution = self.whole(part, at_root(name, root))
+        solution = part.whole(at_root(name, root))
         self.add(solution, root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
@@ -277,29 +301,43 @@ class Smallest(Comparison):
             check_time()
             self._by_trial(part)
             return
-        for end in not_negative(self.design.family):
-            edge, _ = fraction(part.expressed(end, self.design.family.ring), part.ring)
-            if not edge.is_constant():
+        for edge in self.edges(part):
+            if edge and not edge.is_constant():
                 self._over_smaller(part, [edge])
 
     def _by_trial(self, part: Part) -> None:
         """A good method by trial, or a better one next to a critical point near it."""
-        point = self.tried(part, cmp_to_key(_larger_first))
-        if point is None:
+        best = self.tried(part, cmp_to_key(_larger_first))
+        if best is None:
             return
+        chart, point = best
+        names = part.ring.names
         numerator, denominator = self._formula(part)
-        gradient = [
+        gradient = gradient_of(numerator, denominator, len(names))
+        free = dict(zip(chart.names, point, strict=True))
+        zeros = part.equations
+        zeros += [
             without_factors(p, denominator)
-            for p in critical_equations(part, numerator, denominator)
+            for name, p in zip(names, gradient, strict=True)
+            if name in free
         ]
+        near = [free[x] if x in free else self._about(chart, x) for x in names]
         nonzero = [*part.nonzero, denominator]
-        refined = critical_point_near(point, gradient, nonzero, part.ring)
+        refined = critical_point_near(near, zeros, nonzero, part.ring)
+        if refined is not None:
+            refined = tuple(x for name, x in zip(names, refined, strict=True) if name in free)
         for coordinates, proof in ((refined, "exists"), (point, "numerical")):
             if coordinates is None:
                 continue
-            solution = self.at_point(part, coordinates)
+            solution = self.at_point(part, chart, coordinates)
             if solution is not None:
-                self.add(solution, 0, proof=cast("Proof", proof))
+                self.add(solution, chart.index, proof=cast("Proof", proof))
+
+    @staticmethod
+    def _about(chart: Chart, name: str) -> fmpq:
+        """The coordinate of a chart that is not free, rounded."""
+        root = value_at(chart.one.values[name], chart.one.real[chart.index])
+        return midpoint(root.ball(BITS))
 
     def _over_smaller(self, part: Part, zeros: list[fmpq_mpoly]) -> None:
         """The candidates of a subset of a part."""

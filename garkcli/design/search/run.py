@@ -16,12 +16,12 @@ from flint import arb
 from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.deadline import within
 from garkcli.design.choices import DIGITS, values_text
-from garkcli.design.design import Whose
+from garkcli.design.member import Whose
 from garkcli.design.search.points import small_bits
 from garkcli.design.search.rational import in_decimals
 from garkcli.design.search.search import BITS, Find, Proof, Search
 from garkcli.design.solutions import value_at
-from garkcli.errors import MethodError, NotDecided, UsageProblem, counted
+from garkcli.errors import MethodError, NotDecided, counted
 from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
@@ -125,6 +125,7 @@ class Result(Mutable):
         successes: how many of them solve the conditions in floats.
         degenerate: how many of the different solutions that were looked into are no methods:
             no solution with more digits is near.
+        unstable: how many of them are not shown to be as stable as the file wants.
         methods: each once, in the order of the starts.
         seconds: of the processor.
         ending: what ended the search before its last start; None where nothing did.
@@ -136,6 +137,7 @@ class Result(Mutable):
     starts: int = 0
     successes: int = 0
     degenerate: int = 0
+    unstable: int = 0
     methods: list[Method] = field(default_factory=list)
     seconds: float = 0.0
     ending: Ending | None = None
@@ -171,7 +173,8 @@ class Batch(Frozen):
 
 
 class Solution(Frozen):
-    """Work: the method that a solution in floats makes, or None.
+    """Work: the method that a solution in floats makes; None where it makes none, False where that
+    is not shown to be as stable as is wanted.
 
     Attributes:
         start: the number of the start that led to it.
@@ -184,7 +187,9 @@ class Solution(Frozen):
     def result(self, search: Search) -> object:
         """What comes of it."""
         find = search.find(self.start, self.point)
-        return None if find is None else _as_text(find, search.family.parameters)
+        if find is None or not find.is_stable:
+            return None if find is None else False
+        return _as_text(find, search.family.parameters)
 
 
 Task: TypeAlias = Batch | Solution
@@ -222,14 +227,7 @@ def search_methods(
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        UsageProblem: the family is to be stable.
     """
-    if family.stable:
-        raise UsageProblem(
-            f"{family.stable[0]} is decided for exact solutions, a search has others",
-            "leave it out, and ask gark check of what is found",
-            code="wanted-without-meaning",
-        )
     result = Result(order=order, whose=whose, seed=seed)
     try:
         with within(seconds):
@@ -319,6 +317,9 @@ class _Run:
 
     def _keep(self, found: object) -> None:
         if len(self.result.methods) >= self.most:
+            return
+        if found is False:
+            self.result.unstable += 1
             return
         if not isinstance(found, Method):
             self.result.degenerate += 1

@@ -8,8 +8,15 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mpoly
 
-from garkcli.design.design import TABLEAUS, Found, Whose, order_of
-from garkcli.design.member import is_admissible, not_negative, value_of
+from garkcli.design.design import Found, order_of
+from garkcli.design.member import (
+    TABLEAUS,
+    Whose,
+    is_admissible,
+    is_as_stable,
+    not_negative,
+    value_of,
+)
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import (
@@ -99,6 +106,7 @@ class Find(Frozen):
             solved.
         found: the exact numbers, where they are known.
         digits: the values to many digits otherwise, balls without radius.
+        is_stable: whether it is known to be as stable as is wanted.
     """
 
     start: int
@@ -106,6 +114,7 @@ class Find(Frozen):
     order: int
     found: Found | None
     digits: Mapping[str, arb]
+    is_stable: bool = True
 
 
 class Search:
@@ -195,9 +204,9 @@ class Search:
                 continue
             system, x = tried, made
             find = self._exact(start, made)
-            if find is not None and (best is None or _degree(find) < _degree(best)):
+            if find is not None and (best is None or _worth(find) < _worth(best)):
                 best = find
-            if best is not None and _degree(best) == 1:
+            if best is not None and _worth(best) == (False, 1):
                 break
         if best is not None:
             return best
@@ -218,7 +227,7 @@ class Search:
         if answer == "yes" and is_proved(proving, x, BITS, self._generators.denominators):
             proof = "exists"
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
-        return Find(start, proof, self.order, None, digits)
+        return Find(start, proof, self.order, None, digits, not self.family.stable)
 
     @cached_property
     def _signs(self) -> Signs:
@@ -274,12 +283,14 @@ class Search:
         order = order_of(self.family, self.whose, solution)
         if order is None or order.order < self.order:
             return None
-        return Find(start, "exact", order.order, Found(solution, order, (0,)), {})
+        stable = is_as_stable(self.family, self.whose, solution, guess.root)
+        found = Found(solution, order, (0,))
+        return Find(start, "exact", order.order, found, {}, bool(stable))
 
 
-def _degree(find: Find) -> int:
-    """Of the field of an exact find."""
-    return 0 if find.found is None else find.found.solution.degree
+def _worth(find: Find) -> tuple[bool, int]:
+    """Smaller for better finds: stable ones, then by the degree of their field."""
+    return not find.is_stable, 0 if find.found is None else find.found.solution.degree
 
 
 def _ends(

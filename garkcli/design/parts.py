@@ -8,15 +8,19 @@ solution is in one part, and no part is lost.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 from garkcli.deadline import check_time
 from garkcli.design.ideal import Ideal, factors, rational
 from garkcli.design.member import value_of
-from garkcli.exact.field import Number
+from garkcli.design.solutions import Solution
+from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
+from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, fraction
+from garkcli.exact.polynomial import Polynomial, in_one
+from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -110,12 +114,14 @@ class Part(Frozen):
         nonzero: polynomials in the coordinates that are zero at no solution of this part.
         ideal: of what the coordinates satisfy; trivial where they are free. Some of its zeros may
             be zeros of ``nonzero``.
+        sets: names of ``values`` with sets of numbers in which these are.
     """
 
     ring: Parameters
     values: Mapping[str, Mixed]
     nonzero: tuple[fmpq_mpoly, ...]
     ideal: Ideal
+    sets: tuple[tuple[str, tuple[Interval, ...]], ...] = ()
 
     @property
     def is_free(self) -> bool:
@@ -137,19 +143,126 @@ class Part(Frozen):
         values = cast("Mapping[str, Number]", self.values)
         return cast("Mixed", value_of(polynomial, ring, values))
 
+    def whole(self, solution: Solution) -> Solution:
+        """A solution in the coordinates as one in all unknowns."""
+        values: dict[str, Number] = {}
+        for name, x in self.values.items():
+            over, under = fraction(x, self.ring)
+            numerator = value_of(over, self.ring, solution.values)
+            values[name] = numerator / value_of(under, self.ring, solution.values)
+        return replace(solution, values=values)
 
-def parts_of(ideal: Ideal, changes: Changes | None = None) -> Iterator[Part]:
+
+def at_root(name: str, root: RealRoot) -> Solution:
+    """A real number as the value of an unknown, in the field that it generates."""
+    monic = Polynomial.from_flint(root.polynomial).monic()
+    modulus = monic.to_flint()
+    value: Number
+    if root.exact is not None:
+        number_field, value = None, root.exact
+    else:
+        number_field = NumberField(modulus, ())
+        value = number_field.from_coordinates([fmpq(0), fmpq(1)])
+    roots = tuple(x for x, _ in real_roots(monic))
+    return Solution(modulus, number_field, {name: value}, 1, roots)
+
+
+def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
+    """What a part asks of one coordinate alone, in that; None where it asks nothing."""
+    place = part.ring.names.index(name)
+    for p in part.equations:
+        degrees = p.degrees()
+        if degrees[place] and sum(degrees) == degrees[place]:
+            alone: dict[tuple[int, ...], Any] = {}
+            alone |= {(int(e[place]),): a for e, a in p.to_dict().items()}
+            return Parameters([name]).context.from_dict(alone)
+    return None
+
+
+def values_on(part: Part, name: str) -> tuple[Interval, ...] | None:
+    """The values that a part allows of one coordinate by what it asks of that alone; None for all
+    of them.
+    """
+    sets = [x for key, x in part.sets if key == name]
+    asked = what_is_asked(part, name)
+    zero = None if asked is None else in_one(asked)
+    if zero is None and not sets:
+        return None
+    critical = [p for x in sets for p in ends_of(x)]
+    if zero is not None:
+        critical.append(zero)
+
+    def is_allowed(t: Any) -> bool:
+        return all(has(x, t) for x in sets) and (zero is None or sign_of(zero, t) == 0)
+
+    return where(is_allowed, critical)
+
+
+class Chart(Frozen):
+    """Points of a part of which all coordinates but one at most are free.
+
+    Attributes:
+        one: the value of that one, exact.
+        index: which of its real roots is meant.
+        names: of the free coordinates.
+    """
+
+    one: Solution
+    index: int
+    names: tuple[str, ...]
+
+    def point(self, part: Part, free: Sequence[fmpq]) -> Solution | None:
+        """All unknowns at one of these; None where there is no method."""
+        values = {**self.one.values, **dict(zip(self.names, free, strict=True))}
+        if not all(value_of(p, part.ring, values) for p in part.nonzero):
+            return None
+        return part.whole(replace(self.one, values=values))
+
+
+def charts(part: Part) -> list[Chart]:
+    """The real points of a part that is free, or that asks something of one coordinate alone; none
+    of any other.
+    """
+    names = part.ring.names
+    if part.is_free:
+        origin = RealRoot.rational(fmpq(0))
+        return [Chart(Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,)), 0, tuple(names))]
+    asked = {name: what_is_asked(part, name) for name in names}
+    found = [(name, p) for name, p in asked.items() if p is not None]
+    if len(found) != 1 or len(part.equations) > 1:
+        return []
+    [(name, p)] = found
+    others = tuple(x for x in names if x != name)
+    roots = [root for root, _ in real_roots(in_one(p))]
+    return [Chart(at_root(name, root), root.number, others) for root in roots]
+
+
+def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
+    """Unknowns that are entries of a diagonal: stability hangs on them."""
+    found: dict[str, None] = {}
+    for block in tableau.blocks.values():
+        for i, row in enumerate(block):
+            entry = str(row[i]) if i < len(row) else ""
+            if entry in ring.names:
+                found[entry] = None
+    return list(found)
+
+
+def parts_of(
+    ideal: Ideal, changes: Changes | None = None, kept: Sequence[str] = ()
+) -> Iterator[Part]:
     """The zeros of an ideal in parts.
 
     Args:
         ideal: of what is asked of all unknowns.
         changes: unknowns that are replaced by others.
+        kept: unknowns that are coordinates rather than others.
 
     Raises:
         NotDecided: a Gröbner basis takes too long.
     """
     changed = changes or Changes(ideal.ring, ideal.ring, {})
-    splitting = _Splitting(changed.ring)
+    splitting = _Splitting(changed.ring, tuple(kept))
     nonzero = factors(map(changed.polynomial, ideal.nonzero))
     polynomials = [changed.polynomial(p) for p in ideal.cleared]
     yield from splitting.parts(polynomials, nonzero, changed.values(), changed.ring.names)
@@ -167,7 +280,7 @@ def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
             numerator = value_of(over, part.ring, known)
             denominator = value_of(under, part.ring, known)
             values[name] = cast("Mixed", numerator / denominator)
-        yield replace(smaller, values=values)
+        yield replace(smaller, values=values, sets=part.sets)
 
 
 class _Linear(Frozen):
@@ -176,13 +289,14 @@ class _Linear(Frozen):
     name: str
     A: fmpq_mpoly
     B: fmpq_mpoly
-    cost: tuple[bool, int, int, int]
+    cost: tuple[bool, bool, int, int, int]
 
 
 class _Splitting(Frozen):
     """Takes solution sets apart; polynomials are in the ring of all unknowns."""
 
     ring: Parameters
+    kept: tuple[str, ...] = ()
 
     def all_parts(
         self, polynomials: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly]
@@ -229,7 +343,7 @@ class _Splitting(Frozen):
         if linear is None:
             yield self._part(zeros, nonzero, values, left)
             return
-        if linear.cost[0]:
+        if linear.cost[1]:
             yield from self.parts([*zeros, linear.A, linear.B], nonzero, values, left)
             nonzero = [*nonzero, *factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
@@ -269,8 +383,8 @@ class _Splitting(Frozen):
                 v = self.ring.context.gen(index)
                 is_new = any(x not in nonzero for x in factors([A]))
                 degree = int(p.total_degree())
-                cost = (is_new, len(A.to_dict()), degree, -index)
                 name = self.ring.names[index]
+                cost = (name in self.kept, is_new, len(A.to_dict()), degree, -index)
                 found.append(_Linear(name, A, p - A * v, cost))
         usable = [x for x in found if x.name in left]
         return min(usable, key=lambda x: x.cost, default=None)

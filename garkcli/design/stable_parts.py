@@ -1,0 +1,365 @@
+"""Which methods of a solution set are as stable as a family wants them, part by part.
+
+On a part (``garkcli.design.parts``) on which the step depends on one coordinate x alone the stable
+methods are those with x in a set. That is found on a line on which the other coordinates are
+rational; where the part asks p(x) = 0 of x, the roots of p are decided one by one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from functools import partial
+from itertools import chain, islice, product
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.deadline import check_time
+from garkcli.design.fewer import step_polynomials
+from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_in, is_stable, member
+from garkcli.design.parts import (
+    Chart,
+    Part,
+    at_root,
+    charts,
+    diagonal_unknowns,
+    parts_within,
+    values_on,
+    what_is_asked,
+)
+from garkcli.design.solutions import Solution, value_at
+from garkcli.design.stability_kinds import Members, driven
+from garkcli.design.stable_values import MOST_DEGREE, StableValues, stable_values
+from garkcli.design.step_plane import StepPlane, step_plane
+from garkcli.errors import NotDecided, ZeroWeight
+from garkcli.exact.cells import Interval, Point, between, ends_of, has, where
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.exact.polynomial import Polynomial, in_one
+from garkcli.exact.roots import RealRoot, number_of, real_roots
+from garkcli.frozen import Frozen, replace
+from garkcli.tableau.family import Family, Stability
+from garkcli.tableau.tableau import Tableau
+
+VALUES = [
+    fmpq(*x) for x in ((1, 2), (1, 3), (3, 4), (1, 4), (2, 3), (1, 1), (3, 5), (6, 5), (0, 1))
+]
+"""Of coordinates that may be anything."""
+MOST_POINTS = 300
+"""Points of a part of which one is to be a method."""
+
+
+class StablePart(Frozen):
+    """The stable methods of a part.
+
+    Attributes:
+        part: with the sets in which its coordinates are.
+        kinds: for each kind of stability the values of the coordinate on which it depends.
+    """
+
+    part: Part
+    kinds: tuple[StableValues, ...]
+
+    @property
+    def parts(self) -> Iterator[Part]:
+        """The part, or where single values of a coordinate alone are stable, these parts of it."""
+        name, values = self.part.sets[-1]
+        place = self.part.ring.names.index(name)
+        if not values or what_is_asked(self.part, name) or not all(x.is_point for x in values):
+            yield from [self.part] if values else []
+            return
+        x = self.part.ring.context.gen(place)
+        for p in ends_of(values):
+            terms: Any = p.coefficients
+            zero = sum((x**k * a for k, a in enumerate(terms)), start=x * 0)
+            yield from parts_within(self.part, [zero])
+
+    @property
+    def is_decided(self) -> bool:
+        """Whether no value of a coordinate is left open."""
+        return not any(x.undecided for x in self.kinds)
+
+
+def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
+    """The stable methods of a part that has coordinates.
+
+    Raises:
+        NotDecided: the step depends on several coordinates, or on one on a curve; or the time is
+            not enough.
+        UsageProblem: a kind of stability has no meaning for the methods.
+    """
+    if family.radicals or not part.ring.names:
+        raise NotDecided
+    kinds = []
+    for wanted in dict.fromkeys(family.stable):
+        line = _Line(family, whose, part, wanted)
+        found, undecided = line.values()
+        kinds.append(line.told(found, undecided))
+        values = {**part.values, line.name: part.ring.parameter(line.name)}
+        part = replace(part, values=values, sets=(*part.sets, (line.name, found)))
+    return StablePart(part, tuple(kinds))
+
+
+class _Line:
+    """A part along the coordinate on which a step depends.
+
+    Attributes:
+        name: of the coordinate.
+    """
+
+    def __init__(self, family: Family, whose: Whose, part: Part, wanted: Stability) -> None:
+        self.family, self.whose, self.part, self.wanted = family, whose, part, wanted
+        values: Any = part.values
+        self.tableau = member(family.tableau, family.ring, values)
+        meant = TABLEAUS[whose](self.tableau)
+        fields = driven(meant, wanted.kind, wanted.colour)
+        denominator, numerators = step_polynomials(meant, part.ring, fields)
+        for name in part.ring.names:
+            root = what_is_asked(part, name)
+            if root is None and not part.is_free:
+                continue
+            if self._is_enough(name, denominator, numerators, root):
+                self.name, self.root = name, root
+                return
+        raise NotDecided
+
+    def _is_enough(
+        self, name: str, D: fmpq_mpoly, numerators: Sequence[fmpq_mpoly], root: fmpq_mpoly | None
+    ) -> bool:
+        """Whether N/D depends on one coordinate alone, where ``root`` is zero if there is any:
+        N(x, y) D(x, y') = N(x, y') D(x, y) for some numbers y' in place of the others.
+        """
+        check_time()
+        context = D.context()
+        place = 1 + self.part.ring.names.index(name)
+        gens = context.gens()
+        for others in points(len(gens) - 2):
+            rest = iter(others)
+            at = [x if k in {0, place} else x * 0 + next(rest) for k, x in enumerate(gens)]
+            below = D.compose(*at)
+            if below:
+                break
+        else:
+            return False
+        modulus = None if root is None else root.compose(gens[place], ctx=context)
+        for N in numerators:
+            difference = N * below - N.compose(*at) * D
+            if modulus is not None:
+                difference = divmod(difference, modulus)[1]
+            if difference:
+                return False
+        return True
+
+    @property
+    def members(self) -> PartMembers:
+        """The methods along the coordinate."""
+        return PartMembers(self.family, self.whose, self.part, self.name, self.tableau)
+
+    def values(self) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
+        """The stable values of the coordinate, and those that are left open."""
+        members = self.members
+        if self.root is None:
+            kind: Any = self.wanted.kind
+            found = stable_values(
+                members.line, kind, self.whose, colour=self.wanted.colour, members=members
+            )
+            return found.found, found.undecided
+        stable, undecided = [], []
+        for t, _ in real_roots(in_one(self.root)):
+            number = number_of(t, MOST_DEGREE)
+            tableau = None if number is None else members.at(number)
+            if number is None:
+                undecided.append(t)
+            elif tableau is not None and is_stable(self.wanted, tableau):
+                stable.append(point_of(t))
+        return tuple(stable), tuple(undecided)
+
+    def told(self, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]) -> StableValues:
+        """The same, of an unknown on a diagonal where that is a x + b."""
+        is_same = not found or found == (Interval(None, None),)
+        name, a, b = self._shown(is_same)
+        kind: Any = self.wanted.kind
+        family = replace(self.members.line, parameters=(name,))
+
+        def moved(x: RealRoot) -> RealRoot:
+            return value_at(at_root(self.name, x).values[self.name] * a + b, x)
+
+        def moved_part(x: Interval) -> Interval:
+            ends = [(x.start and moved(x.start), x.has_start), (x.end and moved(x.end), x.has_end)]
+            (start, has_start), (end, has_end) = ends if a > 0 else ends[::-1]
+            return Interval(start, end, has_start, has_end)
+
+        shown = list(map(moved_part, found[:: 1 if a > 0 else -1]))
+        if found and not a:
+            shown = [point_of(RealRoot.rational(b))]
+        open_values = tuple(map(moved, undecided))
+        return StableValues(
+            family, self.whose, kind, tuple(shown), open_values, colour=self.wanted.colour
+        )
+
+    def _shown(self, is_same: bool) -> tuple[str, fmpq, fmpq]:
+        """An unknown a x + b with a and b; a may be 0 where all methods are alike."""
+        ring = self.part.ring
+        place = ring.names.index(self.name)
+        for name in diagonal_unknowns(self.family.tableau, self.family.ring):
+            over, under = fraction(self.part.values[name], ring)
+            degrees = [int(k) for k in over.degrees()]
+            is_multiple = sum(degrees) == degrees[place] == 1
+            if under.is_constant() and (is_multiple or (is_same and over.is_constant())):
+                line = in_one(_on(over / under.leading_coefficient(), place, self.name))
+                slope, at_zero = line[1], line[0]
+                assert isinstance(slope, fmpq)
+                assert isinstance(at_zero, fmpq)
+                return name, slope, at_zero
+        return self.name, fmpq(1), fmpq(0)
+
+
+def _on(p: fmpq_mpoly, place: int, name: str) -> fmpq_mpoly:
+    """A polynomial in one coordinate of several, in a ring of that alone."""
+    terms: dict[tuple[int, ...], Any] = {}
+    terms |= {(int(e[place]),): a for e, a in p.to_dict().items()}
+    return Parameters([name]).context.from_dict(terms)
+
+
+def point_of(x: RealRoot) -> Interval:
+    """A single number."""
+    return Interval(x, x, has_start=True, has_end=True)
+
+
+class PartMembers(Members):
+    """The methods of a part on a line along one coordinate, those of other lines where that has
+    none.
+
+    Attributes:
+        part: whose they are.
+        name: of the coordinate.
+        tableau: in the coordinates of the part.
+    """
+
+    part: Part
+    name: str
+    tableau: Tableau
+
+    def at(self, value: Number) -> Tableau | None:
+        """A method with a value of the coordinate; None where there is none.
+
+        Raises:
+            NotDecided: none of those that were tried is one.
+        """
+        if not all(p(value) for p in self.poles):
+            return None
+        others = len(self.part.ring.names) - 1
+        for point in points(others):
+            with suppress(ZeroDivisionError, ZeroWeight):
+                values = self._with(value, point)
+                return TABLEAUS[self.whose](member(self.tableau, self.part.ring, values))
+        if others:
+            raise NotDecided
+        return None
+
+    @property
+    def line(self) -> Family:
+        """The family of the one coordinate."""
+        ring = Parameters([self.name])
+        for others in points(len(self.part.ring.names) - 1):
+            with suppress(ZeroDivisionError, ZeroWeight):
+                values: Any = self._with(ring.parameter(self.name), others)
+                tableau = member(self.tableau, self.part.ring, values)
+                TABLEAUS[self.whose](tableau)
+                return Family(
+                    name=self.family.name,
+                    tableau=tableau,
+                    ring=ring,
+                    parameters=ring.names,
+                    ranges={self.name: (None, None)},
+                    radicals=(),
+                )
+        raise NotDecided
+
+    def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
+        """Their step for every value of the coordinate."""
+        plane = step_plane(tableau, Parameters([self.name]), fields)
+        return replace(plane, poles=self.poles)
+
+    def _with(self, value: Any, others: Sequence[fmpq]) -> dict[str, Any]:
+        names = [name for name in self.part.ring.names if name != self.name]
+        return {**dict(zip(names, others, strict=True)), self.name: value}
+
+    @property
+    def poles(self) -> tuple[Polynomial, ...]:
+        """A polynomial in the coordinate that is zero where no line has a method."""
+        numbers = [x for colour in self.tableau.colours for x in colour.b]
+        for block in self.tableau.blocks.values():
+            numbers += chain.from_iterable(block)
+        common = common_denominator(numbers, self.part.ring)
+        place = self.part.ring.names.index(self.name)
+        alone = Parameters([self.name])
+        slices: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+        for e, a in common.to_dict().items():
+            others = tuple(int(k) for i, k in enumerate(e) if i != place)
+            slices.setdefault(others, {})[(int(e[place]),)] = a
+        content = alone.constant(fmpq(0))
+        for terms in slices.values():
+            content = content.gcd(alone.context.from_dict(dict(terms)))
+        return (in_one(content),)
+
+
+def points(size: int) -> Iterator[tuple[fmpq, ...]]:
+    """Points with short coordinates."""
+    return islice(product(VALUES, repeat=size), MOST_POINTS)
+
+
+def methods_on(family: Family, part: Part) -> Iterator[tuple[Solution, RealRoot]]:
+    """Some methods of a part, all of whose coordinates but one are short rational numbers: it is
+    free, or asks something of that one alone.
+    """
+    names = part.ring.names
+    *_, name = [names[0], *(x for x, _ in part.sets if x in names)]
+    if not charts(part):
+        return
+    values = values_on(part, name)
+    for x in (Interval(None, None),) if values is None else values:
+        t = x.start if x.is_point else RealRoot.rational(between(x.start, x.end))
+        assert t is not None
+        others = [key for key in names if key != name]
+        for point in points(len(others)):
+            solution = Chart(at_root(name, t), t.number, tuple(others)).point(part, point)
+            if solution is not None and is_on(family, part, solution, solution.real[t.number]):
+                yield solution, solution.real[t.number]
+
+
+def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> bool:
+    """Whether a real solution is a method of a family and in the sets of a part."""
+    if not is_admissible(family, solution, root):
+        return False
+    return all(is_in(x, solution.values[name], root) for name, x in part.sets)
+
+
+def joined(parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
+    """For each kind of stability the values of one unknown that the parts have together; nothing
+    where they hang on different ones.
+    """
+    together = []
+    for same in zip(*(x.kinds for x in parts), strict=True):
+        if len({x.parameter for x in same}) > 1:
+            return ()
+        sets = [x.found for x in same]
+        critical = [p for x in sets for p in ends_of(x)]
+        undecided = tuple(dict.fromkeys(t for x in same for t in x.undecided))
+        found = where(partial(_is_in_one, sets), critical)
+        together.append(replace(same[0], found=found, undecided=undecided))
+    return tuple(together)
+
+
+def _is_in_one(sets: Sequence[tuple[Interval, ...]], t: Point) -> bool:
+    return any(has(x, t) for x in sets)
+
+
+def has_stable_method(family: Family, parts: Sequence[StablePart]) -> bool | None:
+    """Whether a part has a stable method; None where none is found that could be."""
+    if any(True for x in parts for _ in methods_on(family, x.part)):
+        return True
+    is_none = all(x.is_decided and not all(y.found for y in x.kinds) for x in parts)
+    return False if is_none else None
