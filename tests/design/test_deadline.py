@@ -131,11 +131,11 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
         lambda: critical_point_near([fmpq(1), fmpq(1)], [P - 1, Q - 1], [], PAIR),
     )
     yield "stable values", lambda: stable_values(sdirk, "a-stable")
-    dirk = designed("unknown: {stages: 2, shape: sdirk}\ndesign: {a-stable: true}\n", 2)
-    assert dirk.last.ideal is not None
-    [part, *_] = parts_of(dirk.last.ideal, kept=["gamma"])
-    yield "stable parts", lambda: stable_part(dirk.family, "method", part)
-    yield "minimise of stable methods", lambda: minimise(dirk, "coefficients")
+    two = designed("unknown: {stages: 2, shape: sdirk}\ndesign: {a-stable: true}\n", 2)
+    assert two.last.ideal is not None
+    [part, *_] = parts_of(two.last.ideal, kept=["gamma"])
+    yield "stable parts", lambda: stable_part(two.family, "method", part)
+    yield "minimise of stable methods", lambda: minimise(two, "coefficients")
     yield "stable on the oscillator", lambda: stable_values(split.family, "p-stable")
     springs, of_pair = loads_family(SPRINGS), find_parameters(loads_family(TRANSFERS), 4, "pair")
     yield (
