@@ -228,7 +228,7 @@ def test_as_a_command(tmp_path: Path) -> None:
     one = gark("design", str(path), "--a-stable", "--order", "2")
     assert (one.code, "not A-stable, which is wanted" in one.out) == (1, True)
     both = gark("design", str(path), "--a-stable", "--emit", str(path) + "x")
-    assert (both.code, "ask for one" in both.err) == (2, True)
+    assert (both.code, "use one" in both.err) == (2, True)
     path.write_text("parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8")
     two = gark("design", str(path), "--l-stable")
     assert (two.code, "--set u=1/2" in two.err) == (2, True)
