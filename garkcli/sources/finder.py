@@ -237,6 +237,7 @@ class TableFinder:
         tableaus = [
             (key, dict(block), lines.get(key, lines.get(name, scope.line)))
             for name, value in values.items()
+            if not _is_matrix_of_stages(name)
             for key, block in blocks_in(name, value, scope.title)
         ]
         for key, block, line in tableaus:
@@ -330,6 +331,13 @@ class TableFinder:
 
 def _other(source: str, line: int, format: str, name: str, kind: str) -> FoundTable:
     return FoundTable(source, line, format, name, (), (), (), kind=kind)
+
+
+def _is_matrix_of_stages(name: str) -> bool:
+    """Whether the name is one of A, or of a block of it: it is no whole tableau then."""
+    plain = name.rpartition("::")[2]
+    told = role_of(plain)
+    return (told is not None and told[1] == "A") or _NUMBERED.fullmatch(plain) is not None
 
 
 def _is_general_linear(values: Mapping[str, Value]) -> bool:

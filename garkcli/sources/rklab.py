@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
 from garkcli.sources.found import MAX_STAGES
@@ -9,6 +10,8 @@ from garkcli.sources.values import ZERO, Array, Number, Record, Value, whole
 
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""
+_TABLEAU = re.compile("butcher|tableau|(?<!s)table")
+"""Names of whole tableaus: ``rk_table``, but no ``a_stable``."""
 FAR = 0.5
 """Weights have a sum that is nearer to 1, misprints included."""
 
@@ -57,7 +60,7 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
     off = abs(sum(near[stages][1:]) - 1)
     order = whole(corners[0])
-    is_tableau = "butcher" in name or "tabl" in name
+    is_tableau = _TABLEAU.search(name) is not None
     is_named = is_tableau or (name.startswith("b") and order is not None and order > 0)
     is_block = off < FAR and 2 * agreeing >= stages
     is_plain = off < NEAR and agreeing >= max(2, stages - 1)

@@ -211,6 +211,23 @@ def test_blocks_without_names(find: Find, text: str, wanted: list[object]) -> No
     assert not any(x and x.findings for x in judged)
 
 
+@pytest.mark.parametrize("name", ["butcher_tableau", "rk_table", "a_stable", "p_stable_by_c"])
+def test_a_matrix_with_a_name_is_no_block(name: str) -> None:
+    """Lobatto IIIA 3: its last row has the sum 1, and more rows have nearly their first entry for
+    sum. A is A, whatever is before it.
+    """
+    entries = "{{0, 0, 0}, {5.0/24, 1.0/3, -1.0/24}, {1.0/6, 2.0/3, 1.0/6}}"
+    text = (
+        f"double {name}_A[3][3] = {entries};\ndouble {name}_b[3] = {{1.0/6, 2.0/3, 1.0/6}};\n"
+        f"double {name}_c[3] = {{0, 0.5, 1}};\n"
+    )
+    (table,) = c.find(text, "x.c")
+    judged = audit(table)
+    assert judged is not None
+    assert judged.order is not None
+    assert (judged.order.order, judged.findings) == (4, ())
+
+
 def test_general_linear_methods_are_none_of_runge_kutta() -> None:
     """A, B and U: the second row of B is no embedded method."""
     text = "A = [[0, 0], [1, 0]]\nB = [[1/2, 1/2], [0, 1]]\nU = [[1, 0], [1, 1]]\n"
