@@ -133,6 +133,31 @@ Proof.
     with (inverse j * b M l e g - inverse j * b M l e (mul (Pof M l) (power_of M c l j) g)) by ring.
   rewrite K. ring.
 Qed.
+Theorem lemma_0_C_of_method : nondegenerate M -> B M c l k -> D hat c l m k -> C M c m l k.
+Proof.
+  intros Non Bl Dl j Hj.
+  set (v := app (Aof M m l) (power_of M c l (j - 1))).
+  set (w := scale (inverse j) (power_of M c m j)).
+  assert (Zero : same M m (add v (scale (-(1)) w)) (fun _ => 0)).
+  { apply (Non m Hm). intros g e He.
+    rewrite (l_add _ (mul_right (b M m e) (Pof M m) g (b_linear M m e))).
+    rewrite (l_scale _ (mul_right (b M m e) (Pof M m) g (b_linear M m e))).
+    unfold w. rewrite (b_ext M m e _ _ (mu_scale M m _ _ _)), b_scale.
+    rewrite (b_ext M m e _ _ (mu_comm M m g (power_of M c m j))).
+    rewrite (b_ext M m e _ _ (mu_comm M m g v)).
+    pose proof (conjugation e (power_of M c l (j - 1)) g He) as K.
+    specialize (Dl j g e Hj He). rewrite !same_powers in Dl.
+    rewrite (both_rational l m e _ g _ (Bl j Hj) He) in K.
+    change (b M l e (mul (Pof M l) (power_of M c l (j - 1)) (app (Aof hat l m) g)) ==
+      inverse j * (b M m e g - b M m e (mul (Pof M m) (power_of M c m j) g))) in Dl.
+    rewrite Dl in K. fold v in K.
+    assert (L : b M m e (mul (Pof M m) v g) == inverse j * b M m e g
+      - inverse j * (b M m e g - b M m e (mul (Pof M m) (power_of M c m j) g))).
+    { rewrite K. ring. }
+    rewrite L. unfold rational. destruct (Nat.eqb e 0); ring. }
+  intros i Hi. specialize (Zero i Hi). unfold add, scale in Zero.
+  change (v i == w i). rewrite <- (Qplus_0_l (w i)), <- Zero. unfold w, scale. ring.
+Qed.
 End Block.
 
 End Lemma0.
