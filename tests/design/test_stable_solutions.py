@@ -13,6 +13,7 @@ from garkcli import minimise
 from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters, stable_sets
 from garkcli.design.minimise.line import Within
+from garkcli.design.stable_parts import StablePart
 from garkcli.design.stable_values import stable_values
 from garkcli.errors import MethodFileError
 from garkcli.exact.cells import Interval, where
@@ -144,6 +145,15 @@ def test_the_least_error_of_l_stable_methods() -> None:
     about = fmpq(17, 18) - fmpq(2, 3) * (2 - 2 * gamma)
     assert min(errors) > about - fmpq(1, 10**20)
     assert min(errors) < about + fmpq(1, 1000)
+
+
+def test_what_is_open_bounds_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the stability of some methods is open, the best is that of what was found."""
+    monkeypatch.setattr(StablePart, "is_decided", property(lambda _: False))
+    least = minimise(loads_family(TWO % "l-stable"), "error")
+    assert least.value is not None
+    assert root_text(least.value) == "17/18 - 2*sqrt(2)/3"
+    assert least.extent == "found"
 
 
 def test_a_search_for_stable_methods(tmp_path: Path) -> None:

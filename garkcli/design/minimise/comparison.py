@@ -49,6 +49,7 @@ class Comparison(Mutable):
         parts: of the solution set.
         share: the reading of ``time.monotonic`` until which critical points are looked for by
             Gröbner bases; None for no limit.
+        is_open: whether stability is not decided for methods that may be better.
     """
 
     design: Design
@@ -60,6 +61,7 @@ class Comparison(Mutable):
     gradients: list[tuple[str, Polynomial]] = field(default_factory=list)
     parts: list[Part] = field(default_factory=list)
     share: float | None = None
+    is_open: bool = False
 
     def result(self) -> Minimum:
         """The best of what was collected."""
@@ -164,7 +166,7 @@ class Comparison(Mutable):
                 stable = stable_part(family, self.design.whose, part)
                 parts = list(stable.parts)
                 if not stable.is_decided:
-                    self.extent = "found"
+                    self.extent, self.is_open = "found", True
         check_time()
         for one in parts:
             self.parts.append(one)
@@ -185,7 +187,7 @@ class Comparison(Mutable):
             return False
         stable = is_as_stable(design.family, design.whose, solution, root)
         if stable is None:
-            self.extent = "found"
+            self.extent, self.is_open = "found", True
         return bool(stable)
 
     def add(

@@ -227,6 +227,8 @@ class Smallest(Comparison):
         if best == ORIGIN:
             return "all"  # they are sums of squares
         assert best is not None
+        if self.is_open:
+            return "found"
         if self.extent == "all":
             return "all"
         if not all(self._is_bounded(part, best) for part in self.parts):
