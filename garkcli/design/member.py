@@ -152,8 +152,6 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
             return sign_at(Polynomial.from_flint(value.poly), root)
         return sign(value)
 
-    if not all(is_in(x, solution.values[name], root) for name, x in family.sets):
-        return False
     is_positive = all(sign_of(p) > 0 for p in family.positive)
     return is_positive and all(sign_of(p) >= 0 for p in not_negative(family))
 

@@ -200,7 +200,7 @@ def stable_set(
     tableau = TABLEAUS[whose](family.tableau)
     entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
     is_plain = common_denominator(list(entries), family.ring).is_constant()
-    is_open = not family.sets and all(x == (None, None) for x in family.ranges.values())
+    is_open = all(x == (None, None) for x in family.ranges.values())
     if is_plain and is_open and two_springs is None and not has_wishes(family):
         smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
         if len(forms) == 1:

@@ -102,7 +102,7 @@ class StableValues(Shown, Frozen):
 def has_wishes(family: Family) -> bool:
     """Whether a file asks for more of the parameters than stability."""
     wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
-    return bool(family.sets) or any(p.total_degree() != 0 for p in wanted)
+    return any(p.total_degree() != 0 for p in wanted)
 
 
 def stable_values(
@@ -182,17 +182,13 @@ def _wanted(
         (family.not_negative, {0, 1}),
     ):
         asked += [(in_one(p), frozenset(signs)) for p in polynomials]
-    sets = [x for _, x in family.sets]
-    if not asked and not sets:
+    if not asked:
         return found, undecided
 
     def is_wanted(t: Point) -> bool:
-        signs_fit = all(sign_of(p, t) in signs for p, signs in asked)
-        return signs_fit and all(has(x, t) for x in sets)
+        return all(sign_of(p, t) in signs for p, signs in asked)
 
     critical = [*ends_of(found), *(p for p, _ in asked)]
-    for x in sets:
-        critical += ends_of(x)
     kept = where(lambda t: is_wanted(t) and has(found, t), critical)
     still_open = tuple(t for t in undecided if is_wanted(t))
     return _without(kept, still_open), still_open

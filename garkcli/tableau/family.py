@@ -9,7 +9,6 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.errors import LimitExceeded
-from garkcli.exact.cells import Interval
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Vector
@@ -84,7 +83,6 @@ class Family(Frozen, kw_only=True):
         stable: kinds of stability that the solutions that are taken have.
         unsettled: what is wanted of them and was not worked out in time, by its keys.
         further: its embedded weights and its dense output.
-        sets: names of unknowns with sets of numbers, their ends algebraic, in which they are.
     """
 
     name: str
@@ -101,7 +99,6 @@ class Family(Frozen, kw_only=True):
     stable: tuple[Stability, ...] = ()
     unsettled: tuple[str, ...] = ()
     further: Further = NOTHING
-    sets: tuple[tuple[str, tuple[Interval, ...]], ...] = ()
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

@@ -244,7 +244,7 @@ class Comparison(Mutable):
         family = self.design.family
         for end in not_negative(family):
             yield fraction(part.expressed(end, family.ring), part.ring)[0]
-        for name, intervals in (*family.sets, *part.sets):
+        for name, intervals in part.sets:
             x = cast("Any", part.values[name])
             for polynomial in ends_of(intervals):
                 value: Any = fmpq(0)
@@ -264,7 +264,7 @@ class Comparison(Mutable):
             [in_one(p) for p in part.nonzero],
             signs(family.positive),
             signs(not_negative(family)),
-            [self._within(part, *x) for x in (*family.sets, *part.sets)],
+            [self._within(part, *x) for x in part.sets],
         )
 
     @staticmethod
