@@ -95,6 +95,11 @@ class Outcome(Shown, Frozen):
         return tuple(claim for claim in self.claims if not claim.holds)
 
     @property
+    def is_open(self) -> bool:
+        """Whether no claim fails and one is undecided."""
+        return self.is_read and self.exit_code == 3
+
+    @property
     def is_read(self) -> bool:
         """Whether the file could be read, as a method or as a family of them."""
         return self.found is not None
@@ -134,7 +139,8 @@ class Outcome(Shown, Frozen):
         said = counted(len(self.faults), "fault")
         if self.is_read:
             said = counted(len(self.claims), "claim")
-        failed = len(self.failed_claims)
-        if failed:
-            said += f", {failed} failed"
+        for what, answer in (("failed", False), ("undecided", None)):
+            count = [claim.holds for claim in self.claims].count(answer)
+            if count:
+                said += f", {count} {what}"
         return f"<Outcome {printable(self.name)}: {said}>"

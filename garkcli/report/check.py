@@ -34,12 +34,13 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 def stages_text(tableau: Any) -> str:
-    """``4 stages``; ``2 colours, 2 + 3 stages``."""
+    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum."""
     if tableau.is_partitioned:
         parts_of = (" + ".join(map(str, tableau.stages_of(x))) for x in "qp")
         return "{} colours, stages q: {}, p: {}".format(tableau.size, *parts_of)
     counts = [tableau.space(l).stages for l in range(tableau.size)]
-    stages = " + ".join(map(str, counts)) + (" stage" if counts == [1] else " stages")
+    shown = counts if len(counts) <= 8 else [sum(counts)]
+    stages = " + ".join(map(str, shown)) + (" stage" if counts == [1] else " stages")
     return stages if len(counts) == 1 else f"{len(counts)} colours, {stages}"
 
 
@@ -743,8 +744,11 @@ def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
 def _claims_cell(o: Any, d: Plain) -> str:
     if not o.is_read:
         return "cannot be read"
-    if o.failed_claims:
-        return d.strong(f"{len(o.failed_claims)} of {len(o.claims)} fail")
+    answers = [x.holds for x in o.claims]
+    unmet = [(answers.count(x), word) for x, word in ((False, "fail"), (None, "undecided"))]
+    told = ", ".join(f"{count} of {len(answers)} {word}" for count, word in unmet if count)
+    if told:
+        return d.strong(told)
     held = "1 holds" if len(o.claims) == 1 else f"{len(o.claims)} hold"
     return held if o.claims else "none"
 

@@ -64,7 +64,8 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
             for key in keys
             if facts[key].value is not None and not (key == "pair_order" and is_pair)
         ]
-        mark = d.good("ok  ") if outcome.ok else d.bad("FAIL")
+        not_ok = d.note("open") if outcome.is_open else d.bad("FAIL")
+        mark = d.good("ok  ") if outcome.ok else not_ok
         claims = counted(len(outcome.claims), "claim")
         yield f"{mark} {d.prose(outcome.file)}: {', '.join(said)}  ({claims})"
     if not outcome.ok:
@@ -79,9 +80,12 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
 
 
 def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
-    failed = sum(not outcome.ok for outcome in outcomes)
+    left_open = sum(outcome.is_open for outcome in outcomes)
+    failed = sum(not outcome.ok for outcome in outcomes) - left_open
     claims = sum(len(outcome.claims) for outcome in outcomes)
-    verdict = paint.verdict(not failed, "all hold", f"{counted(failed, 'file')} failed")
+    words = [f"{counted(failed, 'file')} failed"] if failed else []
+    words += [f"{counted(left_open, 'file')} undecided"] if left_open else []
+    verdict = paint.verdict(not words, "all hold", ", ".join(words))
     text = f"{len(outcomes)} files, {counted(claims, 'claim')}: {verdict}"
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
     return f"{text}; {no_claims(silent)}" if silent else text

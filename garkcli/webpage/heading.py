@@ -18,7 +18,7 @@ from garkcli.webpage.reported import Reported
 from garkcli.webpage.sections.orders import how
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
-"""The class of a verdict, by the exit code of ``gark check``."""
+"""The class of a verdict, by the exit code of ``gark check``; with a claim undecided, open."""
 
 
 class Heading(Frozen):
@@ -29,7 +29,7 @@ class Heading(Frozen):
         file: the file or the name that it came from.
         about: what is judged, and in which arithmetic.
         verdict: in a sentence or two.
-        mark: holds, fails or fault.
+        mark: holds, fails, open or fault.
         description: what its file says of it.
     """
 
@@ -49,9 +49,13 @@ def heading(method: Reported) -> Heading:
         outcome.file,
         words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
         Markup(_verdict(outcome)),
-        MARKS[outcome.exit_code],
+        _mark(outcome),
         method.description,
     )
+
+
+def _mark(outcome: Outcome) -> str:
+    return "open" if outcome.is_open else MARKS[outcome.exit_code]
 
 
 def _verdict(outcome: Outcome) -> str:
@@ -78,10 +82,12 @@ def claims_text(outcome: Outcome) -> str:
     if not outcome.claims:
         return "Its file claims nothing."
     claims = counted(len(outcome.claims), "claim")
-    failed = len(outcome.failed_claims)
-    if failed:
-        verb = "fails" if failed == 1 else "fail"
-        return f"Of {claims}, {failed} {verb}."
+    answers = [x.holds for x in outcome.claims]
+    failed, left_open = answers.count(False), answers.count(None)
+    told = [f"{failed} fail{'s' if failed == 1 else ''}"] if failed else []
+    told += [f"{left_open} {'is' if left_open == 1 else 'are'} undecided"] if left_open else []
+    if told:
+        return f"Of {claims}, {' and '.join(told)}."
     if len(outcome.claims) == 1:
         return "The one claim of its file holds."
     return f"All {claims} of its file hold."
@@ -116,5 +122,5 @@ def comparison_row(method: Reported) -> dict[str, Any]:
         cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
     if outcome.analysis is not None:
         cells["symmetric"] = str(verdict_words(outcome.analysis.subject.verdict("symmetric")))
-    mark = "none" if outcome.makes_no_claim else MARKS[outcome.exit_code]
+    mark = "none" if outcome.makes_no_claim else _mark(outcome)
     return {"title": outcome.name, "mark": mark, "cells": cells}

@@ -484,6 +484,11 @@ def test_an_undecided_claim_neither_holds_nor_fails(
         True,
     )
     assert ("CLAIM FAILS" in run.out) == (False in answers)
+    several = gark("check", "-", "rk4", stdin=text).out
+    words = {3: ("open <stdin>", "1 file undecided"), 1: ("FAIL <stdin>", "1 file failed")}[code]
+    assert all(x in several for x in words)
+    table = gark("check", "-", "rk4", "--format", "markdown", stdin=text).out
+    assert ("1 of 2 fail, 1 of 2 undecided" if code == 1 else "1 of 2 undecided") in table
     data = json.loads(gark("check", "-", "--format", "json", stdin=text).out)
     assert [claim["holds"] for claim in data["files"][0]["claims"]] == answers
     failures = sum(x is not True for x in answers)

@@ -27,6 +27,7 @@ from garkcli.order.conditions import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.registry import KEYS
 from garkcli.report.checked import REPORT
+from garkcli.webpage import heading as heading_module
 from garkcli.webpage import page as page_module
 from garkcli.webpage import reported as reported_module
 from garkcli.webpage.page import SECTIONS, render, report_page
@@ -258,6 +259,22 @@ def test_claims_are_those_of_the_check(method: str) -> None:
         ]
         for claim in claims
     ]
+
+
+def test_an_undecided_claim_is_no_failed_one(tmp_path: Path) -> None:
+    """Rounding leaves a sign open: the heading, the table and the comparison say so."""
+    path = tmp_path / "open.gark.yaml"
+    text = "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
+    path.write_text(f"{text}expect: {{algebraically-stable: true, order: 2}}\n", encoding="utf-8")
+    outcome = check_file(str(path))
+    assert heading_module.claims_text(outcome) == "Of 2 claims, 1 is undecided."
+    assert heading_module.comparison_row(reported(str(path)))["mark"] == "open"
+    shown = section(str(path), "claims")
+    classes = {x.get("class") for x in elements(shown, "span")}
+    assert {"sign holds", "sign open"} <= classes
+    assert "sign fails" not in classes
+    made = [x.get("class") for x in elements(page(str(path)), "div")]
+    assert "head open" in made
 
 
 @pytest.mark.parametrize("method", [*METHODS, FAILING, FAMILY])

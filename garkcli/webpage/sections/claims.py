@@ -31,7 +31,7 @@ def _shown(outcome: Outcome, claim: Claim) -> Content:
     return {
         "claim": claim,
         "verdict": {True: "holds", None: "undecided", False: "fails"}[claim.holds],
-        "sign": "holds" if claim.holds else "fails",
+        "sign": {True: "holds", None: "open", False: "fails"}[claim.holds],
         "why": Markup("; ".join(d.reason(x) for x in told if x)),
         "expected": Markup(_value(claim.expected, d)),
         "found": Markup(_value(claim.found, d)),
