@@ -100,7 +100,7 @@ def _is_whole(file: object) -> bool:
 def _is_whole_claim(claim: object) -> bool:
     if not isinstance(claim, dict):
         return False
-    return isinstance(claim.get("claim"), str) and isinstance(claim.get("holds"), bool)
+    return isinstance(claim.get("claim"), str) and type(claim.get("holds", 0)) in (bool, type(None))
 
 
 def regressions(report: Mapping[str, Any], baseline: Earlier) -> list[Regression]:

@@ -337,16 +337,19 @@ class _Finding(Frozen):
         tableau = TABLEAUS[self.whose](self.family.tableau)
         kept = diagonal_unknowns(tableau, ideal.ring)
         parts = list(parts_of(ideal, nodes_as_coordinates(tableau, ideal.ring), kept))
-        with_lines = [x for x in parts if x.dimension > 0]
         found = []
-        for part in with_lines:
-            with suppress(NotDecided):
-                found.append(stable_part(self.family, self.whose, part))
+        for part in parts:
+            if part.dimension > 0:
+                with suppress(NotDecided):
+                    found.append(stable_part(self.family, self.whose, part))
         is_real = has_stable_method(self.family, found)
-        if is_real is not True and len(found) < len(parts):
+        is_whole = len(found) == len(parts)
+        stable = joined(self.family, found) if is_whole else ()
+        if is_real is not True and not is_whole:
             is_real = None
-        is_whole = len(found) == len(with_lines)
-        return replace(step, is_real=is_real, stable=joined(found) if is_whole else ())
+        if is_real is None and any(not x.found and not x.undecided for x in stable):
+            is_real = False
+        return replace(step, is_real=is_real, stable=stable)
 
     def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
         """Whether there is a method where the unknowns that are free are 0."""
@@ -463,13 +466,13 @@ def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """The values of one unknown that have each kind of stability that is wanted; nothing where
-    solutions are looked at one by one.
+    """The values of one unknown that have each kind of stability that is wanted, of the highest
+    order that is reached; nothing where solutions are looked at one by one.
     """
     family = design.family
-    reached = [step.stable for step in design.steps if step.stable]
-    if reached:
-        return reached[-1]
+    if any(step.stable for step in design.steps):
+        *_, best = [design.last, *(step for step in design.steps if step.may_have_methods)]
+        return best.stable
     if design.last.kind != "every-value" or len(family.ring.names) > 1:
         return ()
     return tuple(

@@ -337,24 +337,34 @@ def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> boo
     return all(is_in(x, solution.values[name], root) for name, x in part.sets)
 
 
-def joined(parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
-    """For each kind of stability the values of one unknown that the parts have together; nothing
-    where they hang on different ones.
+def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
+    """For each kind of stability the values of one unknown, within its range, that the parts have
+    together; nothing where they hang on different ones, or where the file asks for more.
     """
     together = []
     for same in zip(*(x.kinds for x in parts), strict=True):
-        if len({x.parameter for x in same}) > 1:
+        name = same[0].parameter
+        asked = {key for key, ends in family.ranges.items() if ends != (None, None)} - {name}
+        if asked or family.positive or family.not_negative or {x.parameter for x in same} != {name}:
             return ()
+        start, end = (
+            None if x is None else RealRoot.rational(x)
+            for x in family.ranges.get(name, (None, None))
+        )
+        admitted = (Interval(start, end, start is not None, end is not None),)
         sets = [x.found for x in same]
-        critical = [p for x in sets for p in ends_of(x)]
-        undecided = tuple(dict.fromkeys(t for x in same for t in x.undecided))
-        found = where(partial(_is_in_one, sets), critical)
-        together.append(replace(same[0], found=found, undecided=undecided))
+        critical = [p for x in (*sets, admitted) for p in ends_of(x)]
+        found = where(partial(_is_in_one, sets, admitted), critical)
+        undecided = dict.fromkeys(t for x in same for t in x.undecided)
+        left = tuple(t for t in undecided if has(admitted, t) and not has(found, t))
+        together.append(replace(same[0], found=found, undecided=left))
     return tuple(together)
 
 
-def _is_in_one(sets: Sequence[tuple[Interval, ...]], t: Point) -> bool:
-    return any(has(x, t) for x in sets)
+def _is_in_one(
+    sets: Sequence[tuple[Interval, ...]], admitted: tuple[Interval, ...], t: Point
+) -> bool:
+    return has(admitted, t) and any(has(x, t) for x in sets)
 
 
 def has_stable_method(family: Family, parts: Sequence[StablePart]) -> bool | None:

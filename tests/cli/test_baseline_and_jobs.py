@@ -430,3 +430,16 @@ def test_links_that_lead_back_are_not_followed(tmp_path: Path) -> None:
     assert files("[b]/m*") == named[1:2]
     assert files("nothing/*.yaml") == ["nothing/*.yaml"]
     assert files(f"{tmp_path}/*/m.gark.yaml")[0] == f"{tmp_path}/a/m.gark.yaml"
+
+
+def test_an_undecided_claim_in_a_baseline(tmp_path: Path) -> None:
+    """A report with a claim that is undecided is a baseline: the same file is no worse."""
+    (tmp_path / "open.gark.yaml").write_text(
+        "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
+        "expect: {algebraically-stable: true, order: 2}\n",
+        encoding="utf-8",
+    )
+    first = gark("check", "open.gark.yaml", "--format", "json", "-o", "o.json", cwd=tmp_path)
+    assert first.code == 3
+    again = gark("check", "open.gark.yaml", "--baseline", "o.json", cwd=tmp_path)
+    assert (again.code, "damaged" in again.err) == (0, False)

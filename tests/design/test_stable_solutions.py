@@ -256,3 +256,47 @@ def test_elements_without_radicals_are_written_in_theta() -> None:
     """A field of which only the polynomial is known has elements that can be printed."""
     field = NumberField(fmpq_poly([-2, 0, 0, 1]), ())
     assert str(field.element(fmpq_poly([1, fmpq(-1, 2), 3]))) == ("1 - theta/2 + 3*theta**2")
+
+
+@pytest.mark.parametrize(
+    ("kind", "least", "greatest", "code", "told"),
+    [
+        ("l-stable", "0", "1", 0, "L-stable for exactly gamma = 1 - sqrt(2)/2 unknowns"),
+        ("l-stable", "1/2", "1", 1, "order 2 for no method of the file"),
+        ("a-stable", "0", "1/3", 3, "A-stable for exactly 1/4 ≤ gamma ≤ 1/3 unknowns"),
+    ],
+)
+def test_stable_values_are_within_the_range(
+    kind: str, least: str, greatest: str, code: int, told: str
+) -> None:
+    """What a file excludes is in no set, and where all of it is excluded there is no method."""
+    run = gark(
+        *("design", "-"),
+        stdin=(
+            "unknown: {stages: 2, shape: sdirk}\n"
+            f"design: {{order: 2, {kind}: true, range: {{gamma: [{least}, {greatest}]}}}}\n"
+        ),
+    )
+    assert run.code == code
+    assert told in " ".join(run.out.split())
+
+
+def test_more_wishes_leave_no_set() -> None:
+    """Which of the stable methods have positive weights is not looked at: the set is not told."""
+    text = "unknown: {stages: 2, shape: sdirk}\n"
+    text += "design: {order: 2, l-stable: true, positive-weights: true}\n"
+    assert "exactly" not in gark("design", "-", stdin=text).out
+
+
+def test_a_stable_point_beside_a_line() -> None:
+    """G = 1 with any d, and g = 2 with d = 0, which is A-stable too: no set without it."""
+    text = """
+parameters: {g: free, d: free}
+A: [[g, "1/2 - g + (g-1)*(g-2)"], [0, g]]
+b: [1, "(g-1)*d"]
+design: {order: 2, a-stable: true}
+"""
+    run = gark("design", "-", stdin=text)
+    assert "exactly" not in run.out
+    point = gark("design", "-", "--set", "d=0", stdin=text)
+    assert "g = 2: order 2 of the method, proved, A-stable" in point.out
