@@ -132,11 +132,14 @@ def _changed(now: File, before: File) -> list[Regression]:
     if "errors" in now:
         return [Regression(file, "file", "a method", "unreadable")]
     held = {claim["claim"]: claim["holds"] for claim in before["claims"]}
-    found = [
-        Regression(file, name, "held" if name in held else "not claimed", f"found {x['found']}")
-        for x in now["claims"]
-        if not x["holds"] and held.get(name := x["claim"], True)
-    ]
+    words = {True: "held", None: "undecided"}
+    found = []
+    for claim in now["claims"]:
+        name, holds = claim["claim"], claim["holds"]
+        was = held.get(name, True)
+        if not holds and (was or (was is None and holds is False)):
+            before_it = words[was] if name in held else "not claimed"
+            found.append(Regression(file, name, before_it, f"found {claim['found']}"))
     for order in ORDERS:
         old, new = before.get(order), now.get(order)
         if type(old) is int and (new is None or new < old):

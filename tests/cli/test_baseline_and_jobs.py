@@ -443,3 +443,8 @@ def test_an_undecided_claim_in_a_baseline(tmp_path: Path) -> None:
     assert first.code == 3
     again = gark("check", "open.gark.yaml", "--baseline", "o.json", cwd=tmp_path)
     assert (again.code, "damaged" in again.err) == (0, False)
+    (tmp_path / "open.gark.yaml").write_text(
+        "A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\nexpect: {algebraically-stable: true, order: 2}\n",
+        encoding="utf-8",
+    )
+    assert gark("check", "open.gark.yaml", "--baseline", "o.json", cwd=tmp_path).code == 1
