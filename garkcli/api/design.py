@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from typing import TypeAlias
 
-from garkcli.api.files import load_family, loads
+from garkcli.api.files import loads, path_of
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_none, whole
 from garkcli.deadline import within
 from garkcli.design import design as designing
@@ -25,6 +25,7 @@ from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.frozen import Frozen, replace
+from garkcli.methodfile import family as families
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.tableau.family import Family
@@ -43,15 +44,19 @@ HEADS = {
 STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable")
 
 
-def family_of(given: AnyFamily) -> Family:
+def family_of(given: AnyFamily, is_free: bool = True) -> Family:
     """The family that is meant.
+
+    Args:
+        given: it, or the path of its file.
+        is_free: whether a file must have a free parameter.
 
     Raises:
         MethodFileError: every fault of a file.
-        MethodError: it has no free parameter.
+        MethodError: it has no free parameter and must have one.
     """
     if isinstance(given, (str, os.PathLike)):
-        return load_family(given)
+        return families.load_family(path_of(given), is_free=is_free)
     if isinstance(given, Family):
         return given
     raise MethodError(
@@ -95,7 +100,8 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     ``gark design --minimise``.
 
     Args:
-        design: what ``find_parameters`` returns, or a family as it takes it.
+        design: what ``find_parameters`` returns, or a family as it takes it; the path may be that
+            of a method without free parameters, whose value is the answer.
         objective: the quantity to be small: error, error-coupling or coefficients; or large, with a
             minus sign: -ssp, -stability-interval, -real-interval, -imaginary-interval,
             -oscillator-interval.
@@ -116,7 +122,8 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
         message = f"no objective {objective!r}"
         raise UsageProblem(message, did_you_mean(objective, OBJECTIVES), code="unknown-word")
     if not isinstance(design, Design):
-        design = find_parameters(design, seconds=seconds)
+        read = family_of(design, is_free=False)
+        design = designing.find_parameters(read, seconds=seconds)
     return minimising.minimise(design, objective, seconds)
 
 

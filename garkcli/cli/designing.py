@@ -59,7 +59,8 @@ def design(given: Given, output: Output) -> int:
     seconds = SECONDS if given.seconds is None and given.search is None else given.seconds
     given.moment = None if seconds is None else monotonic() + seconds
     given.whose = given.which or "method"
-    family = load_family(given.file, given.settings, given.moment)
+    is_free = given.minimise is None
+    family = load_family(given.file, given.settings, given.moment, is_free)
     is_of_springs = given.slow is not None
     given.order = given.order or family.order
     asked = _asked(family, given)
@@ -79,7 +80,8 @@ def design(given: Given, output: Output) -> int:
     if given.choose:
         with _half(given):
             chosen = _walk(_found(family, given), given.choose)
-        family = load_family(given.file, {**given.settings, **given.choose}, given.moment)
+        settings = {**given.settings, **given.choose}
+        family = load_family(given.file, settings, given.moment, is_free)
         family = _as_stable(family, asked)
     return _told(family, chosen, given, output)
 

@@ -323,7 +323,10 @@ class _Finding(Frozen):
             polynomials, _ = _described(real)
             step = replace(step, real=real, polynomials_of_real=tuple(polynomials))
         if real.dimension == 0:
-            step = replace(step, found=self._found(real))
+            found = self._found(real)
+            is_open = any(x.open for x in found)
+            is_real = True if any(x.accepted for x in found) else None if is_open else False
+            return replace(step, found=found, is_real=is_real)
         if self.family.stable and step.kind == "family":
             return self._with_stable(step, ideal)
         return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
@@ -473,7 +476,7 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
     if any(step.stable for step in design.steps):
         *_, best = [design.last, *(step for step in design.steps if step.may_have_methods)]
         return best.stable
-    if design.last.kind != "every-value" or len(family.ring.names) > 1:
+    if design.last.kind != "every-value" or len(family.ring.names) > 1 or not family.parameters:
         return ()
     return tuple(
         stable_values(family, kind, design.whose, colour=x.colour)

@@ -48,7 +48,10 @@ class FamilyFile(Family, kw_only=True):
 
 
 def load_family(
-    path: str, settings: Mapping[str, str] = NO_SETTINGS, deadline: float | None = None
+    path: str,
+    settings: Mapping[str, str] = NO_SETTINGS,
+    deadline: float | None = None,
+    is_free: bool = True,
 ) -> FamilyFile:
     """Read a method file with free parameters.
 
@@ -57,12 +60,13 @@ def load_family(
         settings: values of parameters, by name, in place of those in the file.
         deadline: the reading of ``time.monotonic`` at which what is wanted and not worked out is
             left unsettled; None for never.
+        is_free: whether it must have a free parameter.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter.
+        MethodError: it has no free parameter and must have one.
     """
-    return loads_family(*read_method_text(path), settings, deadline=deadline)
+    return loads_family(*read_method_text(path), settings, deadline=deadline, is_free=is_free)
 
 
 def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
@@ -80,6 +84,7 @@ def loads_family(
     settings: Mapping[str, str] = NO_SETTINGS,
     is_design: bool = True,
     deadline: float | None = None,
+    is_free: bool = True,
 ) -> FamilyFile:
     r"""Read a method file with free parameters from its text.
 
@@ -89,17 +94,18 @@ def loads_family(
         settings: as in ``load_family``.
         is_design: whether to use ``design`` of the file.
         deadline: as in ``load_family``.
+        is_free: as in ``load_family``.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter.
+        MethodError: it has no free parameter and must have one.
 
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
     >>> family.tableau.block(0, 0)
     ((0, 0), (t, 0))
     """
     reader, description = described(text, source, settings)
-    if not reader.numbers.free:
+    if is_free and not reader.numbers.free:
         # where the file or a setting has a fault, that is what is told
         loads(text, source, settings)
         raise _without_unknowns(source, settings)

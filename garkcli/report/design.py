@@ -257,6 +257,8 @@ def groups(design: Design) -> list[list[Order]]:
 
 def order_rows(x: DesignReport, d: Plain) -> Rows:
     """What each order asks; usually only the highest that is reached with its polynomials."""
+    if not x.design.family.parameters:
+        return single_rows(x.design.last, d)
     rows: Rows = []
     best = _best(x.design)
     for group in groups(x.design):
@@ -266,6 +268,13 @@ def order_rows(x: DesignReport, d: Plain) -> Rows:
         rows.append((label, "; ".join(filter(None, _values(last, d, is_whole)))))
         rows += [("", _solution(solution, d)) for solution in last.solutions]
     return rows
+
+
+def single_rows(last: Step, d: Plain) -> Rows:
+    """Which condition stops a method without unknowns."""
+    if last.witness is None:
+        return []
+    return [(f"order {last.order}", f"no: that of {d.tree(last.witness)} does not hold")]
 
 
 def choice_rows(choices: Sequence[Choice], d: Plain) -> Rows:
@@ -289,6 +298,8 @@ def _best(design: Design) -> Step | None:
 def answer(x: DesignReport, d: Plain) -> str:
     """The highest order and its values; what stops the next one."""
     design, last, best = x.design, x.design.last, _best(x.design)
+    if not design.family.parameters:
+        return _of_single(design, best)
     whose = "" if design.whose == "method" else f" of the {design.whose}"
     texts = []
     if best is not None:
@@ -299,6 +310,18 @@ def answer(x: DesignReport, d: Plain) -> str:
         texts.append(f"{text} {no.get(last.kind, 'for no method of the file')}")
     texts += [f"{'' if best else whose}{stability(values, d)}" for values in x.sets]
     return "; ".join(texts)
+
+
+def _of_single(design: Design, best: Step | None) -> str:
+    """What is known of a method without unknowns."""
+    last = design.last
+    if best is not None and (best is last or last.kind == "none"):
+        return f"order {best.order} of the {design.whose}"
+    if last.kind == "undecided":
+        return f"order {last.order} of the {design.whose} is not decided"
+    if last.kind == "none":
+        return f"no order {last.order} of the {design.whose}"
+    return "the method lacks what is wanted besides its order"
 
 
 def _briefly(step: Step) -> str:
@@ -315,6 +338,8 @@ def _briefly(step: Step) -> str:
 def stable_rows(x: DesignReport, d: Plain) -> Rows:
     """What the ends of the stable values are; how stability is decided where it is not."""
     kinds = ", ".join(map(str, x.design.family.stable))
+    if not x.design.family.parameters:
+        return []
     if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
         return [("stable", d.prose(text))]
@@ -331,6 +356,8 @@ def _least(minimum: Minimum, d: Plain) -> str:
     if minimum.value is None and not minimum.is_infinite:
         return f"no method of order {minimum.step.order} was found"
     value = d.infinity if minimum.value is None else _number(minimum.value, d)
+    if not minimum.design.family.parameters:
+        return f"{what} {value}"
     if minimum.minimisers:
         return f"{'greatest' if is_level else 'least'} {what} {value}"
     of = " of what was found" if minimum.extent in {"critical-points", "found"} else ""
@@ -397,6 +424,8 @@ def _toward(limit: Any, d: Plain) -> str:
 def best_rows(minimum: Minimum, d: Plain) -> Rows:
     """What is made small, its value, and where it is reached or approached."""
     what = minimum.objective.summary.format(next=minimum.step.order + 1)
+    if not minimum.design.family.parameters:
+        return [(d.prose(minimum.objective.key.removeprefix("-")), d.prose(what))]
     said = f": {_among(minimum)}" if minimum.minimisers else ""
     rows = [("best", f"{_least(minimum, d)}{said}"), ("", d.prose(what))]
     most = MOST if d.is_brief else len(minimum.minimisers)

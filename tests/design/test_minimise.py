@@ -99,6 +99,45 @@ def test_squared_errors_without_trees(path: str, is_pair: bool) -> None:
         assert coupling.numerator / coupling.denominator == listed.coupling.two_squared
 
 
+@pytest.mark.parametrize(
+    ("path", "is_pair", "order"),
+    [
+        ("rk4", False, 4),
+        ("sdirk-23", False, 3),  # it has sqrt(3)
+        ("methods/collocation.gark.yaml", True, 4),
+    ],
+)
+def test_a_method_without_unknowns(path: str, is_pair: bool, order: int) -> None:
+    """The value of its objective, which is that of the list of all trees; the condition that fails
+    at the next order.
+    """
+    options = [*["--pair"] * is_pair, "--minimise", "error"]
+    told = gark("design", path, *options, "--format", "json")
+    assert told.code == 0
+    report = json.loads(told.out)
+    tableau = load(path).tableau
+    tableau = pair(tableau) if is_pair else tableau
+    listed = error_constants(tableau, order + 1)
+    assert listed is not None
+    [method] = report["objective"]["minimisers"]
+    assert (report["order"], report["verdict"], method["order"]) == (order + 1, "none", order)
+    decimal = float(report["objective"]["value"])
+    assert decimal == pytest.approx(float(to_ball(listed.all.two_squared, 80)))
+    text = gark("design", path, *options).out
+    assert text.startswith(f"{path}: order {order} of the {'pair' if is_pair else 'method'}; error")
+    assert f"order {order + 1}  no: that of" in text
+    assert gark("design", path, *options, "--order", str(order + 1)).code == 1
+
+
+def test_a_method_that_is_not_stable() -> None:
+    """What is wanted besides the order is decided of a method without unknowns too."""
+    wanted = ("--minimise", "error", "--order", "3", "--a-stable")
+    explicit = gark("design", "rk4", *wanted)
+    assert (explicit.code, "lacks what is wanted" in explicit.out) == (1, True)
+    assert gark("design", "sdirk-23", *wanted).code == 0
+    assert gark("design", "rk4", "--a-stable").code == 2  # without an objective there is no family
+
+
 def test_two_explicit_stages() -> None:
     """A. Ralston (1962): c_2 = 2/3. The error is (c/2 − 1/3)²/4 + 1/36, and the gradient of it is
     a multiple of 3c − 2.
