@@ -163,7 +163,11 @@ class GarkItem(pytest.Item):
     def _is_about(self, finding: Finding) -> bool:
         """Whether a finding is not about another claim."""
         is_whole = self.place == TOP
-        return is_whole or finding.rule != "claim" or (finding.line, finding.column) == self.place
+        return (
+            is_whole
+            or finding.rule not in {"claim", "undecided"}
+            or (finding.line, finding.column) == self.place
+        )
 
     def _text(self, finding: Finding, outcome: Outcome) -> str:
         """A finding with the line it is about, and the cure."""

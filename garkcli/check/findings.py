@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.check.outcome import Outcome
+from garkcli.check.outcome import Claim, Outcome
 from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
@@ -70,12 +70,12 @@ def bound_numbers(found: Simplifying) -> str:
 
 
 def claim_witness(outcome: Outcome, claim: str) -> Reason:
-    """The witness against a failed claim on an order, what a bound is made of, or what speaks
-    against a property; empty where there is none of these.
+    """The witness against a failed claim on an order, what a bound is made of, what speaks against
+    a property or leaves it undecided; empty where there is none of these.
     """
-    for failed in outcome.failed_claims:
-        if failed.claim == claim and failed.reason:
-            return failed.reason
+    for made in outcome.claims:
+        if made.claim == claim and made.holds is not True and made.reason:
+            return made.reason
     analysis = outcome.analysis
     if analysis is None:
         return NO_REASON
@@ -232,10 +232,11 @@ class Part(Frozen):
 
 
 class Kind(Frozen):
-    """A kind of finding: what it is in words, and where it occurs."""
+    """A kind of finding: what it is in words, where it occurs, and its level."""
 
     text: str
     find: Callable[[Outcome], Iterator[Part]]
+    level: str = "error"
 
 
 def _unreadable(outcome: Outcome) -> Iterator[Part]:
@@ -246,8 +247,8 @@ def _unreadable(outcome: Outcome) -> Iterator[Part]:
         yield Part(fault.message, fault.help, key, fault.line or 1, fault.column or 1, fault.code)
 
 
-def _failed_claims(outcome: Outcome) -> Iterator[Part]:
-    for claim in outcome.failed_claims:
+def _unmet(outcome: Outcome, claims: Sequence[Claim]) -> Iterator[Part]:
+    for claim in claims:
         difference = f"expected {claim.expected}, found {claim.found}"
         message = f"{claim.claim}: {difference}"
         witness = claim_witness(outcome, claim.claim)
@@ -265,7 +266,12 @@ def _missing_claims(outcome: Outcome) -> Iterator[Part]:
 
 KINDS = {
     "unreadable": Kind("the file cannot be read as a method", _unreadable),
-    "claim": Kind("a claim under expect does not hold", _failed_claims),
+    "claim": Kind("a claim under expect does not hold", lambda o: _unmet(o, o.failed_claims)),
+    "undecided": Kind(
+        "a claim under expect neither holds nor fails",
+        lambda o: _unmet(o, o.undecided_claims),
+        "warning",
+    ),
     "no-claim": Kind("the file lacks a claim that is required", _missing_claims),
 }
 """Every kind of finding; formats and their documentation are made from it."""
@@ -279,8 +285,9 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
     for rule, kind in KINDS.items():
         for part in kind.find(outcome):
             digest = fingerprint(f"{file}\0{rule}\0{part.key}")
+            place = part.line, part.column
             yield Finding(
-                rule, file, part.line, part.column, part.message, part.help, digest, code=part.code
+                rule, file, *place, part.message, part.help, digest, kind.level, part.code
             )
 
 

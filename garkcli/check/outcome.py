@@ -91,8 +91,13 @@ class Outcome(Shown, Frozen):
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:
-        """The claims that do not hold, or are undecided."""
-        return tuple(claim for claim in self.claims if not claim.holds)
+        """The claims that do not hold."""
+        return tuple(claim for claim in self.claims if claim.holds is False)
+
+    @property
+    def undecided_claims(self) -> tuple[Claim, ...]:
+        """The claims that neither hold nor fail."""
+        return tuple(claim for claim in self.claims if claim.holds is None)
 
     @property
     def is_open(self) -> bool:
@@ -122,7 +127,7 @@ class Outcome(Shown, Frozen):
     @property
     def ok(self) -> bool:
         """Whether the file is a method, every claim holds, and there are those that are needed."""
-        return self.is_read and not self.failed_claims and not self.lacks
+        return self.exit_code == 0
 
     @property
     def exit_code(self) -> int:
@@ -131,16 +136,15 @@ class Outcome(Shown, Frozen):
         """
         if not self.is_read:
             return 3 if self.is_crash else 2
-        if self.lacks or any(claim.holds is False for claim in self.claims):
+        if self.lacks or self.failed_claims:
             return 1
-        return 3 if self.failed_claims else 0
+        return 3 if self.undecided_claims else 0
 
     def __repr__(self) -> str:
         said = counted(len(self.faults), "fault")
         if self.is_read:
             said = counted(len(self.claims), "claim")
-        for what, answer in (("failed", False), ("undecided", None)):
-            count = [claim.holds for claim in self.claims].count(answer)
-            if count:
-                said += f", {count} {what}"
+        for claims, what in ((self.failed_claims, "failed"), (self.undecided_claims, "undecided")):
+            if claims:
+                said += f", {len(claims)} {what}"
         return f"<Outcome {printable(self.name)}: {said}>"

@@ -151,7 +151,7 @@ def findings_of(command: str) -> Mapping[str, FindingKind]:
     """The kinds of findings of a command by their codes.
 
     >>> list(findings_of("check"))
-    ['unreadable', 'claim', 'no-claim']
+    ['unreadable', 'claim', 'undecided', 'no-claim']
     """
     kinds = {}
     for code, entry in read("findings")[command].items():

@@ -723,9 +723,9 @@ CLAIM = Section(
 
 
 def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
-    """The claims that fail, with their places; then those that hold, together."""
+    """The claims that fail or are undecided, with their places; those that hold, together."""
     rows = []
-    for c in outcome.failed_claims:
+    for c in (*outcome.failed_claims, *outcome.undecided_claims):
         said = f"{c.claim}: expected {c.expected}, found {c.found}"
         why = f"; {d.reason(c.reason)}" if c.reason else ""
         place = f" ({outcome.file}:{c.line}:{c.column})"
@@ -744,9 +744,8 @@ def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
 def _claims_cell(o: Any, d: Plain) -> str:
     if not o.is_read:
         return "cannot be read"
-    answers = [x.holds for x in o.claims]
-    unmet = [(answers.count(x), word) for x, word in ((False, "fail"), (None, "undecided"))]
-    told = ", ".join(f"{count} of {len(answers)} {word}" for count, word in unmet if count)
+    unmet = (o.failed_claims, "fail"), (o.undecided_claims, "undecided")
+    told = ", ".join(f"{len(x)} of {len(o.claims)} {word}" for x, word in unmet if x)
     if told:
         return d.strong(told)
     held = "1 holds" if len(o.claims) == 1 else f"{len(o.claims)} hold"
@@ -880,6 +879,7 @@ UNREADABLE = Section(
 )
 SUMMARY = Section(
     Row("files", kinds.COUNT, len),
-    Row("failed", kinds.COUNT, lambda xs: sum(not x.ok for x in xs)),
+    Row("failed", kinds.COUNT, lambda xs: sum(not (x.ok or x.is_open) for x in xs)),
+    Row("undecided", kinds.COUNT, lambda xs: sum(x.is_open for x in xs)),
     Row("without_claims", kinds.COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
 )

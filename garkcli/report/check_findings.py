@@ -89,11 +89,13 @@ _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def junit(outcomes: Sequence[Outcome]) -> str:
-    """One suite a file, one case a claim; a file that cannot be read is one case in error."""
+    """One suite a file, one case a claim, skipped if it is undecided; a file that cannot be read is
+    one case in error.
+    """
     root = ET.Element("testsuites", name="gark check")
     for outcome in outcomes:
         _add_suite(root, outcome)
-    for count in ("tests", "failures", "errors"):
+    for count in ("tests", "failures", "errors", "skipped"):
         root.set(count, str(sum(int(suite.get(count, "0")) for suite in root)))
     ET.indent(root)
     text = ET.tostring(root, encoding="unicode")
@@ -117,15 +119,17 @@ def _add_suite(root: ET.Element, outcome: Outcome) -> None:
         judged.set("line", str(claim.line))
         if not claim.holds:
             message = _clean(f"expected {claim.expected}, found {claim.found}")
-            failure = ET.SubElement(judged, "failure", message=message, type="claim")
+            tag, rule = ("failure", "claim") if claim.holds is False else ("skipped", "undecided")
+            unmet = ET.SubElement(judged, tag, message=message, type=rule)
             why = claim_witness(outcome, claim.claim), claim_hint(outcome, claim.claim)
-            failure.text = _clean("\n".join(str(x) for x in why if x)) or None
+            unmet.text = _clean("\n".join(str(x) for x in why if x)) or None
     for message in outcome.lacks:
         missing = case("makes the claims that are required")
         ET.SubElement(missing, "failure", message=message, type="no-claim")
     suite.set("tests", str(len(suite)))
     suite.set("failures", str(len(outcome.failed_claims) + len(outcome.lacks)))
     suite.set("errors", "1" if outcome.faults else "0")
+    suite.set("skipped", str(len(outcome.undecided_claims)))
 
 
 def _clean(text: str) -> str:

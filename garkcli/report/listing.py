@@ -16,7 +16,7 @@ from garkcli.problems.builtin import PROBLEMS
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
-from garkcli.tell.parts import SAID, parts, shown, table, told
+from garkcli.tell.parts import parts, sentence, shown, table, told
 from garkcli.tell.report import ListReport, Report
 from garkcli.transfer import SUMMARIES
 
@@ -89,11 +89,6 @@ def _topics(lists: Lists) -> list[tuple[str, str, str]]:
     return [(name, str(count), f"gark list {name}") for name, count in counts.items()]
 
 
-def _title(lists: Lists, _: Plain) -> str:
-    names = ("families", "transfer rules", "schemes", "splittings", "problems")
-    return ", ".join(f"{len(x)} {name}" for x, name in zip(lists, names, strict=True))
-
-
 ROWS = {
     row.key: row
     for row in (
@@ -111,13 +106,8 @@ REPORT: Report[Lists] = Report.only(
     Section(
         Row("topics", shown(TOPIC, 0), _topics, label="", is_short=True),
         *(replace(row, level=DETAIL) for row in ROWS.values()),
-        Row(
-            "own",
-            SAID,
-            lambda _: "one of your own is a file: --problem FILE.yaml, see docs/problem-file.md",
-            label="problem",
-        ),
-        title=_title,
+        sentence(lambda _: "your own problem: --problem FILE.yaml (docs/problem-file.md)"),
+        title=lambda *_: "what files and commands can name",
     ),
 )
 

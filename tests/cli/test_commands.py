@@ -322,7 +322,7 @@ def test_json_of_check() -> None:
     """
     report = data("check", COLLOCATION)
     assert report["schema"] == "gark/check/1"
-    assert report["summary"] == {"files": 1, "failed": 0, "without_claims": 0}
+    assert report["summary"] == {"files": 1, "failed": 0, "undecided": 0, "without_claims": 0}
     (found,) = report["files"]
     assert found["colours"] == [{"name": "1", "stages": 2}, {"name": "2", "stages": 3}]
     assert (found["order"], found["conjugate_order"], found["pair_order"]) == (4, 4, 4)

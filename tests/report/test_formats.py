@@ -40,6 +40,10 @@ FILES = (GOOD, FAILING, INVALID)
 MIDPOINT = "methods: [{A: [[1/2]], b: [1]}]\n"
 HEUN = "methods: [{family: heun}]\n"
 WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
+UNDECIDED = (
+    "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
+    "expect: {algebraically-stable: true, order: 3}\n"
+)
 AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
 
 _TEXT = {
@@ -181,10 +185,17 @@ def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     assert GOOD not in files
 
 
-def test_sarif_names_its_rules() -> None:
+def undecided(folder: Path) -> Outcome:
+    """A rounded file of which one claim fails, one is undecided."""
+    path = folder / "rounded.gark.yaml"
+    path.write_text(UNDECIDED, encoding="utf-8")
+    return check_file(str(path))
+
+
+def test_sarif_names_its_rules(tmp_path: Path) -> None:
     """Each result's rule index points at the rule with the result's rule id."""
     silent = replace(outcome(MIDPOINT), needs_claims=True)
-    run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent)
+    run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent, undecided(tmp_path))
     rules = run["tool"]["driver"]["rules"]
     assert {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
     assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
@@ -257,6 +268,28 @@ def test_a_file_name_is_a_uri(file: str) -> None:
     assert {unquote(uri) for uri in uris} == {file}
 
 
+def test_undecided_claims_do_not_fail(tmp_path: Path) -> None:
+    """A claim that is undecided is no failure: a warning of SARIF and GitHub, a skipped case of JUnit; Python and
+    the text tell both apart.
+    """
+    found = undecided(tmp_path)
+    assert [x.claim for x in found.failed_claims] == ["order"]
+    assert [x.claim for x in found.undecided_claims] == ["algebraically-stable"]
+    levels = {x["ruleId"]: x["level"] for x in sarif(found)["results"]}
+    assert levels == {"claim": "error", "undecided": "warning"}
+    (suite,) = junit(found)
+    tags = {(case.get("name") or "").partition(":")[0]: [x.tag for x in case] for case in suite}
+    assert tags == {"is a method": [], "algebraically-stable": ["skipped"], "order": ["failure"]}
+    still_open = replace(found, claims=found.undecided_claims)
+    summary = REPORT.document([found, still_open])["summary"]
+    assert summary == {"files": 2, "failed": 1, "undecided": 1, "without_claims": 0}
+    text = check_findings.github([found])
+    assert re.findall("^::(error|warning) .*::(.*): expected", text, re.M) == [
+        ("error", "order"),
+        ("warning", "algebraically-stable"),
+    ]
+
+
 # -- JUnit --------------------------------------------------------------------------------------------------------
 
 
@@ -269,6 +302,7 @@ def junit(*outcomes: Outcome) -> ET.Element:
             ("tests", ".//testcase"),
             ("failures", ".//failure"),
             ("errors", ".//error"),
+            ("skipped", ".//skipped"),
         ):
             assert part.get(count) == str(len(part.findall(path)))
     assert all(case.get("name") and case.get("classname") for case in root.iter("testcase"))
@@ -565,7 +599,7 @@ def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:
     run = gark("check", ".", "--require-claims", cwd=tmp_path)
     assert (run.code, run.out.count("NO CLAIM")) == (1, 2)
     data = json.loads(gark("check", ".", "--require-claims", "--format", "json", cwd=tmp_path).out)
-    assert data["summary"] == {"files": 3, "failed": 2, "without_claims": 2}
+    assert data["summary"] == {"files": 3, "failed": 2, "undecided": 0, "without_claims": 2}
     assert [file["ok"] for file in data["files"]] == [False, False, True]
     junit_report = gark("check", ".", "--require-claims", "--format", "junit", cwd=tmp_path).out
     assert ET.fromstring(junit_report).get("failures") == "2"
