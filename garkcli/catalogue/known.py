@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 WINDOW = 1e-5
 """How far apart the fingerprints of a method and of its rounded copy may be."""
 ROUNDINGS = tuple(fmpq(1, 10**digits) for digits in (15, 14, 13, 12, 11, 10, 9, 8, 7, 6))
-"""Within which of these entries are compared that are not the same exactly."""
+"""By how much entries of different methods are told to be apart at most."""
 MOST_STAGES = 100
 """Tableaus with more stages are not looked up."""
 _DIGITS = 9
@@ -29,17 +29,19 @@ _ROUNDS = 2
 
 
 class Known(Frozen):
-    """A method of the catalogue that a tableau is, up to the numbers of its stages.
+    """A method of the catalogue that a tableau is, or nearly is, up to the numbers of its stages.
 
     Attributes:
         method: its name.
-        within: the rounding within which entries are the same; None where they are exactly.
+        within: how far apart entries are at most; None where they are the same exactly.
         step_only: whether embedded weights differ, or one of the two has none.
+        is_same: whether that is within the rounding that both files admit.
     """
 
     method: str
     within: fmpq | None = None
     step_only: bool = False
+    is_same: bool = True
 
 
 def fingerprint(tableau: Tableau) -> float:
@@ -74,7 +76,7 @@ def _floats(rows: Sequence[Row]) -> list[list[float]]:
 
 
 def find_known(analysis: Analysis, text: str) -> Known | None:
-    """The method of the catalogue that was checked; None where there is none.
+    """The method of the catalogue that was checked, or one next to it; None where there is none.
 
     Args:
         analysis: what was found of it.
@@ -123,8 +125,9 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
             admitted = (method.tolerance or ZERO) + (other.tolerance or ZERO)
             same = find_sameness(method, other, views, max(least, admitted)).sameness
             if same is not None:
-                found.append((same.step_only, same.is_reduced, name, same.allowed or None))
+                is_apart = same.allowed > admitted
+                found.append((same.step_only, same.is_reduced, name, same.allowed, not is_apart))
         if found:
-            step_only, _, name, within = min(found, key=lambda x: x[:3])
-            return Known(name, within, step_only)
+            step_only, _, name, within, is_same = min(found, key=lambda x: x[:3])
+            return Known(name, within or None, step_only, is_same)
     return None

@@ -32,6 +32,7 @@ LABELS = {
     "phase_order": "phase lag",
     "real_interval": "real axis",
     "same_as": "the same as",
+    "differs_from": "differs from",
     "sdirk": "SDIRK",
     "sigma": "σ",
     "springs": "two springs",

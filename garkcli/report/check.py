@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text, order_of
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
+from garkcli.exact.display import decimal
 from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
@@ -825,18 +826,31 @@ SAME_AS = Section(
 )
 
 
-def _same_as(o: Any) -> Any:
-    # most files are in no catalogue, and quiet reports do not ask
-    from garkcli.catalogue.known import find_known
+DIFFERS_FROM = Section(
+    Row("method", kinds.TEXT),
+    Row("at_most", kinds.TOLERANCE, "within"),
+    Row("step_only", kinds.TRUTH),
+)
 
-    return find_known(o.analysis, o.text)
+
+def _known(is_same: bool) -> Any:
+    """The method of the catalogue that was checked, or one that it differs from by little."""
+
+    def known(o: Any) -> Any:
+        # most files are in no catalogue, and quiet reports do not ask
+        from garkcli.catalogue.known import find_known
+
+        found = find_known(o.analysis, o.text)
+        return found if found and found.is_same is is_same else None
+
+    return known
 
 
-def _same_as_words(known: Any, d: Plain) -> str:
-    within = f" within {kinds.TOLERANCE.words(known.within, d)}" if known.within else ""  # type: ignore[misc]
-    return (
-        f"{d.prose(known.method)}{within}{', but for embedded weights' if known.step_only else ''}"
-    )
+def _known_words(known: Any, d: Plain) -> str:
+    by = ""
+    if known.within:
+        by = f" {'within' if known.is_same else 'by at most'} {decimal(known.within)}"
+    return f"{d.prose(known.method)}{by}{', but for embedded weights' if known.step_only else ''}"
 
 
 LEFT_BEHIND = optional(
@@ -859,7 +873,8 @@ CHECKED = Section(
     optional("misprint", part(MISPRINT), "analysis.misprint", DATA),
     optional("error_constants", part(CONSTANTS, _constants_words), "constants"),
     optional("suggestion", part(SUGGESTION), "analysis.suggestion", DATA),
-    optional("same_as", part(SAME_AS, _same_as_words), _same_as),
+    optional("same_as", part(SAME_AS, _known_words), _known(is_same=True)),
+    optional("differs_from", part(DIFFERS_FROM, _known_words), _known(is_same=False)),
     *CLAIMS,
     HINTS,
     Row("properties_in_words", rows_of(_property_rows), every_property),

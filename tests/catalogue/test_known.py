@@ -47,18 +47,20 @@ def test_a_method_with_a_stage_too_many() -> None:
     assert known("{A: [[], [1], [1/3, 1/3]], b: [1/2, 1/2, 0]}") == Known("heun-euler", None, True)
 
 
-@pytest.mark.parametrize("tolerance", ["", ", tolerance: 1e-11"])
+@pytest.mark.parametrize("tolerance", ["", ", tolerance: 1e-11", ", tolerance: 1e-10"])
 def test_a_rounded_method(tolerance: str) -> None:
-    """Kutta's method with ten threes: the same within the rounding of the file, or within what is
-    missing.
+    """Kutta's method with ten threes is the same within the rounding of its file, and differs from
+    Kutta's where that is smaller, or the file is exact; ``gark diff`` says the same.
     """
     third = "0.3333333333"
     text = (
         f"{{A: [[], [1/3], [-{third}, 1], [1, -1, 1]], b: [1/8, 3/8, 3/8, 1/8],"
         f" c: [0, 1/3, 2/3, 1]{tolerance}}}"
     )
-    within = fmpq(1, 10**10)
-    assert known(text) == Known("kutta-38", within)
+    is_same = tolerance.endswith("1e-10")
+    assert known(text) == Known("kutta-38", fmpq(1, 10**10), is_same=is_same)
+    relation = compare(loads(text), load("kutta-38")).relation
+    assert relation == ("within-rounding" if is_same else "different")
 
 
 def test_other_embedded_weights_are_told() -> None:
@@ -94,6 +96,10 @@ def test_it_is_told_in_every_format(tmp_path: Path) -> None:
         text = gark("check", "mine.yaml", "--format", output, cwd=tmp_path).out
         assert "the same as" in text
     assert gark("check", "mine.yaml", "--quiet", cwd=tmp_path).out == ""
+    (tmp_path / "mine.yaml").write_text(
+        RK4.replace("1/3, 1/6]", "1/3, 0.1666667]"), encoding="utf-8"
+    )
+    assert "differs from  rk4 by at most 1e-7\n" in gark("check", "mine.yaml", cwd=tmp_path).out
 
 
 def test_fingerprints_of_the_index() -> None:

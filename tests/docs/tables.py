@@ -262,7 +262,7 @@ _PLAIN = set(
     coefficient column columns compared complete condition conjugate conjugate_consistent
     conjugate_witness consistent continuous cosine count coupling culprit cure decided decimal
     declared_embedded declared_order default defects degree degrees denominator derivation
-    description determinant determinant_minus_1 difference differences digits dimension_before
+    description determinant determinant_minus_1 difference differences differs_from digits dimension_before
     direction doubt drift_in_all drift_uncertainty drifts drives effective_order
     embedded_nonautonomous_witness embedded_witness energies energy_error energy_order entries
     equation error_constants error_estimate errors escaped_at eta evaluations every_property
