@@ -16,7 +16,6 @@ EMPTY = (
     "tutorial-student",
     "tutorial-maintainer",
     "tutorial-designer",
-    "errata",
     "howto-from-a-paper",
     "howto-other-codes",
     "howto-imex",
