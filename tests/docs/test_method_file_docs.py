@@ -9,7 +9,6 @@ import yaml
 from garkcli.methodfile.description import FORMS
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.problem import loads_problem
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs/method-file.md"
@@ -28,11 +27,6 @@ def keys(block: str) -> set[str]:
     return set(re.findall(r"^([\w-]+):", block, re.MULTILINE))
 
 
-def is_problem(block: str) -> bool:
-    """Whether a block is a problem file."""
-    return "variables" in keys(block)
-
-
 def is_whole(block: str) -> bool:
     """Whether a block is a whole file: a form without ``...``, and with its transfer where it has
     two methods.
@@ -43,32 +37,22 @@ def is_whole(block: str) -> bool:
     return methods is None or len(methods) == 1 or "transfer" in keys(block)
 
 
-PAGES = (DOCS, README, ROOT / "docs/tour.md")
+PAGES = (DOCS, README)
 ALL = [block for path in PAGES for block in blocks(path, "yaml") if not block.startswith("- uses:")]
-PROBLEMS = [block for block in ALL if is_problem(block)]
 WHOLE = [block for block in ALL if is_whole(block)]
-FRAGMENTS = [block for block in ALL if not is_whole(block) and not is_problem(block)]
+FRAGMENTS = [block for block in ALL if not is_whole(block)]
 
 
 def test_the_documentation_has_files() -> None:
     """There are whole files in the documentation of the method file, and in all it shows."""
     assert any(is_whole(block) for block in blocks(DOCS, "yaml"))
     assert len(WHOLE) >= 2
-    assert PROBLEMS
 
 
 @pytest.mark.parametrize("block", WHOLE)
 def test_a_whole_file_loads(block: str) -> None:
     """A file shown in the documentation is a method."""
     assert loads(block).tableau.size >= 1
-
-
-@pytest.mark.parametrize("block", PROBLEMS)
-def test_a_problem_is_a_file_of_the_repository(block: str) -> None:
-    """The problem that the README shows is the file that it names, comments apart."""
-    files = [path.read_text(encoding="utf-8") for path in (ROOT / "problems").glob("*.yaml")]
-    assert loads_problem(block).terms
-    assert block in [re.sub(r"^#.*\n", "", text, flags=re.MULTILINE) for text in files]
 
 
 @pytest.mark.parametrize("block", FRAGMENTS)

@@ -65,11 +65,11 @@ def test_what_scrolls_can_have_the_focus() -> None:
 def test_links_have_titles_on_the_site() -> None:
     """Where a page shows the name of a file; other links stay, and so does what stands behind."""
     made = runpy.run_path(str(DOCS / "conf.py"))["titled"]
-    text = "[tour.md](tour.md#a), [docs/tour.md](tour.md) and [this](tour.md)"
-    shown = "[A tour](tour.md#a), [A tour](tour.md) and [this](tour.md)"
+    text = "[gallery.md](gallery.md#a), [docs/gallery.md](gallery.md) and [this](gallery.md)"
+    shown = "[Gallery](gallery.md#a), [Gallery](gallery.md) and [this](gallery.md)"
     assert made(text, DOCS) == shown
-    above = made("[tour.md](../tour.md)", DOCS / "contributing")
-    assert above == "[A tour](../tour.md)"
+    above = made("[gallery.md](../gallery.md)", DOCS / "contributing")
+    assert above == "[Gallery](../gallery.md)"
 
 
 def test_indices_are_typeset_on_the_site() -> None:
