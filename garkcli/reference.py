@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from garkcli.frozen import Frozen
 
+ARXIV = "https://arxiv.org/abs/"
+"""Where preprints are."""
 WORKS = ("article", "book", "chapter", "report", "software", "thesis", "web")
 """What ``type`` says of a publication."""
 
@@ -72,3 +76,15 @@ class Reference(Frozen, kw_only=True):
         if not self.year:
             return known
         return f"{known} ({self.year})" if known else self.year
+
+
+Work: TypeAlias = "tuple[str, Reference | None]"
+"""A publication in one line, with its fields where it has them."""
+
+ZANNA = Reference(
+    authors=("A. Zanna",),
+    title="Discrete Variational Methods and Symplectic Generalized Additive Runge-Kutta Methods",
+    year="2020",
+    url=f"{ARXIV}2001.07185",
+)
+"""The paper that gark implements."""

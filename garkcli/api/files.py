@@ -15,7 +15,7 @@ from garkcli.conversion import convert as conversion
 from garkcli.conversion.convert import Converted
 from garkcli.errors import MethodError
 from garkcli.families.registry import FAMILIES
-from garkcli.methodfile import bibliography, family
+from garkcli.methodfile import family
 from garkcli.methodfile import load as methods
 from garkcli.methodfile import problem as problems
 from garkcli.methodfile.build import MethodFile
@@ -23,7 +23,7 @@ from garkcli.methodfile.family import FamilyFile
 from garkcli.methodfile.naming import is_catalogued
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.problems.problem import Problem
-from garkcli.reference import Reference
+from garkcli.reference import Work
 
 AnyPath: TypeAlias = "str | os.PathLike[str]"
 NONE: Settings = {}
@@ -68,19 +68,23 @@ def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> Metho
     return methods.loads(_text(text), source, texts(settings, "settings"))
 
 
-def reference_in(path: AnyPath) -> tuple[str, str, Reference | None]:
-    """What a method file, a method of the catalogue or a family is called, and where it says that
-    it was published: in one line, and its fields. Nothing else of it is read.
+def references_in(given: AnyMethod) -> tuple[str, tuple[Work, ...]]:
+    """What a method, a file or a family is called, and its publications; arrays have none.
 
     Raises:
         MethodFileError: there is no such file, it is no YAML, or the reference has a fault.
     """
-    name = path_of(path)
+    if not isinstance(given, (str, os.PathLike)):
+        method = method_of(given)
+        if isinstance(method, MethodFile):
+            return method.source, methods.works_in(method.text, method.source)
+        return method.name, ()
+    name = path_of(given)
     if name in FAMILIES and not is_catalogued(name):
         work = FAMILIES[name].reference
-        return name, str(work), work
+        return name, ((str(work), work),)
     text, source = methods.read_method_text(name)
-    return source, *bibliography.reference_of(text, source)
+    return source, methods.works_in(text, source)
 
 
 def load_family(

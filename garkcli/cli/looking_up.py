@@ -221,10 +221,11 @@ def _entry(given: Given, method: MethodFile) -> Entry:
 
 @declared("cite", ("bibtex", *FORMATS))
 def cite(given: Given, output: Output) -> None:
-    """Where methods were published, as entries of a bibliography, one a publication.
+    """Where methods were published, each publication as one entry of a bibliography.
 
-    FILE is a method file or a name of the catalogue, as for gark check; catalogue: means all of
-    it. A `reference` that is plain text becomes a note; gark names files without a reference.
+    FILE is a method file, a name of the catalogue or a family, as for gark check; catalogue: means
+    all of it, gark this program. A file without `reference` is cited by its families and rules. A
+    `reference` that is plain text becomes a note; gark names files without any.
     """
     from garkcli.report.calls import references
     from garkcli.report.citation import REPORT, bibliography

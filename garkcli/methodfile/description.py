@@ -9,10 +9,11 @@ from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.families.family import Recipe
+from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
-from garkcli.reference import Reference
+from garkcli.reference import ZANNA, Reference, Work
 from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
@@ -269,6 +270,24 @@ def left_behind(content: Content) -> tuple[str, ...]:
         for text in further_of(inside):
             found += ["embedded weights"] if text.embedded is not None else []
             found += ["dense output"] if text.dense is not None else []
+    return tuple(dict.fromkeys(found))
+
+
+def works_of(said: Description) -> tuple[Work, ...]:
+    """Where a method was published; without a reference where its parts and rules were."""
+    if said.reference:
+        return ((said.reference, said.bibliography),)
+    found: list[Work] = []
+    if isinstance(said.content, ConstructionText):
+        found += [x for part in said.content.parts for x in works_of(part.description)]
+    elif isinstance(said.content, MethodsText):
+        families = [x.name for x in said.content.methods if isinstance(x, FamilyText)]
+        works = [FAMILIES[name].reference for name in families]
+        transfer = said.content.transfer
+        texts = [transfer.default, *transfer.blocks.values()]
+        rules = {rule for x in texts if isinstance(x, RuleText) for rule, _ in x.terms}
+        works += [ZANNA] if len(said.content.methods) > 1 and rules - {"legendre"} else []
+        found += [(str(work), work) for work in works]
     return tuple(dict.fromkeys(found))
 
 

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Generic, TypeVar
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
 from garkcli.frozen import Frozen
+from garkcli.methodfile.bibliography import reference_of
 from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
-from garkcli.methodfile.description import Description, PartText, left_behind, rules_of_blocks
+from garkcli.methodfile.description import (
+    Description,
+    PartText,
+    left_behind,
+    rules_of_blocks,
+    works_of,
+)
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.nodes import one_line
@@ -21,6 +29,7 @@ from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.reading import SUFFIX
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
+from garkcli.reference import Work
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Tableau
 
@@ -110,6 +119,23 @@ def loads(
         left_behind=left_behind(description.content),
         rules=rules_of_blocks(description),
     )
+
+
+def works_in(text: str, source: str) -> tuple[Work, ...]:
+    r"""Where the method of a file was published; without a reference where its parts were.
+
+    Raises:
+        MethodFileError: the text is no YAML, or its reference has a fault.
+
+    >>> [x[0][:8] for x in works_in("methods: [gauss-2, gauss-3]\ntransfer: collocation", "")]
+    ['E. Haire', 'A. Zanna']
+    """
+    own = reference_of(text, source)
+    if own[0]:
+        return (own,)
+    with suppress(MethodFileError):  # of which the works say nothing
+        return works_of(described(text, source, NO_SETTINGS)[1])
+    return ()
 
 
 def _free(reader: Reader, description: Description) -> MethodFileError:

@@ -6,15 +6,15 @@ import os
 from collections.abc import Iterable
 from typing import Literal
 
-from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.anymethod import AnyMethod
 from garkcli.api.calls import prove_method
-from garkcli.api.files import AnyPath, reference_in
+from garkcli.api.files import AnyPath, references_in
 from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.reference import Reference
+from garkcli.reference import ZANNA, Reference
 from garkcli.report import citation
 from garkcli.report.certificate import REPORT
 from garkcli.report.coq import coq_proof
@@ -46,7 +46,7 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
 
 def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
-    """The publications of some methods, each once. Of a file no more is read than its reference.
+    """The publications of some methods, each once; without a reference those of their parts.
 
     The name of a family is a method here, and ``gark`` is this program and the paper behind it.
     """
@@ -55,7 +55,8 @@ def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
         if method == GARK:
             cited += [citation.Cited((GARK,), str(work), work) for work in WORKS]
         else:
-            cited.append(_cited(method))
+            source, works = references_in(method)
+            cited += [citation.Cited((source,), *work) for work in works or [("", None)]]
     return citation.together(cited)
 
 
@@ -68,27 +69,9 @@ WORKS = (
         year="2026",
         note=f"version {__version__}",
     ),
-    Reference(
-        authors=("A. Zanna",),
-        title="Discrete Variational Methods and Symplectic Generalized Additive Runge-Kutta "
-        "Methods",
-        year="2020",
-        url=f"{citation.ARXIV}2001.07185",
-    ),
+    ZANNA,
 )
 """This program, and the paper that it implements."""
-
-
-def _cited(given: AnyMethod) -> citation.Cited:
-    """A method with its reference; without one where it is not from a file."""
-    if isinstance(given, (str, os.PathLike)):
-        source, reference, fields = reference_in(given)
-        return citation.Cited((source,), reference, fields)
-    method = method_of(given)
-    source = getattr(method, "source", method.name)
-    reference = getattr(method, "reference", "")
-    fields = getattr(method, "bibliography", None)
-    return citation.Cited((source,), reference, fields)
 
 
 def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:

@@ -10,7 +10,7 @@ from garkcli.frozen import Frozen, fields
 from garkcli.page.latex_letters import ascii_letters, letters
 from garkcli.page.paint import counted
 from garkcli.page.plain import printable
-from garkcli.reference import Reference
+from garkcli.reference import ARXIV, Reference
 from garkcli.tell.facts import Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.parts import part, parts, shown
@@ -27,8 +27,6 @@ _ENTRY_TYPES = {
     "web": "misc",
 }
 """The kinds of BibTeX entries, by what ``type`` says of a publication."""
-ARXIV = "https://arxiv.org/abs/"
-"""Where preprints are."""
 _BETWEEN_WORDS = re.compile(r"([\s–—-]+)")
 _DASHES = re.compile(r"\s*[-–—]+\s*")
 """Between the first page and the last."""
@@ -99,8 +97,9 @@ def _key(cited: Cited) -> str:
     if reference is None or not people:
         return _key_of_method(cited.methods[0])
     name = last_name(people[0])
-    shown = name if name[:1].isupper() else people[0]
-    return ascii_letters(shown) + reference.year
+    if not name[:1].isupper():  # a group, such as the NodePy developers
+        name = people[0].removeprefix("The ").split()[0]
+    return ascii_letters(name) + reference.year
 
 
 def _key_of_method(name: str) -> str:
@@ -246,7 +245,7 @@ REPORT: Report[Sequence[Cited]] = Report.only(
     Section(
         Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
         Row("methods", shown(LINE, 0), "."),
-        title=lambda x, _: counted(len(x), "publication"),
+        title=lambda x, _: counted(sum(bool(one.text) for one in x), "publication"),
     ),
 )
 FORMATS = ("bibtex", *TOLD)

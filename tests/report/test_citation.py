@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
 from garkcli.page.latex_letters import ascii_letters, letters
-from garkcli.reference import Reference
+from garkcli.reference import ZANNA, Reference
+from garkcli.report.calls import references
 from garkcli.report.citation import Cited, keys, render, title, together
 from tests.cli.harness import ROOT, gark
 
@@ -96,7 +97,7 @@ def test_keys_are_of_ascii_and_tell_publications_apart() -> None:
     second = cited(authors=("S. P. Nørsett",), year="1974", journal="B")
     assert keys([first, second]) == ["Norsett1974a", "Norsett1974b"]
     assert keys([second, first]) == ["Norsett1974b", "Norsett1974a"]
-    assert keys([cited(authors=("The NodePy developers",))]) == ["TheNodePydevelopers"]
+    assert keys([cited(authors=("The NodePy developers",))]) == ["NodePy"]
     plain = Cited(("dir.d/my method.gark.yaml",), "somewhere", None)
     assert keys([plain]) == ["mymethod"]
 
@@ -124,6 +125,28 @@ def test_a_method_without_a_reference_says_so(tmp_path: Path) -> None:
     data = gark("cite", "m.gark.yaml", "--format", "json", cwd=tmp_path)
     (found,) = json.loads(data.out)["references"]
     assert (found["text"], found["reference"], found["bibtex"]) == (None,) * 3
+
+
+def test_a_coupled_file_cites_its_families_and_the_paper(tmp_path: Path) -> None:
+    """Also inside a construction and with free parameters; a file with a reference only that."""
+    coupled = (
+        "methods: [gauss-2, lobatto-iiic-3]\ntransfer: {interpolation: t, collocation: 1 - t}\n"
+    )
+    texts = {
+        "free": "parameters: {t: free}\n" + coupled,
+        "own": "reference: Nobody 1999\nparameters: {t: 1}\n" + coupled,
+        "legendre": "methods: [gauss-2, gauss-3]\ntransfer: legendre\n",
+        "made": "compose: {of: gauss-7, steps: [1/2, 1/2]}\n",
+        "broken": "methods: [gaus-2]\n",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    works = {x: [one.text for one in references([str(tmp_path / x)])] for x in texts}
+    gauss = str(FAMILIES["gauss"].reference)
+    assert works["free"] == [gauss, str(ZANNA)]
+    assert works["own"] == ["Nobody 1999"]
+    assert works["legendre"] == works["made"] == [gauss]
+    assert works["broken"] == [""]
 
 
 def test_a_reference_of_plain_text_is_a_note(tmp_path: Path) -> None:
