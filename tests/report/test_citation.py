@@ -136,7 +136,7 @@ def test_a_coupled_file_cites_its_families_and_the_paper(tmp_path: Path) -> None
         "free": "parameters: {t: free}\n" + coupled,
         "own": "reference: Nobody 1999\nparameters: {t: 1}\n" + coupled,
         "legendre": "methods: [gauss-2, gauss-3]\ntransfer: legendre\n",
-        "made": "compose: {of: gauss-7, steps: [1/2, 1/2]}\n",
+        "made": "compose: {of: {family: gauss, stages: 1}, steps: [1/2, 1/2]}\n",
         "broken": "methods: [gaus-2]\n",
     }
     for name, text in texts.items():
