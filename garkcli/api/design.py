@@ -10,7 +10,7 @@ from garkcli.api.files import loads, path_of
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rational_or_none, whole
 from garkcli.deadline import within
 from garkcli.design import design as designing
-from garkcli.design.choices import Chosen, accepted_methods
+from garkcli.design.choices import Chosen, accepted_methods, chosen
 from garkcli.design.design import CLAIMS, Design
 from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.minimise import minimise as minimising
@@ -300,9 +300,9 @@ def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterato
     source = f"found by gark design {family.source}"
     if isinstance(found, Design):
         further = _stable(found.family, found.whose)
-        for chosen in accepted_methods(found):
-            claim = f"{CLAIMS[found.whose]}: {chosen.order}{further}"
-            yield Found(family, chosen, f"{source}: {claim}", claim)
+        for method in accepted_methods(found):
+            claim = f"{_orders(method, found.whose)}{further}"
+            yield Found(family, method, f"{source}: {claim}", claim)
     elif isinstance(found, Minimum):
         whose, order = found.design.whose, found.step.order
         options = "" if whose == "method" else f" --{whose}"
@@ -310,21 +310,25 @@ def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterato
         further = _stable(found.design.family, whose)
         further += _claim(found) if whose == "method" else ""
         for candidate in found.minimisers:
-            solution, own = candidate.found.solution, candidate.found.order
-            elements = {x: solution.values[x] for x in family.parameters}
-            chosen = Chosen(
-                elements, solution.real[candidate.index], order if own is None else own.order
-            )
-            claim = f"{CLAIMS[whose]}: {chosen.order}"
-            yield Found(family, chosen, f"{source}{options}: {claim}", claim + further)
+            own = candidate.found.order
+            known = order if own is None else own.order
+            best = chosen(candidate.found, candidate.index, family.parameters, known)
+            claim = _orders(best, whose)
+            yield Found(family, best, f"{source}{options}: {claim}", claim + further)
     else:
-        for method in found.methods:
-            claim = f"{CLAIMS[found.whose]}: {method.order}{_stable(family, found.whose)}"
-            head = f"{source} --order {found.order}, start {method.start} of seed {found.seed}\n"
-            head += f"{HEADS[method.proof]}: {claim}"
-            if not method.is_exact:
-                head += f", residuals below {method.residual} before rounding"
-            yield Found(family, method, head, claim, method.is_exact)
+        for find in found.methods:
+            claim = f"{CLAIMS[found.whose]}: {find.order}{_stable(family, found.whose)}"
+            head = f"{source} --order {found.order}, start {find.start} of seed {found.seed}\n"
+            head += f"{HEADS[find.proof]}: {claim}"
+            if not find.is_exact:
+                head += f", residuals below {find.residual} before rounding"
+            yield Found(family, find, head, claim, find.is_exact)
+
+
+def _orders(method: Chosen, whose: Whose) -> str:
+    """What a method file may claim of orders."""
+    beside = "" if method.embedded is None else f", embedded-order: {method.embedded}"
+    return f"{CLAIMS[whose]}: {method.order}{beside}"
 
 
 def _stable(family: Family, whose: Whose) -> str:

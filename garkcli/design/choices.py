@@ -4,11 +4,11 @@ those found, its parameters as text of method files.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
-from garkcli.design.design import Design
+from garkcli.design.design import Design, Found
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError
 from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
@@ -80,11 +80,13 @@ class Chosen(Frozen):
         elements: the free parameters as elements of the field of the solution.
         root: the real root of its modulus that is meant.
         order: its exact order, of whatever was asked for.
+        embedded: that of its embedded weights; None where there are none.
     """
 
     elements: dict[str, Number]
     root: RealRoot
     order: int
+    embedded: int | None = None
 
     @property
     def values(self) -> dict[str, str]:
@@ -100,17 +102,20 @@ def accepted_methods(design: Design) -> Iterator[Chosen]:
     """The real solutions that are taken, of the highest order that has any."""
     names = design.family.parameters
     for step in reversed(design.steps):
-        taken = [
-            (found, found.order, found.solution.real[index])
-            for found in step.found
-            for index in found.accepted
-        ]
-        for found, order, root in taken:
-            if order is not None:
-                values = {name: found.solution.values[name] for name in names}
-                yield Chosen(values, root, order.order)
+        taken = [(found, index) for found in step.found for index in found.accepted]
+        for found, index in taken:
+            if found.order is not None:
+                yield chosen(found, index, names, found.order.order)
         if taken:
             return
+
+
+def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen:
+    """One of the methods of a solution."""
+    solution = found.solution
+    values = {name: solution.values[name] for name in names}
+    embedded = None if found.embedded is None else found.embedded[0].order
+    return Chosen(values, solution.real[index], order, embedded)
 
 
 def first_method(design: Design) -> Chosen | None:

@@ -14,6 +14,7 @@ from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.conditions import Condition, FamilyConditions
 from garkcli.design.ideal import Ideal, without_multiples
 from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_as_stable, member
+from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
 from garkcli.design.parts import diagonal_unknowns, nodes_as_coordinates, parts_of
@@ -22,10 +23,13 @@ from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
 from garkcli.design.stable_values import StableValues, Wanted, stable_values
 from garkcli.errors import NotDecided, ZeroWeight
+from garkcli.exact.field import Number
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
@@ -44,6 +48,8 @@ class Found(Frozen):
             stable as is wanted.
         unstable: which of them would be, but are not stable.
         open: which of them are not decided to be stable, as their field is too large.
+        embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
+            None where there are none.
     """
 
     solution: Solution
@@ -51,6 +57,7 @@ class Found(Frozen):
     accepted: tuple[int, ...]
     unstable: tuple[int, ...] = ()
     open: tuple[int, ...] = ()
+    embedded: tuple[Order, Number] | None = None
 
 
 class Step(Frozen):
@@ -378,7 +385,8 @@ class _Finding(Frozen):
             ]
             _ = solution.real_values  # reports show them, when the time may be over
             order = order_of(self.family, self.whose, solution)
-            one = Found(solution, order, tuple(accepted))
+            embedded = embedded_of(self.family, self.whose, solution)
+            one = Found(solution, order, tuple(accepted), embedded=embedded)
             found.append(one if order is None else self._sorted(one))
         return tuple(found)
 
@@ -466,6 +474,23 @@ def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
         return find_order(TABLEAUS[whose](tableau))
     except (ZeroDivisionError, ZeroWeight):
         return None
+
+
+def embedded_of(family: Family, whose: Whose, solution: Solution) -> tuple[Order, Number] | None:
+    """The order of a method with its embedded weights, and Σ ê(u)² over the trees of the next one;
+    None where there are none.
+    """
+    weights = family.further.embedded
+    is_spelled_out = all(isinstance(x, PointSpace) for x in family.tableau.spaces)
+    if weights is None or whose != "method" or not is_spelled_out:
+        return None
+    try:
+        tableau = member(with_weights(family.tableau, weights), family.ring, solution.values)
+    except ZeroDivisionError:
+        return None
+    order = find_order(tableau)
+    error = squared_error(tableau, order.order + 1, None)
+    return order, error.numerator / error.denominator
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:

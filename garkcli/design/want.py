@@ -11,6 +11,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, fraction
 from garkcli.frozen import Frozen
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.family import Stability
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -27,12 +28,14 @@ class Asked(Frozen):
         ring: the parameters.
         value: a count, or a number, which may have parameters; True for a flag.
         colours: of which colours it is wanted, counted from 0.
+        further: its embedded weights and its dense output.
     """
 
     tableau: Tableau
     ring: Parameters
     value: object
     colours: tuple[int, ...]
+    further: Further = NOTHING
 
     def block(self, l: int, m: int, key: str) -> Matrix:
         """A^{l,m}.

@@ -16,21 +16,36 @@ from garkcli.exact.matrix import dot
 from garkcli.exact.parametric import fraction
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
+from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Stability
 from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
 
 MOST_PRODUCTS = 200
 """Most products of blocks that weak stage order asks about."""
 
 
-def _pair_order(asked: Asked) -> Meaning:
-    conditions = FamilyConditions(pair(asked.tableau), asked.ring)
+def _order(tableau: Tableau, asked: Asked) -> Meaning:
+    """The conditions of a tableau up to the order that is asked for."""
+    conditions = FamilyConditions(tableau, asked.ring)
     one = asked.ring.constant(fmpq(1))
     zeros: list[object] = []
     for k in range(1, cast("int", asked.value) + 1):
         polynomials = [condition.polynomial for condition in conditions.of_order(k)]
         zeros += [asked.ring.quotient(p, one) for p in polynomials]
     return Meaning(tuple(zeros), conditions.denominators)
+
+
+def _embedded_order(asked: Asked) -> Meaning:
+    """The order of the method with b̂ in place of b, at least."""
+    embedded = asked.further.embedded
+    if embedded is None or len(asked.colours) < asked.tableau.size:
+        raise MethodError(
+            "design: embedded-order is meant of the embedded weights of the whole method",
+            'write embedded: ["?", "?"] beside b, or embedded: true under unknown',
+            code="wanted-without-meaning",
+        )
+    return _order(with_weights(asked.tableau, embedded), asked)
 
 
 def _symplectic(asked: Asked) -> Meaning:
@@ -190,7 +205,18 @@ def _p_stable(asked: Asked) -> Meaning:
 WANTS = {
     want.key: want
     for want in (
-        Want("pair-order", "count", "the symplectic pair has that order", _pair_order),
+        Want(
+            "pair-order",
+            "count",
+            "the symplectic pair has that order",
+            lambda asked: _order(pair(asked.tableau), asked),
+        ),
+        Want(
+            "embedded-order",
+            "count",
+            "the method has that order with its embedded weights in place of b",
+            _embedded_order,
+        ),
         Want("symplectic", "flag", "the method is symplectic", _symplectic),
         Want("stiffly-accurate", "flag", "the last row of A is b", _stiffly_accurate),
         Want("R-infinity", "number", "the stability function at infinity", _r_infinity),

@@ -28,6 +28,7 @@ class FamilyFile(Family, kw_only=True):
         text: the file as it was read.
         settings: values that were given for other parameters.
         places: the place of the value of each parameter in the text, from and to.
+        parameters_at: the place of ``parameters: …``; None where there is none.
         shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
             None where the file has no shape.
         wanted_at: the place of ``design: …``; None where there is none.
@@ -40,6 +41,7 @@ class FamilyFile(Family, kw_only=True):
     text: str
     settings: Mapping[str, str]
     places: Mapping[str, Extent]
+    parameters_at: Extent | None = None
     shape: tuple[Extent, str] | None = None
     wanted_at: Extent | None = None
     structure: Structure = "general"
@@ -141,7 +143,7 @@ def _family(
     tableau, values = made.tableau, made.values
     ring = values.domain.ring
     source = reader.source
-    meaning = meaning_of(wishes, tableau, ring, values, source, deadline)
+    meaning = meaning_of(wishes, made, source, deadline)
     free = reader.numbers.free
     ranges = {name: values.ends(x) for name, x in free.items()}
     source.close()
@@ -163,7 +165,8 @@ def _family(
         order=wishes.order,
         stable=meaning.stable,
         unsettled=meaning.unsettled,
-        wanted_at=reader.design_place(),
+        wanted_at=reader.place_of("design"),
+        parameters_at=reader.place_of("parameters"),
         settings=settings,
         places={name: extent(source.text, x, x) for name, x in reader.numbers.places.items()},
         shape=_shape(reader),
@@ -227,8 +230,12 @@ def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim:
     changes = [(place, _scalar(given[name])) for name, place in places if name in given]
     if family.shape is not None:
         place, tableau = family.shape
-        lines = [f"  {name}: {_scalar(value)}" for name, value in given.items()]
-        changes.append((place, "\n".join(["parameters:", *lines, tableau])))
+        own = {name: text[start:end] for name, (start, end) in places}
+        lines = [*(f"  {x}: {own[x]}" for x in own if x not in given)]
+        lines += [f"  {name}: {_scalar(value)}" for name, value in given.items()]
+        changes = [(place, "\n".join(["parameters:", *lines, tableau]))]
+        if family.parameters_at is not None:
+            changes.append((family.parameters_at, ""))
     if family.wanted_at is not None:
         # its names are those of unknowns, which the file has no more
         changes.append((family.wanted_at, ""))

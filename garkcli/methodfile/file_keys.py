@@ -248,12 +248,6 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
     ),
     g.Beside("transfer", "transfer goes with methods, not with {way}", needs=("methods",)),
     g.Beside("linear", "linear goes with tableau, not with {way}", needs=("tableau", "A")),
-    g.Beside(
-        "parameters",
-        "parameters do not go with unknown: its unknowns have their names",
-        "leave them out, or spell the tableau out with them",
-        bars=("unknown",),
-    ),
     *(
         g.Beside(
             key,
@@ -261,7 +255,9 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
             {
                 "methods": "write it in each of the methods",
                 **_SPELL_OUT,
-                "unknown": 'spell A and b out, with "?" for the entries to be found',
+                "unknown": "write embedded: true under unknown"
+                if key == "embedded"
+                else "spell A and b out",
                 "": "write it inside of {way}, beside b",
             },
             needs=("A",),

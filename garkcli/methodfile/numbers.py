@@ -28,7 +28,7 @@ from garkcli.methodfile.spellings import (
 UNKNOWN = "?"
 """What stands in a file for a coefficient that is not known."""
 _PLACE = re.compile(
-    r"(?:(?P<part>[qp])\.)?(?P<letter>[Abc])(?:\^\{(?P<colours>[0-9,]+)\})?"
+    r"(?:(?P<part>[qp])\.)?(?P<letter>[Abc]|embedded)(?:\^\{(?P<colours>[0-9,]+)\})?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
 
@@ -42,6 +42,8 @@ def name_of_place(where: str) -> str | None:
     ('a21', 'a12_31')
     >>> name_of_place("b^{2}, entry 1"), name_of_place("q.A, row 10, entry 2")
     ('b2_1', 'q_a10_2')
+    >>> name_of_place("embedded, entry 1")
+    'bh1'
     """
     found = _PLACE.fullmatch(where)
     if found is None:
@@ -50,7 +52,7 @@ def name_of_place(where: str) -> str | None:
     # one value in place of a row of one is its only entry
     indices = [row or "1", entry or "1"] if letter == "A" else [entry or "1"]
     of_colours = f"{_together(colours.split(','))}_" if colours else ""
-    name = letter.lower() + of_colours + _together(indices)
+    name = ("bh" if letter == "embedded" else letter.lower()) + of_colours + _together(indices)
     return f"{part}_{name}" if part else name
 
 
@@ -158,7 +160,7 @@ class Numbers(Mutable):
         """An entry without a value: an unknown named by its place, or the value given for it."""
         name = name_of_place(where)
         if name is None:
-            message = f"{UNKNOWN} stands for an entry of A, b or c"
+            message = f"{UNKNOWN} stands for an entry of A, b, c or embedded"
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)

@@ -186,6 +186,7 @@ class Reader(Reading):
         self._inside = inside
         self.keys: frozenset[str] = frozenset()
         self.design: Node | None = None
+        self._entries: Entries = {}
         self._root: MappingNode | None = None
 
     def read(self) -> Description | None:
@@ -197,6 +198,7 @@ class Reader(Reading):
         entries = entries_in(source, root, FILE, KEYS, elsewhere)
         self.keys = frozenset(entries)
         self.design = entries.get("design")
+        self._entries = entries
         self._root = root
         said = {
             key: KEYS[key].kind.read(self, entries[key], key) for key in _ABOUT if key in entries
@@ -256,8 +258,9 @@ class Reader(Reading):
             self.source.fault(root, message, cure, code="other-file")
         return is_one
 
-    def design_place(self) -> Extent | None:
-        """From where to where ``design: …`` stands; None where there is none."""
-        if self.design is None or self._root is None:
+    def place_of(self, key: str) -> Extent | None:
+        """From where to where a key with its value stands; None where there is none."""
+        node = self._entries.get(key)
+        if node is None or self._root is None:
             return None
-        return extent(self.source.text, key_of(self._root, self.design), self.design)
+        return extent(self.source.text, key_of(self._root, node), node)

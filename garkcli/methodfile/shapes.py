@@ -18,11 +18,12 @@ from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
     Form,
+    FurtherText,
     PrkText,
     TableauText,
     of_colour,
 )
-from garkcli.methodfile.grammar import Found, Key, Kind, count, mapping, one_or_more, word
+from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, mapping, one_or_more, word
 from garkcli.methodfile.nodes import Extent, extent, shortened
 from garkcli.methodfile.numbers import Reading, Row
 
@@ -41,11 +42,13 @@ class Layout(Frozen):
         kind: the form of method file that it is.
         A: a matrix for each colour.
         b: a row of weights for each colour; of an ark one for all.
+        embedded: the same of embedded weights; None where there are none.
     """
 
     kind: Literal["tableau", "ark", "prk"]
     A: tuple[Texts, ...]
     b: Texts
+    embedded: Texts | None = None
 
     @property
     def stages(self) -> int:
@@ -55,7 +58,7 @@ class Layout(Frozen):
     @property
     def unknowns(self) -> tuple[str, ...]:
         """The names in it, each once, row by row."""
-        texts = chain.from_iterable(chain(*self.A, self.b))
+        texts = chain.from_iterable(chain(*self.A, self.b, self.embedded or ()))
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> Layout:
@@ -82,6 +85,13 @@ def full_layout(stages: int) -> Layout:
 def _join(stages: int) -> str:
     """What parts numbers of stages in names, where they may have two digits."""
     return "" if stages < 10 else "_"
+
+
+def with_embedded(layout: Layout) -> Layout:
+    """The layout with embedded weights, an unknown each: bh1 beside b1."""
+    join, stages = _join(layout.stages), range(1, layout.stages + 1)
+    letters = "ab" if layout.kind == "prk" else "b"
+    return replace(layout, embedded=tuple(tuple(f"{x}h{join}{i}" for i in stages) for x in letters))
 
 
 def with_nodes(layout: Layout) -> Layout:
@@ -315,6 +325,7 @@ UNKNOWN = mapping(
         "Which entries are unknown, zero, equal or given: a shape, or several that go together.",
         is_needed=True,
     ),
+    Key("embedded: true", FLAG, "Whether there are embedded weights bh1, bh2, … too, all unknown."),
     form=FORM,
 )
 """How many stages, and which shape."""
@@ -356,8 +367,11 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
     except MethodError as error:
         at.source.fault(found.nodes["shape"], error.message, error.help, code=error.code)
         return None
+    if found.get("embedded"):
+        layout = with_embedded(layout)
     for name in layout.unknowns:
-        at.numbers.unknown(name, node, name)
+        if name not in at.numbers.parameters:  # it has a value or a range there
+            at.numbers.unknown(name, node, name)
     place = extent(at.source.text, key, node)
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
@@ -375,10 +389,15 @@ def _content(at: Reading, layout: Layout, node: Node) -> TableauText | ArkText |
         where = of_colour("A", colour)
         matrices.append(tuple(row(x, f"{where}, row {i}") for i, x in numbered))
     weights = [row(x, of_colour("b", colour)) for colour, x in enumerate(layout.b)]
+    beside = [
+        FurtherText(row(x, of_colour("embedded", colour)), node=node)
+        for colour, x in enumerate(layout.embedded or ())
+    ]
+    further = tuple(beside or [NOTHING_FURTHER])
+    further *= len(matrices) // len(further)
     if layout.kind == "prk":
-        parts = zip(matrices, weights, strict=True)
-        return PrkText(*(ButcherText(node, "", A, b, None) for A, b in parts))
-    further = (NOTHING_FURTHER,) * len(matrices)
+        parts = zip(matrices, weights, further, strict=True)
+        return PrkText(*(ButcherText(node, "", A, b, None, x) for A, b, x in parts))
     if layout.kind == "ark":
         return ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
     return TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
@@ -391,10 +410,13 @@ def spelled(layout: Layout) -> str:
         return f"[{', '.join(texts)}]"
 
     matrices = [listed(map(listed, rows)) for rows in layout.A]
-    weights = [listed(row) for row in layout.b]
+    beside = [f"embedded: {listed(row)}" for row in layout.embedded or ()]
+    weights = [f"b: {listed(row)}" for row in layout.b]
     if layout.kind == "prk":
-        parts = zip("qp", matrices, weights, strict=True)
-        return "\n".join(["prk:", *(f"  {part}: {{A: {A}, b: {b}}}" for part, A, b in parts)])
+        columns = [weights, beside] if beside else [weights]
+        lines = [", ".join(row) for row in zip(*columns, strict=True)]
+        parts = zip("qp", matrices, lines, strict=True)
+        return "\n".join(["prk:", *(f"  {part}: {{A: {A}, {x}}}" for part, A, x in parts)])
     if layout.kind == "ark":
-        return f"ark:\n  A: {listed(matrices)}\n  b: {weights[0]}"
-    return f"A: {matrices[0]}\nb: {weights[0]}"
+        return "\n  ".join(["ark:", f"A: {listed(matrices)}", weights[0], *beside])
+    return "\n".join([f"A: {matrices[0]}", weights[0], *beside])

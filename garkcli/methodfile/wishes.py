@@ -13,14 +13,13 @@ from garkcli.deadline import until
 from garkcli.design.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
-from garkcli.exact.parametric import Parameters
 from garkcli.frozen import Frozen, fields
+from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
+from garkcli.methodfile.load import Built
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.values import Values
-from garkcli.tableau.tableau import Tableau
 
 MOST = 60
 """The largest order that is looked at, as for ``--order``."""
@@ -178,24 +177,19 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
 
 
 def meaning_of(
-    wishes: Wishes,
-    tableau: Tableau,
-    ring: Parameters,
-    values: Values,
-    source: Source,
-    deadline: float | None = None,
+    wishes: Wishes, made: Built[FamilyValues], source: Source, deadline: float | None = None
 ) -> Meaning:
     """Everything that is wanted, as conditions on the parameters.
 
     Args:
         wishes: as they were read.
-        tableau: of the family.
-        ring: its parameters.
-        values: the coefficients of the file.
+        made: of the file: the tableau, further weights and coefficients.
         source: the file, where wishes that make no sense for it are noted.
         deadline: the reading of ``time.monotonic`` at which what is not worked out is left
             unsettled; None for never.
     """
+    values = made.values
+    tableau, ring = made.tableau, values.domain.ring
     pairs = [(values.number(unknown), values.number(given)) for unknown, given in wishes.fixed]
     meanings = [Meaning(zeros=(unknown - given,)) for unknown, given in pairs]
     for wish in wishes.wishes:
@@ -206,7 +200,9 @@ def meaning_of(
         number = values.number(value) if isinstance(value, Entry) else value
         try:
             with until(deadline):
-                meanings.append(wish.want.meaning(Asked(tableau, ring, number, colours)))
+                meanings.append(
+                    wish.want.meaning(Asked(tableau, ring, number, colours, made.further))
+                )
         except NotDecided:
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:

@@ -222,6 +222,15 @@ def certified(order: Any, whose: str) -> str:
     return f"order {'at least ' * order.is_lower_bound}{order.order} of the {whose}"
 
 
+def _embedded(found: Found, root: RealRoot, d: Plain) -> list[str]:
+    """The embedded weights of a solution: their order, and their error at the next."""
+    if found.embedded is None:
+        return []
+    order, error = found.embedded
+    known = "order at least" if order.is_lower_bound else "order"
+    return [f"embedded {known} {order.order} with error {_number(value_at(error, root), d)}"]
+
+
 def _verdict(x: Solutions, d: Plain) -> str:
     """What a real solution is."""
     design, found, index = x.design, x.found, x.number
@@ -235,7 +244,8 @@ def _verdict(x: Solutions, d: Plain) -> str:
         return f"{order}; stability not decided: its field is too large, or the time too short"
     if index not in found.accepted:
         return "not of this file: out of a range, a sign not wanted, or another root"
-    return ", ".join([f"{order}, proved", *kinds])
+    beside = _embedded(found, found.solution.real[index], d)
+    return ", ".join([f"{order}, proved", *beside, *kinds])
 
 
 TIMES = {1: "", 2: ", a double solution", 3: ", a triple solution"}
@@ -411,6 +421,7 @@ def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
         said.append("and others: the value is the same at all methods near it")
     if candidate.found.order is not None:
         said.append(f"{certified(candidate.found.order, minimum.design.whose)}, proved")
+    said += _embedded(candidate.found, candidate.found.solution.real[candidate.index], d)
     return f"{joined(_parameters(minimum, candidate), d)}: {'; '.join(said)}"
 
 
@@ -447,6 +458,9 @@ VALUES_OF = Kind(
 NO_VALUES = Kind(S.NULL, lambda *_: None)
 
 
+END = Kind(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
+
+
 def _accepted(x: Solutions) -> bool | None:
     """Whether it is as stable as is wanted; None where nothing is, or it is not decided."""
     if not x.design.family.stable:
@@ -460,11 +474,23 @@ OF_FOUND = via(
     lambda x: x.found,
     [Row("multiplicity", POSITION, "solution.multiplicity"), maybe("order", COUNT, "order.order")],
 )
+
+
+def _embedded_order(found: Found) -> int | None:
+    return None if found.embedded is None else found.embedded[0].order
+
+
+def _embedded_error(found: Found, index: int) -> RealRoot | None:
+    return found.embedded and value_at(found.embedded[1], found.solution.real[index])
+
+
 REAL = Section(
     Row("values", VALUES_OF),
     Row("real", constant(True), lambda _: True),
     Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
     Row("stable", TRUTH, _accepted, has_null=True, is_optional=True),
+    optional("embedded_order", COUNT, lambda x: _embedded_order(x.found)),
+    optional("embedded_error", END, lambda x: _embedded_error(x.found, x.number)),
     *OF_FOUND,
 )
 NOT_REAL = Section(
@@ -514,7 +540,6 @@ CHOICE = Section(
     Row("dimension_before", INTEGER, "before"),
     Row("dimension", INTEGER, "after"),
 )
-END = Kind(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
 DECIMAL = Kind(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
 
 
@@ -540,6 +565,8 @@ MINIMISER = Section(
     maybe("order", COUNT, "1.found.order.order"),
     Row("proof", choice(*get_args(Proof)), "1.proof"),
     Row("constant", TRUTH, "1.is_constant"),
+    optional("embedded_order", COUNT, lambda x: _embedded_order(x[1].found)),
+    optional("embedded_error", END, lambda x: _embedded_error(x[1].found, x[1].index)),
 )
 OBJECTIVE = Section(
     Row("name", TEXT, "objective.key"),

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from itertools import chain
+from pathlib import Path
 
 import pytest
 from flint import fmpq
 
-from garkcli import find_order, find_property, loads
+from garkcli import find_order, find_property, load, loads
 from garkcli.check.analysis import inconsistent_blocks
 from garkcli.design.choices import first_method
 from garkcli.design.design import Design, find_parameters
@@ -15,6 +17,8 @@ from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.methodfile.shapes import SHAPES, layout_of
+from garkcli.order.constants import error_constants
+from garkcli.tableau.embedded import with_weights
 from tests.cli.harness import gark
 
 
@@ -229,6 +233,94 @@ def test_a_shape_with_values_is_a_method_file(shape: str) -> None:
     method = loads(with_values(family, values, "head", "order: 0"))
     tableau = loads(shaped(2, shape), settings=values).tableau
     assert method.tableau.blocks == tableau.blocks
+
+
+PAIR = """unknown: {stages: 4, shape: [explicit, stiffly-accurate], embedded: true}
+design: {order: 3, embedded-order: 2, fix: {c2: 1/2, c3: 3/4, bh1: 7/24, bh4: 1/8}}
+"""
+
+
+def test_an_embedded_pair() -> None:
+    """P. Bogacki, L. F. Shampine (1989): the file that is written is the method of the catalogue,
+    its embedded weights included; their error is that of the list of all trees.
+    """
+    family = loads_family(PAIR)
+    found = find_parameters(family)
+    [one] = found.last.found
+    assert one.embedded is not None
+    order, error = one.embedded
+    method = first_method(found)
+    assert method is not None
+    written = loads(with_values(family, method.values, "head", "embedded-order: 2"))
+    known = load("bogacki-shampine-3")
+    assert written.tableau.blocks == known.tableau.blocks
+    assert written.embedded is not None
+    assert written.embedded == known.embedded
+    listed = error_constants(with_weights(written.tableau, written.embedded), 3)
+    assert listed is not None
+    assert (order.order, method.embedded, error) == (2, 2, listed.all.two_squared)
+    assert find_order(with_weights(written.tableau, written.embedded)).order == 2
+
+
+def test_embedded_entries() -> None:
+    """b̂ of order 1 beside explicit methods of order 2 with two stages: b̂₁ + b̂₂ = 1 alone; of
+    order 2 they are the weights b, as both have as many conditions as entries.
+    """
+    text = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\nembedded: ["?", "?"]\n'
+    assert loads_family(text).parameters == ("a21", "b1", "b2", "bh1", "bh2")
+    first, second = (
+        find_parameters(loads_family(f"{text}design: {{order: 2, embedded-order: {k}}}"))
+        for k in (1, 2)
+    )
+    assert dimensions(first)[-1] == 2
+    ring = first.family.ring
+    ideal = second.last.ideal
+    assert ideal is not None
+    assert ideal.dimension == 1
+    b, bh = (ring.context.gen(ring.names.index(x)) for x in ("b2", "bh2"))
+    assert ideal.contains(b - bh)
+
+
+def test_embedded_weights_that_are_not_there(tmp_path: Path) -> None:
+    """Their order is not wanted of methods without them, nor of a single colour."""
+    path = tmp_path / "family.yaml"
+    path.write_text('A: [["?"]]\nb: ["?"]\ndesign: {embedded-order: 1}\n')
+    run = gark("design", str(path))
+    assert (run.code, "embedded: true under unknown" in run.err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("shape", "parts"), [("imex", 1), ("splitting", 2), ("[explicit, stiffly-accurate]", 1)]
+)
+def test_embedded_shapes_are_spelled_out(shape: str, parts: int) -> None:
+    """The file that is written has the embedded weights of each form."""
+    family = loads_family(f"unknown: {{stages: 2, shape: {shape}, embedded: true}}")
+    values = {name: f"{k}/7" for k, name in enumerate(family.parameters, 1)}
+    method = loads(with_values(family, values, "head", "order: 0"))
+    hats = [f"{x}h{i}" for x in "ab"[:parts] for i in (1, 2)] if parts > 1 else ["bh1", "bh2"]
+    expected = [fmpq(family.parameters.index(x) + 1, 7) for x in hats]
+    assert method.embedded is not None
+    assert list(dict.fromkeys(chain(*method.embedded))) == expected
+
+
+def test_parameters_beside_a_shape() -> None:
+    """A parameter of the name of an unknown is that unknown, here gamma, with its value and its
+    range; another one is used in what is fixed. All of them are in the file that is written.
+    """
+    head = "parameters: {t: 1/4, gamma: {free: true, range: [1/2, 1]}}  # the diagonal\n"
+    text = f"{head}{shaped(2, 'sdirk')}design: {{order: 2, fix: {{c2: 4*t*gamma, b2: 1/2}}}}\n"
+    family = loads_family(text)
+    assert family.parameters == ("gamma", "c2", "b1", "b2")
+    found = find_parameters(family)
+    [one] = found.last.found
+    assert (decimals(found, "gamma"), one.accepted) == ([0.5], (0,))
+    method = first_method(found)
+    assert method is not None
+    written = with_values(family, method.values, "head", "order: 2")
+    assert written.count("parameters:") == 1
+    assert "t: 1/4" in written
+    assert find_order(loads(written)).order == 2
+    assert loads(written).tableau.block(0, 0) == ((fmpq(1, 2), 0), (0, fmpq(1, 2)))
 
 
 def test_as_a_command(tmp_path: object) -> None:

@@ -107,7 +107,7 @@ def test_methods_may_have_dense_output_of_different_degree() -> None:
 FAULTS = {
     "too few": (f"{HEUN}embedded: [1]", 3, "1 entry for 2 stages"),
     "a matrix": (f"{HEUN}embedded: [[1, 0]]", 3, "in a list, for one colour"),
-    "an unknown": (f'{HEUN}embedded: ["?", 0]', 3, "stands for an entry"),
+    "an unknown": (f'{HEUN}embedded: ["?", 0]', 3, "embedded, entry 1 is unknown"),
     "one row for two": (
         "tableau:\n  A: [[[[0]], null], [null, [[0]]]]\n  b: [[1], [1]]\n  embedded: [1, 1]",
         4,

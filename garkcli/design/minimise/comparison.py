@@ -10,7 +10,7 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 from garkcli.deadline import check_time
-from garkcli.design.design import Design, Found, Step, order_of
+from garkcli.design.design import Design, Found, Step, embedded_of, order_of
 from garkcli.design.member import is_admissible, is_as_stable, member, not_negative, value_of
 from garkcli.design.minimise.climbing import GRID, Point, climbed
 from garkcli.design.minimise.line import Conditions, Within
@@ -119,8 +119,9 @@ class Comparison(Mutable):
     def _certified(self, candidate: Candidate) -> Candidate:
         """With its order by the ordinary certificate."""
         solution = candidate.found.solution
-        order = order_of(self.design.family, self.design.whose, solution)
-        return replace(candidate, found=Found(solution, order, (candidate.index,)))
+        asked = self.design.family, self.design.whose, solution
+        found = Found(solution, order_of(*asked), (candidate.index,), embedded=embedded_of(*asked))
+        return replace(candidate, found=found)
 
     def selection(self) -> None:
         """Finitely many solutions, which have been found already."""
