@@ -252,8 +252,7 @@ def _solver(
     from garkcli.convergence.stepped_solver import SteppedSolver
 
     bound = bind(tableau, problem)
-    seen = visible_tableau(bound.tableau, bound.fields)
-    order = max(order_of(seen, tolerance), predicted)
+    order = max(order_of(visible_tableau(bound.tableau, bound.fields), tolerance), predicted)
     visible = Visible(order, problem.is_generic, visible_trees(bound.fields))
     return SteppedSolver(bound, t_end, visible, tolerance)
 

@@ -115,11 +115,9 @@ def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
         rows: all so far, from the largest step down.
         is_small: for each whether its error is at most ``LARGEST`` of the solution.
     """
-    small = len(rows) - _first_small(is_small)
-    if small >= MAX_ROWS:
+    if len(rows) - _first_small(is_small) >= MAX_ROWS:
         return True
-    belonging = len(rows) - _start(rows, is_small)
-    return belonging >= ROWS and has_settled(rows)
+    return len(rows) - _start(rows, is_small) >= ROWS and has_settled(rows)
 
 
 def _first_small(is_small: Sequence[bool]) -> int:
@@ -175,11 +173,8 @@ def trimmed(
     belong, whatever their slopes.
     """
     end = len(rows) - plateau
-    start = _first_small(is_small[:end])
-    if not may_be_off:
-        start = _start(rows[:end], is_small[:end])
-    latest = max(0, len(rows) - ROWS)
-    kept = list(rows[min(start, latest) :])
+    start = _first_small(is_small[:end]) if may_be_off else _start(rows[:end], is_small[:end])
+    kept = list(rows[min(start, max(0, len(rows) - ROWS)) :])
     if kept:
         kept[0] = replace(kept[0], slope=None)
     return kept

@@ -108,8 +108,7 @@ class LinearSolver(Mutable):
         """|q| + |p/ω| at the start and at the end."""
         omega = self.problem.omega
         q, p = _solution(omega, self.t_end)
-        at_start = arb(fmpq(3, 2))
-        return at_start + abs(q) + abs(p / omega)
+        return arb(fmpq(3, 2)) + abs(q) + abs(p / omega)
 
     def rests(self) -> bool:
         """Never at a rational time: sines and cosines are not rational there."""
@@ -210,8 +209,7 @@ def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
     is_conserved = conserves_energy(R, omega)
     while True:
         with ctx.workprec(bits):
-            power = enclosure(R, bits) ** n
-            error, energy_error = _errors_of(power, omega, t_end)
+            error, energy_error = _errors_of(enclosure(R, bits) ** n, omega, t_end)
         if error.rel_accuracy_bits() >= ERROR_BITS:
             if is_conserved:
                 return error, arb(0)
@@ -231,8 +229,7 @@ def _errors_of(power: arb_mat, omega: fmpq, t: fmpq) -> tuple[arb, arb]:
     kinetic = p * p - p0 * p0
     potential = arb(omega) ** 2 * (q * q - q0 * q0)
     error = (dq * dq + dp * dp).sqrt()
-    energy_error = (kinetic + potential) / 2
-    return error, absolute(energy_error)
+    return error, absolute((kinetic + potential) / 2)
 
 
 def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
@@ -243,7 +240,6 @@ def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
     terms = []
     for k, v in oscillator.shares:
         kinetic = rational(k) * p**2 / 2
-        potential = rational(v) * omega**2 * q**2 / 2
-        terms.append(kinetic + potential)
+        terms.append(kinetic + rational(v) * omega**2 * q**2 / 2)
     start = (fmpq(1), oscillator.omega / 2)
     return Hamiltonian("oscillator", ("q",), tuple(terms), start, t_end)

@@ -109,8 +109,7 @@ def _exact(problem: Problem, t_end: fmpq, digits: int) -> tuple[arb, ...]:
     """The known solution of a problem at one time."""
     assert isinstance(problem, RightHandSide)
     with ctx.workprec(ceil((digits + _SPARE) * BITS_OF_A_DIGIT) + 64):
-        found = solution(problem, arb(t_end))
-        return tuple(x.mid() for x in found)
+        return tuple(x.mid() for x in solution(problem, arb(t_end)))
 
 
 def reference(problem: Problem, t_end: fmpq) -> Reference:

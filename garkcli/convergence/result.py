@@ -190,8 +190,7 @@ class Convergence(Shown, Frozen):
             if self._is_visible(self.observed_order):
                 return "agree"
             return "disagree" if self.has_settled else "undecided"
-        apart = abs(self.observed_order - self.short_order)
-        is_shown = not self.are_given or apart <= CLOSE
+        is_shown = not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
         if is_shown and self._is_visible(self.short_order):
             return "agree"
         return "disagree"
@@ -238,8 +237,7 @@ def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
     if before is None or error.contains(0):
         return None
     rise = (before.error / error).log()
-    run = (arb(before.h) / arb(h)).log()
-    return float((rise / run).mid())
+    return float((rise / (arb(before.h) / arb(h)).log()).mid())
 
 
 def stiff_order(rows: Sequence[Row]) -> float | None:

@@ -129,5 +129,4 @@ def work_of(integrator: Integrator, h: fmpq, count: int) -> tuple[list[Any], Cos
         end = process_time()
         times.append(end - start)
         elapsed = end - begin
-    mean = elapsed / len(times)
-    return state.y, cost_of(state, min(times) or mean)
+    return state.y, cost_of(state, min(times) or elapsed / len(times))

@@ -141,13 +141,11 @@ class SteppedSolver(Mutable):
         """About the error that coefficients rounded to the tolerance make."""
         if self.tolerance is None:
             return arb(0)
-        time = max(arb(1), arb(self.t_end))
-        return self.size() * arb(self.tolerance) * time
+        return self.size() * arb(self.tolerance) * max(arb(1), arb(self.t_end))
 
     def timed(self, row: Row) -> Row:
         """The row with the cost of its steps in floats, where these reach its error to a tenth."""
-        steps = whole_steps(self.t_end, row.h)
-        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
+        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
         if abs(self._distance(y, FLOAT_DIGITS) - row.error) < REACHED * row.error:
             return replace(row, cost=cost)
         return row
@@ -181,9 +179,7 @@ class SteppedSolver(Mutable):
         Steps sum with compensation, so that their number does not count; the increments are
         rounded, and they add up to the way that the solution goes. The flow makes more of it.
         """
-        precision = arb(10) ** -digits
-        if digits <= FLOAT_DIGITS:
-            precision = arb(FLOAT_PRECISION)
+        precision = arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
         time = max(arb(1), arb(self.t_end))
         return self.size() * precision * time * GROWTH * self._amplified(h)
 
@@ -206,8 +202,7 @@ class SteppedSolver(Mutable):
         """Enough for the row, and beyond floats for the next ones as well."""
         if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
             return digits + _SPARE
-        gained = _AHEAD * self.visible.order * log10(2)
-        return digits + _SPARE + ceil(gained)
+        return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))
 
     def _digits(self, h: fmpq, before: Row | None) -> int:
         """Digits for the error that the row before and the order let expect."""
@@ -220,8 +215,7 @@ class SteppedSolver(Mutable):
         if needed <= FLOAT_DIGITS:
             return FLOAT_DIGITS
         # in whole tens, so that the same integrator serves several rows
-        tens = 10 * ceil(needed / 10)
-        return min(MAX_DIGITS, max(before.digits or 0, tens))
+        return min(MAX_DIGITS, max(before.digits or 0, 10 * ceil(needed / 10)))
 
     def _integrator(self, digits: int) -> Integrator:
         if digits not in self.integrators:

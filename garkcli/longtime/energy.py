@@ -64,8 +64,7 @@ def drift_of(errors: Floats, angle: float | None) -> Line:
 
     slope = _slope(errors, angle)
     half = len(errors) // 2
-    largest = float(np.abs(errors).max())
-    rounding = ROUNDING * largest / len(errors)
+    rounding = ROUNDING * float(np.abs(errors).max()) / len(errors)
     first = _slope(errors[: half + 1], angle)
     second = _slope(errors[half:], angle)
     apart = max(abs(first - slope), abs(second - slope))
@@ -81,19 +80,15 @@ def _slope(errors: Floats, angle: float | None) -> float:
     if last < 1 or largest == 0:
         return 0.0
     # two turns within the run: the least for which a wave is no line
-    if angle is not None:
-        a_step = min(angle, 2 * np.pi - angle)
-        if a_step * last < 4 * np.pi:
-            angle = None
+    if angle is not None and min(angle, 2 * np.pi - angle) * last < 4 * np.pi:
+        angle = None
     size = 2 if angle is None else 4
     gram = np.zeros((size, size))
     moments = np.zeros(size)
     for start in range(0, len(errors), _CHUNK):
-        chunk = errors[start : start + _CHUNK]
-        part = chunk / largest
+        part = errors[start : start + _CHUNK] / largest
         n = np.arange(start, start + len(part), dtype=np.float64)
-        level = np.ones_like(n)
-        columns = [level, n / last - 0.5]
+        columns = [np.ones_like(n), n / last - 0.5]
         if angle is not None:
             phase = angle * n
             columns.append(np.cos(phase))
@@ -101,9 +96,7 @@ def _slope(errors: Floats, angle: float | None) -> float:
         A = np.stack(columns, axis=1)
         gram += A.T @ A
         moments += A.T @ part
-    fitted = np.linalg.solve(gram, moments)
-    in_all = float(fitted[1]) * largest
-    return in_all / last
+    return float(np.linalg.solve(gram, moments)[1]) * largest / last
 
 
 _GOAL = 60  # bits of the largest energy error that balls have to get right
@@ -232,8 +225,7 @@ def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Ve
         return "unstable"
     if fate.fate == "elliptic":
         return "bounded"
-    moved = abs(line.slope) * (len(errors.values) - 1)
-    if moved > excused or not excused:
+    if abs(line.slope) * (len(errors.values) - 1) > excused or not excused:
         return "drifts"
     return "undecided" if abs(line.slope) > line.uncertainty else "bounded"
 
@@ -306,13 +298,11 @@ def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_
     while len(forms) < length:
         (a, b), (c, d) = power.tolist()
         sizes = [abs(x).mid() for x in (a, b, c, d)]
-        largest = max(sizes)
-        if forms and largest > 1e50:
+        if forms and max(sizes) > 1e50:
             break
         of_first = (a * a + c * c - 1) / 2
         of_product = a * b + c * d
-        of_second = (b * b + d * d - 1) / 2
-        forms.append((of_first, of_product, of_second))
+        forms.append((of_first, of_product, (b * b + d * d - 1) / 2))
         power = step * power
     return forms, power
 
@@ -324,8 +314,7 @@ def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb
     starts, errors = [], []
     for _ in range(count):
         x, y = z.entries()
-        square = x * x + y * y
-        error = square / 2 - energy
+        error = (x * x + y * y) / 2 - energy
         starts.append((x, y))
         errors.append(error)
         if error.mid() > BLOW_UP * energy:
@@ -337,8 +326,7 @@ def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb
 def _are_sharp(balls: list[arb]) -> bool:
     """Whether all radii are far below the largest of the numbers."""
     largest = max(abs(x).mid() for x in balls)
-    relative = largest * arb(2) ** -_GOAL
-    allowed = max(relative, arb(2) ** -_FLOOR)
+    allowed = max(largest * arb(2) ** -_GOAL, arb(2) ** -_FLOOR)
     return all(x.rad() <= allowed for x in balls)
 
 

@@ -99,8 +99,7 @@ def long_run(
     count = count_steps(t_end, step)
     method = bound.at(digits)
     record = Record(Measure(problem, method.digits), count, points)
-    path = trajectory(method, step, count)
-    record.take(counting("steps", path, count + 1))
+    record.take(counting("steps", trajectory(method, step, count), count + 1))
     h = to_float(step)
     if isinstance(problem, Hamiltonian):
         rate = energy_rate(tableau, tolerance, h, record.exchange.powers(h))
@@ -149,9 +148,7 @@ def _judged(
         states.append((number * step, y))
     times = record.kept_numbers * h
     escape = judge.escape
-    escaped = None
-    if escape is not None:
-        escaped = escape * step
+    escaped = None if escape is None else escape * step
     return LongRun(
         bound.problem,
         step,
@@ -176,22 +173,16 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     if record.blew_up or not record.has_moved:
         return np.zeros(len(record.largest))
     by_state = [record.measure.sizes(y) for y in record.states.values()]
-    sizes = np.nanmax(by_state, axis=0)
-    roundings = 1 + record.done
-    derived = unit_round_off(digits) * sizes * roundings
+    derived = unit_round_off(digits) * np.nanmax(by_state, axis=0) * (1 + record.done)
 
     compared = len(record.first) - 1
     finer = bound.at(digits + _SPARE)
-    finer_measure = Measure(bound.problem, finer.digits)
-    path = trajectory(finer, step, compared)
-    exact = finer_measure.errors(path)
+    exact = Measure(bound.problem, finer.digits).errors(trajectory(finer, step, compared))
     record.lose(0, exact)
     found = np.nan_to_num(np.abs(record.first - exact)).max(axis=0)
     # rounding errors of all steps are taken to add up like those of the first
-    times_as_many = record.done / max(compared, 1)
-    expected = found * (1 + times_as_many)
-    noise = np.maximum(derived, expected)
-    return np.array([power_of_ten(float(x)) for x in noise])
+    expected = found * (1 + record.done / max(compared, 1))
+    return np.array([power_of_ten(float(x)) for x in np.maximum(derived, expected)])
 
 
 class _Finding(Frozen):
@@ -302,8 +293,7 @@ class _Judge(Frozen):
 
     def _size(self, k: int) -> float:
         """Of the summands of an invariant at the start; 1 where all are zero."""
-        start = self.record.states[0]
-        return float(self.record.measure.sizes(start)[k]) or 1.0
+        return float(self.record.measure.sizes(self.record.states[0])[k]) or 1.0
 
     def _longer(self, trend: Trend | None, doubt: Doubt | None) -> fmpq | None:
         """A time that would decide; None if that is too many steps, or no time would."""

@@ -61,8 +61,7 @@ class Measure:
         terms_of = function(_first_terms(problem), arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
-            initial = map(to_float, problem.initial)
-            terms = terms_of(*initial)
+            terms = terms_of(*map(to_float, problem.initial))
         except (ArithmeticError, ValueError):
             raise self._no_value(problem) from None
         if not all(isfinite(x) for x in self.sizes(start)):

@@ -59,8 +59,7 @@ class Excursions:
         """The number of the last step before a position has escaped, the latest of all; None where
         none has.
         """
-        d = len(self._positions)
-        was_bound = self._turned[:d] >= _BOUND
+        was_bound = self._turned[: len(self._positions)] >= _BOUND
         is_far = abs(self._positions) > _FAR * self._bounds
         has_escaped = was_bound & is_far
         steps = self._last_turns[has_escaped]
@@ -85,9 +84,7 @@ class Excursions:
         self._turned += turned.sum(axis=0)
         self._positions = states[-1, :d]
         sizes = np.abs(states[:, :d])
-        of_positions = turned[:, :d]
-        of_momenta = turned[:, d:]
-        either = of_positions | of_momenta
+        either = turned[:, :d] | turned[:, d:]
         for i in range(d):
             turns = np.flatnonzero(either[:, i])
             self._add_position(i, first, sizes[:, i], turns)
@@ -160,8 +157,7 @@ class Record:
         self.lost: dict[int, int] = {}
         self._span = 1  # steps of which the extremes are kept
         if count >= points:
-            spans = max((points - 2) // (2 * signals), 1)
-            self._span = ceil((count + 1) / spans)
+            self._span = ceil((count + 1) / max((points - 2) // (2 * signals), 1))
         self._wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
         self._numbers: list[int] = []
         self._errors: list[Floats] = []
@@ -227,8 +223,7 @@ class Record:
             return
         self.lose(start, errors)
         if start == 0:
-            compared = errors[: COMPARED + 1]
-            self.first = compared.copy()
+            self.first = errors[: COMPARED + 1].copy()
         known = np.nan_to_num(errors, nan=0.0)
         self.trends.add(start, known)
         np.maximum(self.largest, np.abs(known).max(axis=0), out=self.largest)

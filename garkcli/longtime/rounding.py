@@ -44,8 +44,7 @@ def power_of_ten(x: float) -> float:
     """
     if x <= 0 or isinf(x):
         return max(x, 0.0)
-    exponent = ceil(log10(x))
-    return float(f"1e{exponent}")
+    return float(f"1e{ceil(log10(x))}")
 
 
 class Exchange:
@@ -79,8 +78,7 @@ class Exchange:
         self.steps += len(moves)
         self.first += float(products.sum())
         for crossed in (q * p_bends, p * q_bends):
-            of_steps = crossed.sum(axis=1)
-            self.second += float(np.abs(of_steps).sum())
+            self.second += float(np.abs(crossed.sum(axis=1)).sum())
 
     def powers(self, h: float) -> tuple[float, float]:
         """Per unit of time: |mean of q̇·ṗ|, an energy per time, and the mean of |q̇·p̈| + |ṗ·q̈|,
@@ -88,8 +86,7 @@ class Exchange:
         """
         count = max(self.steps, 1)
         first = abs(self.first) / (count * h**2)
-        second = self.second / (count * h**3)
-        return first, second
+        return first, self.second / (count * h**3)
 
 
 def energy_rate(
@@ -107,8 +104,7 @@ def energy_rate(
         return 0.0
     weights, sums = sensitivity(tableau)
     first, second = powers
-    change = weights * first + sums * h * second
-    return _HIGHER * to_float(tolerance) * change
+    return _HIGHER * to_float(tolerance) * (weights * first + sums * h * second)
 
 
 def invariant_rate(
@@ -135,13 +131,11 @@ def invariant_rate(
     for term in problem.terms:
         products = [g * f for g, f in zip(gradient, term, strict=True)]
         moved.append(sum(products))
-    arguments = (*y, *symbols(problem.variables, TIME))
-    rates = function(tuple(moved), arguments, False)
+    rates = function(tuple(moved), (*y, *symbols(problem.variables, TIME)), False)
     largest = 0.0
     for time, y_then in states:
         with suppress(ArithmeticError, ValueError):
-            found = rates(*map(float, y_then), time)
-            largest = max(largest, sum(map(abs, found)))
+            largest = max(largest, sum(map(abs, rates(*map(float, y_then), time))))
     stages = max(len(row) for row in entries(tableau).b)
     return _HIGHER * to_float(tolerance) * stages * largest
 

@@ -105,15 +105,12 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
         coarse_entries = chain.from_iterable(coarse)
         change = max(abs(a - b) for a, b in zip(entries, coarse_entries, strict=True))
         largest = max(map(abs, entries))
-        sizes = [abs(arb(x)) for x in y]
-        size = sum(sizes, arb(1))
+        size = sum((abs(arb(x)) for x in y), arb(1))
         # what the last digits of a step make of a difference of 10^-_DECADES
-        last_digit = arb(10) ** (_DECADES - method.digits)
-        solved = last_digit * size
+        solved = arb(10) ** (_DECADES - method.digits) * size
         # each entry of MᵀJM is a sum of as many products as M has rows
         error = _SAFETY * len(M) * largest * (change + solved)
-        deviation = _deviation(M)
-        return Defect(time, float(deviation), float(error))
+        return Defect(time, float(_deviation(M)), float(error))
 
 
 def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:

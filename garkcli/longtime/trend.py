@@ -36,12 +36,7 @@ if TYPE_CHECKING:
 
 def _windows(parts: int, length: int) -> list[tuple[float, float]]:
     """The windows of ``length`` parts, one after every part of a run in so many."""
-    found = []
-    for k in range(parts - length + 1):
-        begin = k / parts
-        end = (k + length) / parts
-        found.append((begin, end))
-    return found
+    return [(k / parts, (k + length) / parts) for k in range(parts - length + 1)]
 
 
 _WHOLE = _windows(1, 1)
@@ -91,9 +86,7 @@ class Sums:
         # numbers of the first step inside each window, and of the step after the last
         self._bounds: list[tuple[int, int]] = []
         for a, b in _WINDOWS:
-            begin = floor(a * count) + 1
-            stop = ceil(b * count)
-            self._bounds.append((begin, stop))
+            self._bounds.append((floor(a * count) + 1, ceil(b * count)))
         # Σ w, Σ w u, Σ w u² with u = s − ½
         self._weights = np.zeros((windows, 3))
         # the first error of each window: x = e − start is of the size of what happens in it
@@ -118,11 +111,8 @@ class Sums:
         import numpy as np
 
         middle = self.count // 2
-        halves = ((0, middle), (middle, self.count))
-        for half, (start, end) in enumerate(halves):
-            begin = max(start - first, 0)
-            stop = max(end + 1 - first, 0)
-            part = errors[begin:stop]
+        for half, (start, end) in enumerate(((0, middle), (middle, self.count))):
+            part = errors[max(start - first, 0) : max(end + 1 - first, 0)]
             if not len(part):
                 continue
             least, greatest = self.ranges[half]
@@ -144,14 +134,12 @@ class Sums:
         if start == begin:
             self._starts[k] = part[0]
         x = part - self._starts[k]
-        steps = np.arange(start, end)
-        s = (steps / self.count - a) / (b - a)
+        s = (np.arange(start, end) / self.count - a) / (b - a)
         u = s - 0.5
         # the weight w(s) of ``trend``, scaled to 1 in the middle
         exponent = 4.0 - 1.0 / (s * (1.0 - s))
         w = np.exp(exponent)
-        wu = w * u
-        rows = np.stack([w, wu])
+        rows = np.stack([w, w * u])
         weights = self._weights[k]
         weights[0] += w.sum()
         weights[1] += w @ u
@@ -172,16 +160,14 @@ class Sums:
         slopes = numerators / determinants
         levels = (X - slopes * Wu) / W
         squares = Xx / W
-        products = levels * X + slopes * Xu
-        explained = products / W
+        explained = (levels * X + slopes * Xu) / W
         left = squares - explained
         is_rounding = left < _FLOAT_SQUARED * squares
         left[is_rounding] = 0.0
         lengths = np.array([b - a for a, b in _WINDOWS])
         slopes /= lengths
         levels += self._starts[:, signal]
-        heights = np.sqrt(left)
-        return Windows(slopes, levels, heights)
+        return Windows(slopes, levels, np.sqrt(left))
 
 
 Shape: TypeAlias = Literal["none", "line", "curve", "step"]
@@ -251,8 +237,7 @@ class Trends:
             noise: what the errors are good to; no trend is smaller.
         """
         found = self._sums.fitted(signal)
-        largest = float(self._sums.largest[signal])
-        least = noise + _FLOAT * largest
+        least = noise + _FLOAT * float(self._sums.largest[signal])
         slope = float(found.slopes[0])
         uncertainty = _uncertainty(found) + least
         move = self._move(signal, found, least)
@@ -269,9 +254,7 @@ class Trends:
         elif (move := _net(found, least)) > 0.0:
             finding, shape = "undecided", "curve"
         count = self._sums.count
-        slope_per_step = slope / count
-        its_uncertainty = uncertainty / count
-        return Trend(slope_per_step, its_uncertainty, finding, shape, move)
+        return Trend(slope / count, uncertainty / count, finding, shape, move)
 
     def _move(self, signal: int, found: Windows, least: float) -> float:
         """How far the first or last eighth lies apart, or one half of the run leaves the range of
@@ -283,8 +266,7 @@ class Trends:
             low, high = one
             lowest, highest = other
             away = max(highest - high, low - lowest)
-            usual = high - low
-            if away > usual + least:
+            if away > high - low + least:
                 move = max(move, away)
         return move
 
@@ -292,8 +274,7 @@ class Trends:
 def _move_of_an_end(found: Windows, least: float) -> float:
     """How far the first or the last eighth lies apart from the others; 0 where neither does."""
     levels = found.levels[OF_EIGHTHS].tolist()
-    heights = found.heights[OF_EIGHTHS]
-    height = float(heights.max())
+    height = float(found.heights[OF_EIGHTHS].max())
     first, *after_first = levels
     *before_last, last = levels
     move = 0.0
@@ -301,8 +282,7 @@ def _move_of_an_end(found: Windows, least: float) -> float:
         low = min(others)
         high = max(others)
         away = max(one - high, low - one)
-        usual = _APART * (high - low) + height
-        if away > usual + least:
+        if away > _APART * (high - low) + height + least:
             move = max(move, away)
     return move
 
@@ -314,11 +294,9 @@ def _uncertainty(found: Windows) -> float:
     slope = found.slopes[0]
     of_halves = found.slopes[OF_HALVES] - slope
     of_quarters = found.slopes[OF_QUARTERS] - slope
-    farthest = np.abs(of_halves).max()
-    halves = float(farthest)
+    halves = float(np.abs(of_halves).max())
     variance = float(np.mean(of_quarters**2))
-    of_a_quarter = _SIGMAS * sqrt(variance)
-    noise = of_a_quarter / _SHORTENING
+    noise = _SIGMAS * sqrt(variance) / _SHORTENING
     heights = found.heights[OF_QUARTERS]
     modulation = float(heights.max() - heights.min())
     return max(halves, noise) + modulation
@@ -334,16 +312,13 @@ def _climbs(found: Windows, least: float) -> bool:
     heights = found.heights[OF_EIGHTHS]
     moves = np.diff(levels)
     around = heights[1:] + heights[:-1]
-    clear = _CLEAR * around + least
-    if _goes_on(moves, clear):
+    if _goes_on(moves, _CLEAR * around + least):
         return True
     first, *_, last = levels.tolist()
     net = last - first
-    height = float(heights.max())
-    if abs(net) <= CERTAIN * height:
+    if abs(net) <= CERTAIN * float(heights.max()):
         return False
-    by_its_height = around / 2 + least
-    return _goes_on(moves, by_its_height)
+    return _goes_on(moves, around / 2 + least)
 
 
 def _goes_on(moves: Floats, clear: Floats) -> bool:

@@ -35,8 +35,7 @@ def log10(x: Positive) -> float:
     >>> log10(fmpq(1, 10**400))
     -400.0
     """
-    natural = arb(x).log()
-    return float(natural / arb(10).log())
+    return float(arb(x).log() / arb(10).log())
 
 
 def terminal_curves(
@@ -104,15 +103,13 @@ def terminal_curves(
 
 
 def _cell(distance: float, extent: float, cells: int) -> int:
-    part = distance / extent
-    return round(part * (cells - 1))
+    return round(distance / extent * (cells - 1))
 
 
 def _decades(bottom: int, top: int, most: int) -> range:
     """Whole exponents from the top down, so far apart that they are at most ``most``."""
     gaps = max(most - 1, 1)
-    apart = max(1, ceil((top - bottom) / gaps))
-    return range(top, bottom - 1, -apart)
+    return range(top, bottom - 1, -max(1, ceil((top - bottom) / gaps)))
 
 
 def _short(exponent: float) -> str:
@@ -160,8 +157,7 @@ def terminal_band(
     last = height - 1
 
     def line(value: float) -> int:
-        part = (high - value) / extent
-        return round(part * last)
+        return round((high - value) / extent * last)
 
     # zero comes last: it replaces an end that shares its line
     marks = {0: high, last: low}
@@ -173,8 +169,7 @@ def terminal_band(
 
     field = [[" "] * width for _ in range(height)]
     field[line(0.0)] = [ZERO] * width
-    bands = _bands(times, values, width)
-    for j, (least, greatest) in enumerate(bands):
+    for j, (least, greatest) in enumerate(_bands(times, values, width)):
         top = line(greatest)
         bottom = line(least)
         sign = POINT if top == bottom else INSIDE
@@ -188,13 +183,11 @@ def _bands(
 ) -> list[tuple[float, float]]:
     """The least and the greatest value of each column, of the line through all points."""
     start = times[0]
-    span = times[-1] - start
-    scale = (width - 1) / (span or 1.0)
+    scale = (width - 1) / (times[-1] - start or 1.0)
     columns: list[list[float]] = [[] for _ in range(width)]
     columns[0].append(values[0])
     places = [(t - start) * scale for t in times]
-    points = zip(places, values, strict=True)
-    for (x, v), (y, w) in pairwise(points):
+    for (x, v), (y, w) in pairwise(zip(places, values, strict=True)):
         first, last = round(x), round(y)
         columns[last].append(w)
         for j in range(first, last):
@@ -254,8 +247,7 @@ def terminal_region(
         is_axis = i == middle
         cells = []
         for j in range(width):
-            x = left + extent * j / (width - 1)
-            z = complex(x, y)
+            z = complex(left + extent * j / (width - 1), y)
             empty = "─" if is_axis else " "
             shaded = SHADED if is_shaded is not None and is_shaded(z) else empty
             cells.append(FULL if is_inside(z) else shaded)
@@ -298,13 +290,10 @@ def _placed(columns: Mapping[int, str], margin: int, width: int) -> str:
     """The numbers below their marks: those at the ends first, then what still fits."""
     cells = [" "] * (margin + width + 8)
     last = width - 1
-    ends_first = sorted(columns, key=lambda j: (0 < j < last, j))
-    for j in ends_first:
+    for j in sorted(columns, key=lambda j: (0 < j < last, j)):
         text = columns[j]
-        half = len(text) // 2
-        start = margin + 2 + j - half
+        start = margin + 2 + j - len(text) // 2
         end = start + len(text)
-        around = cells[start - 1 : end + 1]
-        if all(x == " " for x in around):
+        if all(x == " " for x in cells[start - 1 : end + 1]):
             cells[start:end] = text
     return "".join(cells).rstrip()

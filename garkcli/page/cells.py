@@ -45,8 +45,7 @@ def remark(entries: Entries) -> str:
     rows += chain(*(entries.dense or ()))
     for block in chain(*entries.A):
         rows += block or []
-    cells = chain(*rows)
-    if any(isinstance(x, arb) for x in cells):
+    if any(isinstance(x, arb) for x in chain(*rows)):
         return f"rounded coefficients: long fractions as {decimals}"
     return ""
 

@@ -58,8 +58,7 @@ def scientific(ball: Any, digits: int = 3) -> str:
     digits = min(digits, certain_digits(ball))
     middle = ball.mid()
     exponent = floor(decades_of(middle))
-    power = arb(10) ** exponent
-    scaled = float(middle / power)
+    scaled = float(middle / arb(10) ** exponent)
     decimals = digits - 1
     mantissa = f"{scaled:.{decimals}f}"
     if float(mantissa) >= 10:
@@ -98,8 +97,5 @@ def measured(value: float, good_to: float, most: int = 5) -> str:
     """
     if abs(value) <= good_to:
         return "below round-off"
-    digits = most
-    if good_to:
-        above = log10(abs(value) / good_to)
-        digits = min(most, max(1, floor(above) + 1))
+    digits = min(most, max(1, floor(log10(abs(value) / good_to)) + 1)) if good_to else most
     return f"{value:.{digits - 1}e}"

@@ -112,8 +112,7 @@ def ascii_letters(text: str) -> str:
     ('Norsett', 'vanderHouwen', 'Kvaerno')
     """
     spelt = "".join(map(_spelt, text))
-    signs = unicodedata.normalize("NFD", spelt)
-    return "".join(x for x in signs if x.isascii() and x.isalnum())
+    return "".join(x for x in unicodedata.normalize("NFD", spelt) if x.isascii() and x.isalnum())
 
 
 def _spelt(sign: str) -> str:

@@ -44,8 +44,7 @@ class Paint(Frozen):
 
 def _coloured_dot(dot: re.Match[str]) -> str:
     number = int(dot[1])
-    code = _DOTS[(number - 1) % len(_DOTS)]
-    return _in_code(str(code), dot[0])
+    return _in_code(str(_DOTS[(number - 1) % len(_DOTS)]), dot[0])
 
 
 def _in_code(code: str, text: str) -> str:
@@ -91,17 +90,12 @@ def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) 
     """
     widths = _widths(rows)
     place = str.rjust if right else str.ljust
-    lines = []
-    for row in rows:
-        cells = map(place, row, widths)
-        lines.append(gap.join(cells).rstrip())
-    return lines
+    return [gap.join(map(place, row, widths)).rstrip() for row in rows]
 
 
 def _widths(rows: Sequence[Sequence[str]]) -> list[int]:
     """The longest cell of each column; no row may have more or fewer cells than another."""
-    columns = zip(*rows, strict=True)
-    return [max(map(len, column)) for column in columns]
+    return [max(map(len, column)) for column in zip(*rows, strict=True)]
 
 
 _JOINTS = re.compile(r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)")
@@ -155,7 +149,5 @@ def padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
     lines = []
     for first, *others in rows:
         label = first.ljust(first_width)
-        cells = map(str.rjust, others, other_widths)
-        line = gap.join([label, *cells])
-        lines.append(line.rstrip())
+        lines.append(gap.join([label, *map(str.rjust, others, other_widths)]).rstrip())
     return lines

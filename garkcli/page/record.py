@@ -63,8 +63,7 @@ class Record(Generic[Whole]):
 
     def text(self, whole: Whole) -> str:
         """The object as a JSON document."""
-        document = to_json(self.data(whole))
-        return f"{document}\n"
+        return f"{to_json(self.data(whole))}\n"
 
     @property
     def schema(self) -> Schema:

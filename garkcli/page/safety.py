@@ -59,8 +59,7 @@ def escaped(sign: str, format: str = "text") -> str:
     """
     if format in JSON:
         units = sign.encode("utf-16-be", "surrogatepass")
-        starts = range(0, len(units), 2)
-        pairs = [units[i : i + 2] for i in starts]
+        pairs = [units[i : i + 2] for i in range(0, len(units), 2)]
         return "".join(f"\\u{pair.hex()}" for pair in pairs)
     is_half = "\ud800" <= sign <= "\udfff"
     if format in XML and not sign.isascii() and not is_half:

@@ -41,8 +41,7 @@ def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
     heads = ['<th scope="col"></th>']
     for m in colours:
         name = _text(tableau.colours[m].name)
-        span = len(entries.b[m])
-        attributes = f'scope="col" colspan="{span}"'
+        attributes = f'scope="col" colspan="{len(entries.b[m])}"'
         heads.append(f"<th {attributes}>{name}</th>")
     joined = "".join(heads)
     return f"<tr>{joined}</tr>"

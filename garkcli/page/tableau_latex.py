@@ -100,8 +100,7 @@ def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
         letter = f"b^{{[{l}]}}" if len(found) > 1 else "b"
         for i, row in enumerate(rows, start=1):
             powers = ((x, power_text(r"\theta", k, f"{{{k}}}")) for k, x in enumerate(row, 1))
-            terms = sum_latex(powers, lambda x: _cell(x, entries))
-            yield f"{letter}_{{{i}}}(\\theta)", terms
+            yield f"{letter}_{{{i}}}(\\theta)", sum_latex(powers, lambda x: _cell(x, entries))
 
 
 def _cell(cell: Cell, entries: Entries) -> str:

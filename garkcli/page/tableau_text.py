@@ -83,8 +83,7 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
         vectors.append(("embedded", entries.embedded))
     for l, name in enumerate(names):
         for letter, rows in vectors:
-            texts = _texts(rows[l], digits)
-            lines += _vector(f"{letter}{{{name}}}", texts, width)
+            lines += _vector(f"{letter}{{{name}}}", _texts(rows[l], digits), width)
         lines.append("")
     for l in distinct_rows(tableau):
         row_name = names[l]
@@ -92,8 +91,7 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
             if block is None:
                 continue
             cells = [_texts(row, digits) for row in block]
-            title = f"A{{{row_name},{name}}}"
-            lines += _block(title, cells, width)
+            lines += _block(f"A{{{row_name},{name}}}", cells, width)
     return lines[:-1]
 
 

@@ -121,9 +121,7 @@ def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.Ru
         left -= 0.2
         right += 0.2
     offsets = [b - slope * a for a, b in points]
-    offset = max(offsets) + gap
-    if is_below:
-        offset = min(offsets) - gap
+    offset = min(offsets) - gap if is_below else max(offsets) + gap
     start, end = ((x, offset + slope * x) for x in (left, right))
     label = f"slope {slope}".replace("-", "−")
     return scene.Rule(start, end, label, is_right=(slope > 0) == is_below, is_below=is_below)
@@ -145,8 +143,7 @@ def _clearance(line: scene.Rule, figure: _Figure) -> float:
         points += [(x + away * u, y + up * v) for u, v in _LABEL]
     distances: list[float] = []
     for x, y in points:
-        heights = figure.heights(x)
-        distances += [abs(y - height) for height in heights]
+        distances += [abs(y - height) for height in figure.heights(x)]
     return min(distances, default=1.0)
 
 
@@ -189,8 +186,7 @@ def errors_panel(result: Convergence) -> scene.Panel:
     curves = [x for x in (errors, energy) if x.points]
     if errors.points:
         line = place_line([errors], order, curves, is_whole=True)
-        reference = scene.Curve(1, [line.start, line.end], f"reference, slope {order}")
-        curves.insert(1, reference)
+        curves.insert(1, scene.Curve(1, [line.start, line.end], f"reference, slope {order}"))
     sizes = [row.h for row in result.rows]
     observed = order_text(result.observed_order)
     description = (

@@ -77,8 +77,7 @@ def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
     for shape in panel.shapes:
         if isinstance(shape, Curve):
             xs = [x for x, _ in shape.points]
-            ys = [y for _, y in shape.points]
-            axes.plot(xs, ys, **_line(shape))
+            axes.plot(xs, [y for _, y in shape.points], **_line(shape))
         elif isinstance(shape, Area):
             _fill(axes, shape)
         else:

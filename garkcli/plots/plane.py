@@ -60,8 +60,7 @@ def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
         while edge != start:
             loop.append(_crossing(padded, edge))
             edge = pieces.pop(edge)
-        thinned = _thinned([*loop, loop[0]], tolerance)
-        found.append(thinned[:-1])
+        found.append(_thinned([*loop, loop[0]], tolerance)[:-1])
     return [loop for loop in found if len(loop) > 2]
 
 
@@ -71,11 +70,8 @@ def _all_pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
     is_passed = (kinds > 0) & (kinds < 15)
     for i, j in np.argwhere(is_passed).tolist():
         kind = int(kinds[i, j])
-        corners = padded[i : i + 2, j : j + 2]
-        for piece in _pieces_of(kind, corners):
-            start = _edge(i, j, piece[0])
-            end = _edge(i, j, piece[1])
-            yield start, end
+        for piece in _pieces_of(kind, padded[i : i + 2, j : j + 2]):
+            yield _edge(i, j, piece[0]), _edge(i, j, piece[1])
 
 
 def _kinds(padded: Floats) -> Integers:
@@ -128,8 +124,7 @@ def _thinned(points: list[Point], tolerance: float) -> list[Point]:
         first, last = spans.pop()
         start = points[first]
         stop = points[last]
-        between = points[first + 1 : last]
-        distances = [_distance(x, start, stop) for x in between]
+        distances = [_distance(x, start, stop) for x in points[first + 1 : last]]
         largest = max(distances, default=0.0)
         if largest <= tolerance:
             continue
@@ -173,8 +168,7 @@ class Window(Frozen):
     def grid(self) -> tuple[Floats, Floats]:
         """The real parts and the imaginary parts of the nodes."""
         x = np.linspace(self.left, self.right, _NODES)
-        y = np.linspace(-self.top, self.top, _NODES)
-        return x, y
+        return x, np.linspace(-self.top, self.top, _NODES)
 
 
 def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
@@ -184,8 +178,7 @@ def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
     """
     across, up = float(x[1] - x[0]), float(y[1] - y[0])
     left, bottom = float(x[0]), float(y[0])
-    cut_off = np.clip(np.nan_to_num(level, nan=_FLAT), -_FLAT, _FLAT)
-    loops = outlines(cut_off, _THINNED)
+    loops = outlines(np.clip(np.nan_to_num(level, nan=_FLAT), -_FLAT, _FLAT), _THINNED)
     return [[(left + column * across, bottom + row * up) for column, row in loop] for loop in loops]
 
 
@@ -220,10 +213,8 @@ def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Win
     for R in functions:
         for p in (R.numerator, R.denominator):
             if p.degree > 0:
-                largest = np.max(np.abs(np.roots(_coefficients(p))))
-                reach = max(reach, float(largest))
+                reach = max(reach, float(np.max(np.abs(np.roots(_coefficients(p))))))
     reach *= 1.6
     have_no_poles = all(R.denominator.degree == 0 for R in functions)
     # regions of polynomials are on the left
-    right = reach / 4 if have_no_poles and not is_symmetric else reach
-    return Window(-reach, right, reach)
+    return Window(-reach, reach / 4 if have_no_poles and not is_symmetric else reach, reach)

@@ -170,9 +170,8 @@ def of_directions(found: Sequence[Named]) -> list[Named]:
 def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
     """The regions |R(z)| ≤ 1, or the order stars, of some stability functions."""
     functions = [R for _, R in named]
-    window = whole = window_of(functions, is_order_star)
-    if not is_order_star:
-        window = _nearer(whole, functions)
+    whole = window_of(functions, is_order_star)
+    window = whole if is_order_star else _nearer(whole, functions)
     labels = [name if len(named) > 1 else "" for name, _ in named]
     areas = [
         Area(style, _loops(window, R, is_order_star), 0.16, label=label)

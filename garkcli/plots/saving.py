@@ -65,8 +65,7 @@ def save(figure: Figure, path: Path) -> None:
     from matplotlib import rc_context
 
     check_suffix(path)
-    suffix = path.suffix.lower()
-    kind = suffix.removeprefix(".")
+    kind = path.suffix.lower().removeprefix(".")
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
     drawn = BytesIO()
     # no date, and no names drawn by lot: the same result gives the same file

@@ -48,8 +48,7 @@ def linear_marks(low: float, high: float, most: int) -> list[Mark]:
 
 
 def _round_step(least: float) -> float:
-    decade = floor(log10(least))
-    power = 10.0**decade
+    power = 10.0 ** floor(log10(least))
     enough = least * (1 - 1e-9)
     steps = (step * power for step in _STEPS)
     return next((step for step in steps if step >= enough), 10 * power)

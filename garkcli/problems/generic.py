@@ -67,10 +67,10 @@ def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> 
     """
     draw = Draw(seed)
     y = symbols(UNKNOWNS, "y")
-    split = []
-    for term in range(terms):
-        degree = 1 if term in linear else DEGREE - 1
-        split.append(_right_hand_side(draw, y, terms, degree))
+    split = [
+        _right_hand_side(draw, y, terms, 1 if term in linear else DEGREE - 1)
+        for term in range(terms)
+    ]
     return RightHandSide(
         "generic-rhs",
         UNKNOWNS,

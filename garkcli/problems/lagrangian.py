@@ -155,8 +155,7 @@ def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[So
         slope = form.slope.xreplace({form.symbol: value})
         slope = slope.xreplace(norm)
         made = {velocity: x / slope for velocity, x in zip(v, raised, strict=True)}
-        forms = {form.a: value.xreplace(norm)}
-        solved.append(Solved(made, forms))
+        solved.append(Solved(made, {form.a: value.xreplace(norm)}))
     return solved
 
 
@@ -227,10 +226,7 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
         whose = ", ".join(map(str, equations.v))
         raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
     known = {**equations.start, **equations.momenta(equations.start)}
-    at_start = []
-    for solved in right:
-        expressions = list(solved.velocities.values())
-        at_start.append(enclosed(expressions, known))
+    at_start = [enclosed(list(solved.velocities.values()), known) for solved in right]
     first, *others = at_start
     for other in others:
         if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):

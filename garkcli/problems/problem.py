@@ -51,7 +51,6 @@ def merge_terms(problem: Problem, terms: int) -> Problem:
     """
     last = terms - 1
     if isinstance(problem, Hamiltonian):
-        total = sum(problem.terms[last:])
-        return replace(problem, terms=(*problem.terms[:last], total))
+        return replace(problem, terms=(*problem.terms[:last], sum(problem.terms[last:])))
     totals = tuple(map(sum, zip(*problem.terms[last:], strict=True)))
     return replace(problem, terms=(*problem.terms[:last], totals))

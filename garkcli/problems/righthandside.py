@@ -62,9 +62,7 @@ class RightHandSide(Frozen):
     @property
     def layout(self) -> Layout:
         """y, and t where it occurs."""
-        groups: tuple[Group, ...] = ("y",)
-        if self.has_time:
-            groups = ("y", TIME)
+        groups: tuple[Group, ...] = ("y", TIME) if self.has_time else ("y",)
         return Layout(groups, self.dimension)
 
     @property

@@ -177,28 +177,23 @@ class _Writer:
             return self._constant(None)
         if x is sympy.E:
             exp = self._name("exp")
-            one = self._constant(fmpq(1))
-            return f"{exp}({one})"
+            return f"{exp}({self._constant(fmpq(1))})"
         if x.is_Add:
-            total = self._sum(x.as_ordered_terms())
-            return f"({total})"
+            return f"({self._sum(x.as_ordered_terms())})"
         if x.is_Mul:
-            product = self._product(x)
-            return f"({product})"
+            return f"({self._product(x)})"
         if x.is_Pow:
             return self._power(x.base, x.exp)
         name = type(x).__name__
         if name in FUNCTIONS and len(x.args) == 1:
-            argument = self.text(x.args[0])
-            return f"{self._name(name)}({argument})"
+            return f"{self._name(name)}({self.text(x.args[0])})"
         raise TypeError(f"no code for {name}")
 
     def _name(self, function: str) -> str:
         return f"ball_{function}" if self.is_for_balls else function
 
     def _constant(self, x: fmpq | None) -> str:
-        name = f"{{k{len(self.constants)}}}"
-        return self.constants.setdefault(x, name)
+        return self.constants.setdefault(x, f"{{k{len(self.constants)}}}")
 
     def _sum(self, terms: Vector) -> str:
         """Terms without a minus sign first."""
@@ -225,16 +220,12 @@ class _Writer:
             sign = "-"
             above = above[1:]
         texts = [self.text(factor) for factor in above]
-        numerator = "*".join(texts)
-        if not texts:
-            numerator = self._constant(fmpq(1))
+        numerator = "*".join(texts) if texts else self._constant(fmpq(1))
         return sign + "/".join([numerator, *below])
 
     def _power(self, base: Expr, exponent: Expr) -> str:
         if _is_negative(exponent):
-            one = self._constant(fmpq(1))
-            inverse = self._power(base, -exponent)
-            return f"({one}/{inverse})"
+            return f"({self._constant(fmpq(1))}/{self._power(base, -exponent)})"
         text = self.text(base)
         if not exponent.is_Rational or exponent.q > 2:
             power = self._name("power")

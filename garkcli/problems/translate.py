@@ -155,8 +155,7 @@ def _without_kinks(made: Expr, at: Expression) -> Expr:
 
     if made.has(sympy.Abs):
         kink = min(made.atoms(sympy.Abs), key=sympy.default_sort_key)
-        inner = _shortened(str(kink.args[0]))
-        message = f"this has |{inner}|, which has no derivative at 0"
+        message = f"this has |{_shortened(str(kink.args[0]))}|, which has no derivative at 0"
         cure = "write it without the root where the sign is known, "
         cure += "or add a number under the root"
         raise UndefinedValue(message, cure, at.start, at.end, code="no-formula")

@@ -129,8 +129,7 @@ def occurring(
 @cache
 def _derivative(field: VectorField, group: Group) -> tuple[Exprs, ...]:
     by = symbols(field.variables, group)
-    rows = ([f.diff(x) for x in by] for f in field.components)
-    return tuple(map(tuple, rows))
+    return tuple(map(tuple, ([f.diff(x) for x in by] for f in field.components)))
 
 
 def is_constant(x: Expr) -> bool:

@@ -75,17 +75,14 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
 
 def _theta_between(field: NumberField) -> list[str]:
     """An interval around θ."""
-    theta = field.element(fmpq_poly([0, 1]))
-    ball = to_ball(theta, DIGITS_OF_ROOT + 10)
+    ball = to_ball(field.element(fmpq_poly([0, 1])), DIGITS_OF_ROOT + 10)
     mantissa, exponent = ball.mid().man_exp()
-    power = fmpq(2) ** int(exponent)
-    near = fmpq(mantissa) * power
+    near = fmpq(mantissa) * fmpq(2) ** int(exponent)
     unit = fmpq(1, 10**DIGITS_OF_ROOT)
     units = (near / unit).floor()
     rounded = unit * units
     low = rounded - unit
-    high = rounded + 2 * unit
-    return [str(low), str(high)]
+    return [str(low), str(rounded + 2 * unit)]
 
 
 def _between_nodes(modulus: fmpq_poly) -> list[fmpq]:
@@ -102,8 +99,7 @@ def _number(number: Number, degree: int) -> str | list[str]:
 def _between(space: StageSpace) -> list[str] | None:
     if not isinstance(space, PolynomialSpace):
         return None
-    points = _between_nodes(space.modulus)
-    return [str(x) for x in points]
+    return [str(x) for x in _between_nodes(space.modulus)]
 
 
 def _modulus(space: StageSpace) -> list[str] | None:

@@ -48,8 +48,7 @@ def _code(text: str) -> str:
 def github(outcomes: Sequence[Outcome]) -> str:
     """A workflow command for each finding, and what every file has for the log."""
     found = "".join(f"{annotation(x)}\n" for outcome in outcomes for x in findings(outcome))
-    verbosity = 0 if len(outcomes) > 1 else -1
-    text = check_text.render(outcomes, Paint(False), verbosity)
+    text = check_text.render(outcomes, Paint(False), 0 if len(outcomes) > 1 else -1)
     if text:
         found += commands_off(text)
     return found
@@ -63,8 +62,7 @@ def commands_off(text: str) -> str:
 
 def annotation(finding: Finding) -> str:
     """The workflow command of a finding."""
-    file = _property_of_command(finding.file)
-    place = f"file={file},line={finding.line},col={finding.column}"
+    place = f"file={_property_of_command(finding.file)},line={finding.line},col={finding.column}"
     title = _property_of_command(f"gark: {finding.rule}")
     text = finding.message
     if finding.help:

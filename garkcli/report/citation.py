@@ -91,9 +91,7 @@ def _numbered(number: int) -> str:
 
 def _key(cited: Cited) -> str:
     reference = cited.reference
-    people: Sequence[str] = ()
-    if reference is not None:
-        people = reference.authors or reference.editors
+    people: Sequence[str] = () if reference is None else reference.authors or reference.editors
     if reference is None or not people:
         return _key_of_method(cited.methods[0])
     name = last_name(people[0])
@@ -160,8 +158,7 @@ def _entry_type(reference: Reference) -> str:
 def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
     """The fields of an entry with their values, those that there are."""
     home = "school" if _entry_type(reference).endswith("thesis") else "institution"
-    notes = [reference.where, reference.note]
-    note = "; ".join(letters(x) for x in notes if x)
+    note = "; ".join(letters(x) for x in [reference.where, reference.note] if x)
     found = {
         "author": _people(reference.authors),
         "title": title(reference.title),

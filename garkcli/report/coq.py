@@ -168,5 +168,4 @@ def _hull(hull: Hull | None) -> str:
 
 
 def _tree(tree: Tree) -> str:
-    branches = _list(map(_tree, tree.branches))
-    return f"(Node {tree.root} {branches})"
+    return f"(Node {tree.root} {_list(map(_tree, tree.branches))})"

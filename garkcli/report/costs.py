@@ -31,9 +31,7 @@ def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb
     positive.
     """
     for row in result.rows:
-        x: float | fmpq | None = row.h
-        if against != "h":
-            x = amount(row.cost, against)
+        x: float | fmpq | None = amount(row.cost, against) if against != "h" else row.h
         if x is not None and row.error > 0:
             yield x, row.error
 
@@ -67,13 +65,10 @@ def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
     reached: Counter[int] = Counter()
     for ys in errors:
         if len(ys) > 1:
-            first = ceil(min(ys))
-            last = floor(max(ys))
-            reached.update(range(first, last + 1))
+            reached.update(range(ceil(min(ys)), floor(max(ys)) + 1))
     shared = [k for k, count in reached.items() if count > 1]
     decades = sorted(shared or reached, reverse=True)
-    apart = max(1, ceil(len(decades) / _GOALS))
-    return decades[::apart]
+    return decades[:: max(1, ceil(len(decades) / _GOALS))]
 
 
 def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None:
@@ -81,6 +76,5 @@ def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None
     for (a, x), (b, y) in pairwise(points):
         is_between = min(a, b) <= goal <= max(a, b)
         if is_between and a != b:
-            rise = (y - x) * (goal - a)
-            return x + rise / (b - a)
+            return x + (y - x) * (goal - a) / (b - a)
     return None

@@ -281,8 +281,7 @@ def _symplectic(report: EnergyReport) -> Iterator[str]:
     times = ", ".join(str(x.time) for x in found.defects)
     largest = max(found.defects, key=lambda x: x.size)
     if any(x.is_seen for x in found.defects):
-        good_to = power_of_ten(largest.error)
-        size = f"has entries up to {largest.size:.3e}, good to {good_to:.0e}"
+        size = f"has entries up to {largest.size:.3e}, good to {power_of_ten(largest.error):.0e}"
     else:
         bound = power_of_ten(max(x.error for x in found.defects))
         size = f"is below {bound:.0e}, what it is measured to"

@@ -57,8 +57,7 @@ def witness_html(witness: Witness) -> str:
     """The tree at which an order ends, and its condition."""
     colours = len(witness.tree.colours) > 1 or bool(witness.tree.root)
     text = str(witness_text(witness, colours))
-    picture = draw_svg_sheet([witness.tree])
-    return f"{picture}<p>{_text(text)}</p>"
+    return f"{draw_svg_sheet([witness.tree])}<p>{_text(text)}</p>"
 
 
 def order_html(order: AnyOrder) -> str:
@@ -97,8 +96,7 @@ def condition_html(condition: Condition) -> str:
     weight = f"{condition.value} = {condition.required}"
     if not condition.is_exact:
         weight = f"{condition.value} instead of {condition.required}"
-    picture = draw_svg_sheet([tree])
-    return f"{picture}<p>{_text(str(tree))}: {_text(weight)}</p>"
+    return f"{draw_svg_sheet([tree])}<p>{_text(str(tree))}: {_text(weight)}</p>"
 
 
 def _text(text: str) -> str:

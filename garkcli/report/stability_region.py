@@ -63,8 +63,7 @@ def _rational(x: float) -> fmpq:
 
 def _floats(R: StabilityFunction) -> tuple[list[float], list[float]]:
     P = [to_float(a) for a in R.numerator.coefficients]
-    Q = [to_float(a) for a in R.denominator.coefficients]
-    return P, Q
+    return P, [to_float(a) for a in R.denominator.coefficients]
 
 
 def _is_bounded(P: Sequence[float], Q: Sequence[float], z: complex) -> bool:
@@ -78,8 +77,7 @@ def reach_of(polynomials: Sequence[Sequence[float]]) -> float:
     reach = 2.0
     for *others, leading in polynomials:
         for k, a in enumerate(reversed(others), start=1):
-            size = abs(a / leading)
-            reach = max(reach, size ** (1 / k))
+            reach = max(reach, abs(a / leading) ** (1 / k))
     with_room = 1.6 * reach
     return float(f"{with_room:.1g}")
 

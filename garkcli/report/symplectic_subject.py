@@ -61,8 +61,7 @@ class Subject(Frozen):
                 independent = sum(1 for _ in self._of_order(n))
             else:
                 independent = count_classes(self.structure, n)
-            total = sum(every[n - 1])
-            found.append((n, independent, total))
+            found.append((n, independent, sum(every[n - 1])))
         return tuple(found)
 
     @property
@@ -112,8 +111,7 @@ class Subject(Frozen):
         """What the numbers of the colours mean; empty where there is one colour."""
         if not self.has_colours:
             return ""
-        numbered = enumerate(self.names, start=1)
-        pairs = [f"{l} {name}" for l, name in numbered]
+        pairs = [f"{l} {name}" for l, name in enumerate(self.names, start=1)]
         return f"colours: {', '.join(pairs)}"
 
     @property
@@ -164,8 +162,7 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
         raise UsageProblem(f"--colours {terms}: {error}", cure, code="option-value") from None
     names = []
     for term, part in structure.colours:
-        letter = _LETTERS[part]
-        names.append(f"{letter}{term + 1}")
+        names.append(f"{_LETTERS[part]}{term + 1}")
     return Subject(kind, structure, tuple(names), orders)
 
 
@@ -196,8 +193,7 @@ def subject_of_method(method: AnyTableau, orders: range) -> Subject:
             message = f"colour {x.name} is not linear, as the other colour of its stages is"
             cure = "such a term of the Hamiltonian has no classes; make both linear or none"
             raise UsageProblem(message, cure, code="tree-not-admissible")
-    colours = tuple((term, x.part) for term, x in natures)
-    structure = Structure(colours, quadratic)
+    structure = Structure(tuple((term, x.part) for term, x in natures), quadratic)
     names = tuple(x.name for x in tableau.colours)
     return Subject(_kind(structure), structure, names, orders, method)
 

@@ -35,8 +35,7 @@ class Query(Frozen):
 
     def roots(self, by_root: Sequence[int]) -> list[tuple[int, int]]:
         """The root colours that were asked for, from 1, with their numbers of trees."""
-        numbered = enumerate(by_root, start=1)
-        return [(l, count) for l, count in numbered if self.root in {None, l}]
+        return [(l, count) for l, count in enumerate(by_root, start=1) if self.root in {None, l}]
 
     def total(self, by_root: Sequence[int]) -> int:
         """The trees of all these root colours."""

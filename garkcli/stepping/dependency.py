@@ -122,8 +122,7 @@ class DependencyGraph(Frozen):
                 ways = {}  # from a neighbour through the stage value to a neighbour
                 for s in component:
                     into = before[s] & within
-                    out = within.intersection(after[s])
-                    ways[s] = len(into) * len(out)
+                    ways[s] = len(into) * len(within.intersection(after[s]))
                 cut.add(max(component, key=ways.__getitem__))
 
     def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
@@ -165,8 +164,7 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
                 coefficients[stage, evaluation] = _text(a)
         sums[stage] = tuple(found)
     for evaluation in arguments:
-        b = entry(tableau, entries, None, evaluation)
-        coefficients[None, evaluation] = _text(b)
+        coefficients[None, evaluation] = _text(entry(tableau, entries, None, evaluation))
     return DependencyGraph(tuple(arguments), arguments, sums, coefficients)
 
 

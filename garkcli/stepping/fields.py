@@ -57,8 +57,7 @@ def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
         part.append(x)
     if not kinetic or not any(x.free_symbols for x in potential):
         return None
-    V = sympy.Add(*potential)
-    share = sympy.expand(V / (terms - 1))
+    share = sympy.expand(sympy.Add(*potential) / (terms - 1))
     return (sympy.Add(*kinetic), *(share,) * (terms - 1))
 
 
@@ -79,8 +78,7 @@ def with_joined_terms(tableau: Tableau) -> Tableau:
     driven_parts = {x.part for x in tableau.colours}
     if not has_one_space or driven_parts != set(GROUPS):
         return tableau
-    joined = [replace(x, term=0) for x in tableau.colours]
-    return replace(tableau, colours=tuple(joined))
+    return replace(tableau, colours=tuple([replace(x, term=0) for x in tableau.colours]))
 
 
 def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:

@@ -181,8 +181,7 @@ def _precision(digits: int) -> Any:
 def _inverted(entries: list[float], n: int) -> Floats:
     import numpy as np
 
-    matrix = np.array(entries).reshape(n, n)
-    return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+    return np.asarray(np.linalg.inv(np.array(entries).reshape(n, n)), dtype=np.float64)
 
 
 def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
@@ -200,8 +199,7 @@ def _corrections_of_balls(inverse: Floats, residuals: list[arb]) -> list[arb]:
     if scale == 0 or not scale.is_finite():
         return middles
     scaled = [float(r / scale) for r in middles]
-    corrections = (inverse @ scaled).tolist()
-    return [(c * scale).mid() for c in corrections]
+    return [(c * scale).mid() for c in (inverse @ scaled).tolist()]
 
 
 _AHEAD = 64  # most steps in floats by which a trajectory is ahead of who looks at it

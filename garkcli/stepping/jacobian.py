@@ -89,8 +89,7 @@ class ChainRule:
 
         d = self.d
         n = d * len(self.unknowns)
-        matrices = np.array(derivatives).reshape(-1, d, d)
-        fields = dict(zip(self.arguments, matrices, strict=True))
+        fields = dict(zip(self.arguments, np.array(derivatives).reshape(-1, d, d), strict=True))
         stages: dict[Stage, Floats] = {}
         for i, stage in enumerate(self.unknowns):
             stages[stage] = np.eye(d, n, i * d)
@@ -104,12 +103,10 @@ class ChainRule:
                 total = np.zeros((d, n))
                 for stage in self._graph.arguments[x]:
                     if stage in stages:
-                        field = fields[x, stage]
-                        total = total + field @ stages[stage]
+                        total = total + fields[x, stage] @ stages[stage]
                 of_fields[self._place[x]] = total
         J = _combined(len(self.unknowns), self._image, w, of_fields).reshape(n, n)
-        inverse = np.linalg.inv(np.eye(n) - J)
-        return np.asarray(inverse, dtype=np.float64)
+        return np.asarray(np.linalg.inv(np.eye(n) - J), dtype=np.float64)
 
 
 def _sorted_out(vertices: Iterable[Vertex]) -> tuple[list[Stage], list[FieldEvaluation]]:
@@ -167,8 +164,7 @@ class JacobianWriter:
         for evaluation in chain.evaluations:
             seen = [stage for x, stage in chain.arguments if x == evaluation]
             entries += self._matrices(evaluation, seen)
-        floats = ["0.0" if x == "0" else x for x in entries]
-        numbers = ", ".join(floats)
+        numbers = ", ".join(["0.0" if x == "0" else x for x in entries])
         weights = "v" if stages.is_for_balls else "w"
         call = f"chain{index}([{numbers}], {weights})"
         stages.lines.write(f"inverse = {call}")
@@ -179,8 +175,7 @@ class JacobianWriter:
         places = {}
         for stage, evaluations in stages.graph.sums.items():
             for evaluation in evaluations:
-                name = stages.weight(stage, evaluation)
-                places[stage, evaluation] = int(name.removeprefix("w"))
+                places[stage, evaluation] = int(stages.weight(stage, evaluation).removeprefix("w"))
         return places
 
     def _matrices(self, evaluation: FieldEvaluation, seen: Sequence[Stage]) -> list[str]:
@@ -220,8 +215,7 @@ class JacobianWriter:
         return image
 
     def _slopes_of_sums(self, stage: Stage, slopes: _Slopes) -> list[Slope]:
-        components = range(self._stages.d)
-        return [self._slope_of_sum(stage, i, slopes) for i in components]
+        return [self._slope_of_sum(stage, i, slopes) for i in range(self._stages.d)]
 
     def _slope_of_sum(self, stage: Stage, i: int, slopes: _Slopes) -> Slope:
         terms = []
@@ -229,8 +223,7 @@ class JacobianWriter:
             slope = slopes.get((evaluation, i))
             if not slope:
                 continue
-            w = self._prefix + self._stages.weight(stage, evaluation)
-            terms.append((w, slope))
+            terms.append((self._prefix + self._stages.weight(stage, evaluation), slope))
         return _sums(terms)
 
     def _slopes_of_field(self, evaluation: FieldEvaluation, slopes: _Slopes) -> list[Slope]:
@@ -267,8 +260,7 @@ class JacobianWriter:
         flat: list[object] = []
         for i in range(stages.d):
             for stage, k in by:
-                derivative = columns[stage.group]
-                flat.append(derivative[i][k])
+                flat.append(columns[stage.group][i][k])
         code = stages.code(flat, evaluation, is_for_balls=False)
         entries = stages.emit(code, arguments, f"j{number}_")
         width = len(by)
@@ -282,8 +274,7 @@ class JacobianWriter:
         """The same with composite texts given names."""
         made = {}
         for column, text in row.items():
-            digits = text.replace(".", "")
-            is_short = text.isidentifier() or digits.isdigit()
+            is_short = text.isidentifier() or text.replace(".", "").isdigit()
             if is_short:
                 made[column] = text
                 continue
@@ -298,8 +289,7 @@ def _sums(terms: Iterable[tuple[str, Slope]]) -> Slope:
     total: dict[int, list[str]] = {}
     for factor, slope in terms:
         for column, text in slope.items():
-            products = total.setdefault(column, [])
-            products.append(_product(factor, text))
+            total.setdefault(column, []).append(_product(factor, text))
     return {column: " + ".join(texts) for column, texts in total.items()}
 
 

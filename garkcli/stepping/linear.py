@@ -111,8 +111,7 @@ def _first_unknowns(
     first: dict[tuple[int, int], int] = {}
     n = 0
     for term in terms:
-        colour = tableau.colours[term.colour]
-        place = colour.space, term.seen
+        place = tableau.colours[term.colour].space, term.seen
         if place not in first:
             first[place] = n
             n += tableau.space(term.colour).stages
@@ -171,8 +170,7 @@ class LinearStep(Frozen):
         except ZeroDivisionError:
             message = f"the stage equations have no unique solution for h = {h}"
             raise UsageProblem(message, "choose another step size", code="step-fails") from None
-        increment = self.B * X * h
-        (a, b), (c, d) = self._numbers(increment)
+        (a, b), (c, d) = self._numbers(self.B * X * h)
         return (ONE + a, b), (c, ONE + d)
 
     def series(self) -> Iterator[Matrix]:
@@ -255,8 +253,7 @@ def conserves_energy(R: Matrix, omega: fmpq) -> bool:
     """
     G: Matrix = ((omega * omega, ZERO), (ZERO, ONE))
     form = multiply(transpose(R), multiply(G, R))
-    difference = subtract(form, G)
-    return not any(x for row in difference for x in row)
+    return not any(x for row in subtract(form, G) for x in row)
 
 
 def deviations(step: LinearStep) -> Iterator[arb]:

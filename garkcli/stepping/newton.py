@@ -67,11 +67,7 @@ class NewtonWriter:
         """Write Newton's method for the unknowns of ``block``, implicit block number ``index``."""
         write = self._lines.write
         d = self._stages.d
-        unknowns = []
-        for stage in block.unknowns:
-            for i in range(d):
-                c = self._stages.component(stage, i)
-                unknowns.append(f"z{c}")
+        unknowns = [f"z{self._stages.component(x, i)}" for x in block.unknowns for i in range(d)]
         is_direct = len(unknowns) <= _DIRECT and not self._is_for_balls
         self._start(block)
         state = names("y", self._stages.layout.unknowns)
@@ -111,8 +107,7 @@ class NewtonWriter:
         found = []
         for i in range(stages.d):
             c = stages.component(stage, i)
-            start = stages.start(stage.group, i)
-            self._lines.write(f"x{c} = {start} + z{c}")
+            self._lines.write(f"x{c} = {stages.start(stage.group, i)} + z{c}")
             found.append(f"x{c}")
         stages.stages[stage] = found
 
@@ -125,8 +120,7 @@ class NewtonWriter:
         for stage in block.unknowns:
             for i in range(stages.d):
                 c = stages.component(stage, i)
-                frozen = self._frozen_sum(stage, i)
-                self._lines.write(f"g{c} = {frozen}")
+                self._lines.write(f"g{c} = {self._frozen_sum(stage, i)}")
                 guess = f"g{c} + m{c} + n{c}"
                 if self._is_for_balls:
                     guess = f"({guess}).mid()"
@@ -149,8 +143,7 @@ class NewtonWriter:
         field = stages.fields[key]
         start = []
         for group in field.depends:
-            size = stages.layout.size(group)
-            start += [stages.start(group, i) for i in range(size)]
+            start += [stages.start(group, i) for i in range(stages.layout.size(group))]
         code = stages.code(field.components, evaluation, self._is_for_balls)
         self.frozen[key] = stages.emit(code, start, f"g{evaluation.colour}{evaluation.group}_")
 

@@ -61,8 +61,7 @@ class Html(Plain):
         return self.formula(quotient_latex(p, q, variable), Plain().quotient(p, q, variable))
 
     def interval(self, x: Interval, variable: str) -> str:
-        found = super().interval(x, self.formula(variable, variable))
-        return found.replace(" < ", " &lt; ")
+        return super().interval(x, self.formula(variable, variable)).replace(" < ", " &lt; ")
 
     def code(self, text: str) -> str:
         return f"<code>{self.prose(text)}</code>"

@@ -112,5 +112,4 @@ def typeset_number(value: Number | Parametric) -> Markup:
     text = str(value) if isinstance(value, Parametric) else to_text(value)
     if isinstance(value, Parametric) or len(text) <= _LONGEST:
         return typeset(to_latex(value), text)
-    about = number(to_decimal(value, _DIGITS))
-    return typeset(rf"\approx {about}")
+    return typeset(rf"\approx {number(to_decimal(value, _DIGITS))}")

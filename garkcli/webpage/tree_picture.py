@@ -35,8 +35,7 @@ def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
     lines = []
     dots = []
     for v, (x, y) in zip(vertices, places, strict=True):
-        name = dot_name(v.colour, has_colours)
-        dots.append(f'<use href="#{name}" x="{x}" y="{y}"/>')
+        dots.append(f'<use href="#{dot_name(v.colour, has_colours)}" x="{x}" y="{y}"/>')
         if v.parent >= 0:
             start_x, start_y = places[v.parent]
             lines.append(f"M{start_x} {start_y}L{x} {y}")

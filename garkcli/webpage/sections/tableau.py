@@ -158,8 +158,7 @@ def _table(title: str, tableau: Tableau, found: Entries) -> Table:
     shortened = found.changed(_short)
     if not note and shortened != found:
         note = f"entries of more than {LONGEST} signs as decimals, {found.digits} digits"
-    parts = [_part(tableau, shortened, *part) for part in parts_of(tableau)]
-    return Table(title, parts, note)
+    return Table(title, [_part(tableau, shortened, *part) for part in parts_of(tableau)], note)
 
 
 def _short(cell: Cell) -> Cell:
