@@ -1,7 +1,7 @@
 (** * The checker, which computes with whole numbers, and why what it accepts is true *)
 
 From Coq Require Import QArith ZArith List Arith Lia Bool.
-From Gark Require Import Stages Trees Methods.
+From Gark Require Import Stages Trees Methods Tables.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -20,34 +20,47 @@ Definition common (qs : list Q) : positive :=
 Definition whole (D : positive) (q : Q) : Z := (Qnum q * (Zpos D / Zpos (Qden q)))%Z.
 Definition scaled {X} D (ts : list (X * Q)) : list (X * Z) :=
   map (fun t => (fst t, whole D (snd t))) ts.
-Definition is_scaled {X} D (ts : list (X * Q)) : bool :=
-  forallb (fun t => Qeq_bool (snd t) (whole D (snd t) # D)) ts.
+
+Lemma common_divides qs q : In q qs -> (Zpos (Qden q) | Zpos (common qs))%Z.
+Proof.
+  assert (P : forall a b, Zpos (Z.to_pos (Z.lcm (Zpos a) (Zpos b))) = Z.lcm (Zpos a) (Zpos b)).
+  { intros a b. apply Z2Pos.id. pose proof (Z.lcm_nonneg (Zpos a) (Zpos b)).
+    assert (Z.lcm (Zpos a) (Zpos b) <> 0)%Z by (rewrite Z.lcm_eq_0; lia). lia. }
+  induction qs as [|r qs IH]; [contradiction|]. cbn [common fold_right]. fold (common qs).
+  rewrite P.
+  intros [->|I]; [apply Z.divide_lcm_l|].
+  apply Z.divide_trans with (1 := IH I), Z.divide_lcm_r.
+Qed.
+Lemma whole_is D q : (Zpos (Qden q) | Zpos D)%Z -> q == whole D q # D.
+Proof.
+  intros [k E]. unfold whole, Qeq. simpl Qnum. simpl Qden. rewrite E, Z.div_mul by discriminate.
+  ring.
+Qed.
+Definition is_scaled {X} D (ts : list (X * Q)) := forall t, In t ts -> snd t == whole D (snd t) # D.
 
 Lemma same_denominator a b d : (a # d) + (b # d) == (a + b)%Z # d.
 Proof. unfold Qeq, Qplus; simpl. rewrite Pos2Z.inj_mul. ring. Qed.
 
-Lemma zlin_val D ts x : is_scaled D ts = true ->
+Lemma zlin_val D ts x : is_scaled D ts ->
   lin ts (val x) == zlin (scaled D ts) (fst x) # (D * snd x).
 Proof.
   induction ts as [|[j q] r IH]; simpl; intros H; [reflexivity|].
-  apply andb_prop in H. destruct H as [H K]. rewrite (IH K), <- same_denominator.
-  apply Qeq_bool_iff in H. simpl in H. rewrite H at 1. reflexivity.
+  rewrite IH, <- same_denominator by (intros t K; apply H; right; exact K).
+  pose proof (H _ (or_introl eq_refl)) as E. simpl in E. rewrite E at 1. reflexivity.
 Qed.
 
-Lemma zbil_val D ts x y : is_scaled D ts = true ->
+Lemma zbil_val D ts x y : is_scaled D ts ->
   bil ts (val x) (val y) == zbil (scaled D ts) (fst x) (fst y) # (D * snd x * snd y).
 Proof.
   induction ts as [|[[a c] q] r IH]; simpl; intros H; [reflexivity|].
-  apply andb_prop in H. destruct H as [H K]. rewrite (IH K), <- same_denominator.
-  apply Qeq_bool_iff in H. simpl in H. rewrite H at 1. reflexivity.
+  rewrite IH, <- same_denominator by (intros t K; apply H; right; exact K).
+  pose proof (H _ (or_introl eq_refl)) as E. simpl in E. rewrite E at 1. reflexivity.
 Qed.
 
 (** A matrix or a product, row after row. *)
 Definition ztable X := (positive * list (list (X * Z)))%type.
 Definition zt {X} (rs : list (list (X * Q))) : ztable X :=
   let D := common (map snd (concat rs)) in (D, map (scaled D) rs).
-Definition is_zt {X} (rs : list (list (X * Q))) : bool :=
-  forallb (is_scaled (common (map snd (concat rs)))) rs.
 
 Definition zapp (A : ztable nat) (x : zvec) : zvec :=
   (map (fun ts => zlin ts (fst x)) (snd A), fst A * snd x)%positive.
@@ -56,27 +69,26 @@ Definition zmul (P : ztable (nat * nat)) (x y : zvec) : zvec :=
 Definition zscale (n : nat) (x : zvec) : zvec :=
   (map (Z.mul (Z.of_nat n)) (fst x), snd x).
 
-Lemma row_is_scaled {X} (rs : list (list (X * Q))) i : is_zt rs = true ->
-  is_scaled (fst (zt rs)) (nth i rs []) = true.
+Lemma row_is_scaled {X} (rs : list (list (X * Q))) i : is_scaled (fst (zt rs)) (nth i rs []).
 Proof.
-  intros H. unfold is_zt in H. rewrite forallb_forall in H.
-  destruct (nth_in_or_default i rs []) as [K|K]; [apply H, K|rewrite K; reflexivity].
+  intros t I. apply whole_is, common_divides, in_map, in_concat. exists (nth i rs []).
+  split; [|exact I]. destruct (nth_in_or_default i rs []) as [K|K]; [exact K|].
+  rewrite K in I. contradiction.
 Qed.
 
-Lemma zapp_val rs x : is_zt rs = true ->
-  veq (val (zapp (zt rs) x)) (app (fun i => nth i rs []) (val x)).
+Lemma zapp_val rs x : veq (val (zapp (zt rs) x)) (app (fun i => nth i rs []) (val x)).
 Proof.
-  intros H i. unfold val at 1, app. simpl fst. simpl snd.
-  rewrite (zlin_val (fst (zt rs)) _ x (row_is_scaled rs i H)). simpl fst.
-  rewrite map_map. change 0%Z with ((fun ts => zlin (scaled (common (map snd (concat rs))) ts) (fst x)) []).
+  intros i. unfold val at 1, app. simpl fst. simpl snd.
+  rewrite (zlin_val (fst (zt rs)) _ x (row_is_scaled rs i)). simpl fst.
+  rewrite map_map. change 0%Z with ((fun ts => zlin (scaled (common (map snd (concat rs))) ts)
+    (fst x)) []).
   rewrite map_nth. reflexivity.
 Qed.
 
-Lemma zmul_val rs x y : is_zt rs = true ->
-  veq (val (zmul (zt rs) x y)) (mul (fun i => nth i rs []) (val x) (val y)).
+Lemma zmul_val rs x y : veq (val (zmul (zt rs) x y)) (mul (fun i => nth i rs []) (val x) (val y)).
 Proof.
-  intros H i. unfold val at 1, mul. simpl fst. simpl snd.
-  rewrite (zbil_val (fst (zt rs)) _ x y (row_is_scaled rs i H)). simpl fst.
+  intros i. unfold val at 1, mul. simpl fst. simpl snd.
+  rewrite (zbil_val (fst (zt rs)) _ x y (row_is_scaled rs i)). simpl fst.
   rewrite map_map.
   change 0%Z with ((fun ts => zbil (scaled (common (map snd (concat rs))) ts) (fst x) (fst y)) []).
   rewrite map_nth. reflexivity.
@@ -183,7 +195,8 @@ Proof.
   intros K f c L G. assert (I := is_in_all H v K).
   assert (B : f (val (base H, den H)) == c) by (apply G; left; reflexivity).
   assert (D : forall r, In r (dirs H) -> f (val (zadd (base H) (snd r), den H)) == c).
-  { intros r R. apply G. right. apply in_map, in_map_iff. exists r. split; [reflexivity|assumption]. }
+  { intros r R. apply G. right. apply in_map, in_map_iff. exists r.
+  split; [reflexivity|assumption]. }
   rewrite (l_ext _ L _ (add (val (base H, den H)) (comb (den H) (val v) (dirs H)))).
   - rewrite (l_add _ L), B, (comb_zero f c _ _ _ _ L B D). ring.
   - intros i. unfold add. rewrite comb_val. unfold val; simpl.
@@ -209,85 +222,112 @@ Definition Gof j l := nth l (nth j G []) None.
 Definition all (n : nat) (c : nat -> bool) := forallb c (seq 0 n).
 Definition table {X} (n : nat) (f : nat -> X) : list X := map f (seq 0 n).
 
-Definition is_seen l m : bool := match block M (space_of M l) m with None => false | _ => true end.
-Definition A_rows l m := rows M (space_of M l) m.
-Definition P_rows l := product_of M (the_space M (space_of M l)).
+Definition is_seen l m := match block M (space_of M l) m with None => false | _ => true end.
+Definition A_rows l m :=
+  match block M (space_of M l) m with None => [] | Some A => block_table M A end.
+Definition P_rows l := product_table M (the_space M (space_of M l)).
+Definition W_rows l := row_table M (snd (nth l (colours M) (O, []))).
 
 Definition zone l : zvec := (map Qnum (one_of M (the_space M (space_of M l))), 1%positive).
-Definition is_zone l : bool :=
-  forallb (fun q => Qeq_bool q (Qnum q # 1)) (one_of M (the_space M (space_of M l))).
 
-Definition tables_are_whole : bool :=
-  all (N M) (fun l => is_zone l && is_zt (P_rows l)
-    && all (N M) (fun m => is_zt (A_rows l m))
-    && all (degree M) (fun e => is_zt [weights M l e])).
+(** Products, blocks and weights, made once. *)
+Record ztables := {
+  zP : list (ztable (nat * nat)); zA : list (list (ztable nat)); zW : list (ztable nat) }.
+Definition the_tables : ztables := {|
+  zP := table (N M) (fun l => zt (P_rows l));
+  zA := table (N M) (fun l => table (N M) (fun m => zt (A_rows l m)));
+  zW := table (N M) (fun l => zt (W_rows l)) |}.
+
+Section WithTables.
+Variable T : ztables.
+Definition Pz l := nth l (zP T) (1%positive, []).
+Definition Az l m := nth m (nth l (zA T) []) (1%positive, []).
+Definition Wz l := nth l (zW T) (1%positive, []).
 
 Definition starts_ok := all (N M) (fun l => in_zhull (Fof 0 l) (zone l)).
 
 Definition branches_ok :=
-  let A := table (N M) (fun l => table (N M) (fun m => zt (A_rows l m))) in
   all (p - 1) (fun j => all (N M) (fun l => all (N M) (fun m =>
     negb (is_seen l m) ||
-    forallb (fun a => in_zhull (Gof (S j) l) (zapp (nth m (nth l A []) (1%positive, [])) (zscale (S j) a)))
+    forallb (fun a => in_zhull (Gof (S j) l) (zapp (Az l m) (zscale (S j) a)))
       (zpoints (Fof j m))))).
 
 Definition products_ok :=
-  let P := table (N M) (fun l => zt (P_rows l)) in
   all p (fun k => all (N M) (fun l => all k (fun i =>
-    forallb (fun u => forallb (fun w =>
-        in_zhull (Fof k l) (zmul (nth l P (1%positive, [])) u w))
+    forallb (fun u => forallb (fun w => in_zhull (Fof k l) (zmul (Pz l) u w))
       (zpoints (Fof (k - S i) l))) (zpoints (Gof (S i) l))))).
 
-Definition meets l e k (v : zvec) : bool :=
-  let W := zt [weights M l e] in
-  let x := zapp W v in
-  Qeq_bool (nth 0 (fst x) 0%Z # snd x) (if Nat.eqb e 0 then 1 # Pos.of_nat (S k) else 0).
+(** b_l(v) = 1/(k + 1). *)
+Definition meets l k (v : zvec) : bool :=
+  let x := zapp (Wz l) v in
+  all (degree M) (fun e =>
+    Qeq_bool (nth e (fst x) 0%Z # snd x) (if Nat.eqb e 0 then 1 # Pos.of_nat (S k) else 0)).
 Definition conditions_ok :=
-  all p (fun k => all (N M) (fun l => all (degree M) (fun e =>
-    forallb (meets l e k) (zpoints (Fof k l))))).
-
-Definition order_is_proved : bool :=
-  tables_are_whole && starts_ok && branches_ok && products_ok && conditions_ok.
+  all p (fun k => all (N M) (fun l => forallb (meets l k) (zpoints (Fof k l)))).
 
 Lemma all_at n c : all n c = true -> forall i, (i < n)%nat -> c i = true.
 Proof. intros H i Hi. unfold all in H. rewrite forallb_forall in H. apply H, in_seq. lia. Qed.
 
 Lemma nth_table {X} n (f : nat -> X) i d : (i < n)%nat -> nth i (table n f) d = f i.
 Proof.
-  intros H. unfold table. rewrite nth_indep with (d' := f 0%nat) by (rewrite map_length, seq_length; exact H).
+  intros H. unfold table. rewrite nth_indep with (d' := f 0%nat) by (rewrite map_length,
+    seq_length; exact H).
   rewrite map_nth, seq_nth by exact H. reflexivity.
 Qed.
 
 Lemma seen_iff l m : sees M l m <-> is_seen l m = true.
 Proof. unfold sees, is_seen. destruct (block M (space_of M l) m); split; congruence. Qed.
 
-Hypothesis tables : tables_are_whole = true.
+Hypothesis made : T = the_tables.
 
-Lemma tables_of l : (l < N M)%nat -> is_zone l = true /\ is_zt (P_rows l) = true /\
-  (forall m, (m < N M)%nat -> is_zt (A_rows l m) = true) /\
-  (forall e, (e < degree M)%nat -> is_zt [weights M l e] = true).
+Lemma zone_val l : veq (val (zone l)) (oneof M l).
 Proof.
-  intros H. pose proof (all_at _ _ tables l H) as K.
-  apply andb_prop in K. destruct K as [K W]. apply andb_prop in K. destruct K as [K A].
-  apply andb_prop in K. destruct K as [Z P].
-  repeat split; [assumption|assumption|intros; apply (all_at _ _ A); assumption|
-                 intros; apply (all_at _ _ W); assumption].
+  intros i. unfold val, zone, oneof; simpl. set (os := one_of M _).
+  replace (nth i (map Qnum os) 0%Z) with (Qnum (nth i os 0)) by (symmetry; apply (map_nth Qnum os
+    0)).
+  destruct (nth_in_or_default i os 0) as [K|K]; [|rewrite K; reflexivity].
+  revert K. generalize (nth i os 0) as q. intros q K. unfold os, one_of in K.
+  apply in_map_iff in K. destruct K as [[j e] [<- _]].
+  destruct (the_space M (space_of M l)); [destruct (Nat.eqb e 0)|destruct (Nat.eqb (j + e) 0)];
+    reflexivity.
 Qed.
 
-Lemma zone_val l : (l < N M)%nat -> veq (val (zone l)) (oneof M l).
+Lemma P_val l x y : (l < N M)%nat ->
+  veq (val (zmul (Pz l) x y)) (mul (Pof M l) (val x) (val y)).
 Proof.
-  intros H i. destruct (tables_of l H) as [Z _]. unfold is_zone in Z. rewrite forallb_forall in Z.
-  unfold val, zone, oneof; simpl. set (os := one_of M _) in *.
-  destruct (nth_in_or_default i os 0) as [K|K].
-  - change 0%Z with (Qnum 0). rewrite map_nth. symmetry. apply Qeq_bool_iff, Z, K.
-  - rewrite K. change 0%Z with (Qnum 0). rewrite map_nth, K. reflexivity.
+  intros H. unfold Pz, Pof. rewrite made. simpl. rewrite nth_table by exact H.
+  unfold P_rows. rewrite product_table_is. apply zmul_val.
 Qed.
 
+Lemma A_rows_are l m : A_rows l m = rows M (space_of M l) m.
+Proof.
+  unfold A_rows, rows. destruct (block M _ m); [apply block_table_is|reflexivity].
+Qed.
+Lemma A_val l m x : (l < N M)%nat -> (m < N M)%nat ->
+  veq (val (zapp (Az l m) x)) (app (Aof M l m) (val x)).
+Proof.
+  intros H K. unfold Az, Aof. rewrite made. simpl. rewrite !nth_table by assumption.
+  rewrite A_rows_are. apply zapp_val.
+Qed.
+
+Lemma W_at l e : (e < degree M)%nat -> nth e (W_rows l) [] = weights M l e.
+Proof.
+  intros H. unfold W_rows. rewrite row_table_is. unfold weights. apply nth_table, H.
+Qed.
 Lemma b_val l e v : (l < N M)%nat -> (e < degree M)%nat ->
-  b M l e (val v) == val (zapp (zt [weights M l e]) v) 0%nat.
+  b M l e (val v) == val (zapp (Wz l) v) e.
 Proof.
-  intros Hl He. destruct (tables_of l Hl) as [_ [_ [_ W]]].
-  rewrite (zapp_val _ v (W e He) 0%nat). reflexivity.
+  intros Hl He. unfold Wz. rewrite made. simpl. rewrite nth_table by exact Hl.
+  rewrite (zapp_val _ v e). unfold b, app. rewrite W_at by exact He. reflexivity.
+Qed.
+
+Lemma meets_val l k v : (l < N M)%nat -> meets l k v = true <->
+  forall e, (e < degree M)%nat ->
+    b M l e (val v) == if Nat.eqb e 0 then 1 # Pos.of_nat (S k) else 0.
+Proof.
+  intros Hl. unfold meets, all. rewrite forallb_forall. split; intros H e He.
+  - rewrite b_val by assumption. apply Qeq_bool_iff, H, in_seq. lia.
+  - apply in_seq in He. apply Qeq_bool_iff. rewrite <- (H e) by lia. symmetry. apply b_val; lia.
 Qed.
 
 Theorem proved_order : starts_ok = true -> branches_ok = true -> products_ok = true ->
@@ -298,34 +338,28 @@ Proof.
   assert (H : hull (FF (order t - 1)%nat (root t)) (psi (Pof M) (Aof M) (oneof M) t)).
   { apply (trees_are_spanned (Pof M) (Aof M) (oneof M) (sees M) (N M) p FF GG);
       [| | |assumption|assumption].
-    - intros l Hl. apply hull_ext with (1 := zone_val l Hl).
+    - intros l Hl. apply hull_ext with (1 := zone_val l).
       apply in_zhull_hull, (all_at _ _ St l Hl).
     - intros j l m Hj Hl Hm Hs a Ha. apply in_map_iff in Ha. destruct Ha as [z [<- Hz]].
       pose proof (all_at _ _ (all_at _ _ (all_at _ _ Br j ltac:(lia)) l Hl) m Hm) as K.
-      cbv zeta beta in K. rewrite (proj1 (seen_iff l m) Hs) in K. cbn [negb orb] in K.
+      cbv beta in K. rewrite (proj1 (seen_iff l m) Hs) in K. cbn [negb orb] in K.
       rewrite forallb_forall in K. specialize (K z Hz).
-      rewrite (nth_table (N M) _ l _ Hl), (nth_table (N M) _ m _ Hm) in K.
       apply in_zhull_hull in K. revert K. apply hull_ext.
-      intros i. destruct (tables_of l Hl) as [_ [_ [A _]]].
-      rewrite (zapp_val _ _ (A m Hm) i). apply app_ext, zscale_val.
+      intros i. rewrite (A_val l m _ Hl Hm i). apply app_ext, zscale_val.
     - intros k l j Hk Hl Hj u w Hu Hw.
       apply in_map_iff in Hu. destruct Hu as [u' [<- Hu]].
       apply in_map_iff in Hw. destruct Hw as [w' [<- Hw]].
       pose proof (all_at _ _ (all_at _ _ (all_at _ _ Pr k Hk) l Hl) (j - 1)%nat ltac:(lia)) as K.
-      cbv zeta beta in K. replace (S (j - 1)) with j in K by lia.
+      cbv beta in K. replace (S (j - 1)) with j in K by lia.
       rewrite forallb_forall in K. specialize (K u' Hu). rewrite forallb_forall in K.
-      specialize (K w' Hw). rewrite (nth_table (N M) _ l _ Hl) in K.
-      apply in_zhull_hull in K. revert K. apply hull_ext.
-      destruct (tables_of l Hl) as [_ [P _]]. apply (zmul_val _ _ _ P). }
+      specialize (K w' Hw). apply in_zhull_hull in K. revert K. apply hull_ext, P_val, Hl. }
   assert (Hl : (root t < N M)%nat) by (apply (colour_below (sees M) (N M)), Ht).
   pose proof (order_pos t) as Op.
   intros e He. apply H; [apply lin_linear|]. intros s Hs.
   apply in_map_iff in Hs. destruct Hs as [z [<- Hz]].
-  pose proof (all_at _ _ (all_at _ _ (all_at _ _ Co (order t - 1)%nat ltac:(lia)) (root t) Hl) e He) as K.
-  cbv beta in K. rewrite forallb_forall in K. specialize (K z Hz). unfold meets in K.
-  apply Qeq_bool_iff in K. replace (S (order t - 1)) with (order t) in K by lia.
-  change (b M (root t) e (val z) == if Nat.eqb e 0 then 1 # Pos.of_nat (order t) else 0).
-  rewrite (b_val _ _ _ Hl He). exact K.
+  pose proof (all_at _ _ (all_at _ _ Co (order t - 1)%nat ltac:(lia)) (root t) Hl) as K.
+  cbv beta in K. rewrite forallb_forall in K. apply meets_val with (2 := K z Hz) in He; [|exact Hl].
+  replace (S (order t - 1)) with (order t) in He by lia. exact He.
 Qed.
 
 (** ** A tree that fails *)
@@ -334,7 +368,7 @@ Fixpoint zpsi t : zvec :=
   match t with Node l us =>
     (fix product us := match us with
        | [] => zone l
-       | u :: r => zmul (zt (P_rows l)) (zapp (zt (A_rows l (root u))) (zscale (order u) (zpsi u)))
+       | u :: r => zmul (Pz l) (zapp (Az l (root u)) (zscale (order u) (zpsi u)))
                         (product r)
      end) us
   end.
@@ -375,46 +409,50 @@ Proof. intros H K i. rewrite (H i). apply K. Qed.
 Lemma zpsi_val t : is_tree M t -> veq (val (zpsi t)) (psi (Pof M) (Aof M) (oneof M) t).
 Proof.
   induction t as [l us IH] using tree_ind'. unfold is_tree. simpl. intros [Hl Hus].
-  destruct (tables_of l Hl) as [_ [P [A _]]].
-  induction us as [|u r IHr]; [apply zone_val, Hl|].
+  induction us as [|u r IHr]; [apply zone_val|].
   destruct Hus as [Hs [Hu Hr]].
-  eapply veq_trans; [apply zmul_val, P|]. apply mul_ext.
-  - eapply veq_trans; [apply zapp_val, A, (colour_below (sees M) (N M)), Hu|]. apply app_ext.
+  eapply veq_trans; [apply P_val, Hl|]. apply mul_ext.
+  - eapply veq_trans; [apply A_val; [exact Hl|apply (colour_below (sees M) (N M)), Hu]|].
+  apply app_ext.
     eapply veq_trans; [apply zscale_val|]. intros i. unfold scale.
     rewrite (IH u (or_introl eq_refl) Hu i). reflexivity.
   - apply IHr; [intros v K; apply IH; right; exact K|exact Hr].
 Qed.
 
 Definition fails (t : tree) : bool :=
-  is_admissible t && existsb (fun e => negb (meets (root t) e (order t - 1) (zpsi t))) (seq 0 (degree M)).
+  is_admissible t && negb (meets (root t) (order t - 1) (zpsi t)).
 
 Theorem proved_failure t : fails t = true -> is_tree M t /\ ~ holds M t.
 Proof.
   intros H. apply andb_prop in H. destruct H as [Ha H]. apply admissible_iff in Ha.
-  split; [assumption|]. intros C. apply existsb_exists in H. destruct H as [e [He H]].
-  apply in_seq in He. destruct He as [_ He]. simpl in He.
+  split; [assumption|]. intros C.
   assert (Hl : (root t < N M)%nat) by (apply (colour_below (sees M) (N M)), Ha).
-  apply negb_true_iff in H. assert (K : meets (root t) e (order t - 1) (zpsi t) = true); [|congruence].
-  unfold meets. apply Qeq_bool_iff. pose proof (order_pos t).
+  apply negb_true_iff in H. assert (K : meets (root t) (order t - 1) (zpsi t) = true);
+    [|congruence].
+  apply meets_val; [exact Hl|]. intros e He. pose proof (order_pos t).
   replace (S (order t - 1)) with (order t) by lia. rewrite <- (C e He).
-  change (val (zapp (zt [weights M (root t) e]) (zpsi t)) 0%nat ==
-          b M (root t) e (psi (Pof M) (Aof M) (oneof M) t)).
-  rewrite <- (b_val _ _ _ Hl He). apply (l_ext _ (lin_linear _)), zpsi_val, Ha.
+  apply (l_ext _ (lin_linear _)), zpsi_val, Ha.
 Qed.
+End WithTables.
 End Checker.
 
 (** ** What is asked of a method: its order, and that it is no higher *)
 
+Definition order_is_proved M p F G : bool :=
+  let T := the_tables M in
+  starts_ok M F && branches_ok M p F G T && products_ok M p F G T && conditions_ok M p F T.
+
 Theorem has_order_by M p F G : order_is_proved M p F G = true -> has_order M p.
 Proof.
-  intros H. unfold order_is_proved in H. repeat (apply andb_prop in H; destruct H as [H ?]).
-  eapply proved_order; eassumption.
+  intros H. unfold order_is_proved in H. cbv zeta in H.
+  repeat (apply andb_prop in H; destruct H as [H ?]).
+  eapply proved_order; try eassumption. reflexivity.
 Qed.
 
 Theorem not_higher_by M p t :
-  tables_are_whole M && Nat.eqb (order t) (S p) && fails M t = true -> ~ has_order M (S p).
+  Nat.eqb (order t) (S p) && fails M (the_tables M) t = true -> ~ has_order M (S p).
 Proof.
-  intros H. apply andb_prop in H. destruct H as [H K]. apply andb_prop in H. destruct H as [T O].
-  apply Nat.eqb_eq in O. destruct (proved_failure M T t K) as [Ht C].
+  intros H. apply andb_prop in H. destruct H as [O K].
+  apply Nat.eqb_eq in O. destruct (proved_failure M _ eq_refl t K) as [Ht C].
   intros G. apply C, G; [lia|assumption].
 Qed.

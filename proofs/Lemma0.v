@@ -3,7 +3,7 @@
     C(k) of one is D(k) of the other, and the even condition is kept. *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Trees Methods Check Pairs Products Conditions.
+From Gark Require Import Stages Trees Methods Tables Check Pairs Products Conditions.
 Import ListNotations.
 Open Scope Q_scope.
 

@@ -15,7 +15,8 @@ Definition number := list Q.
 Inductive space := Points (s : nat) | Modulo (m : list Q).
 
 Record method := {
-  field : list Q;                              (* the monic polynomial of θ; [0] for the rationals *)
+  field : list Q;                              (* the monic polynomial of θ; [0] for the rationals
+    *)
   spaces : list space;
   colours : list (nat * list number);          (* the space of a colour, counted from 0; b *)
   blocks : list (list (option (list (list number)))) }.   (* for a space and a colour: A *)
@@ -29,7 +30,8 @@ Definition space_of l := fst (nth l (colours M) (O, [])).
 Definition the_space k := nth k (spaces M) (Points 0).
 Definition block k m := nth m (nth k (blocks M) []) None.
 
-(** x r modulo the polynomial: r is shifted, and its last coefficient times the polynomial taken away. *)
+(** x r modulo the polynomial: r is shifted, and its last coefficient times the polynomial taken
+  away. *)
 Definition times_x (m r : list Q) : list Q :=
   let top := last r 0 in
   map (fun '(a, c) => Qred (a - top * c)) (combine (0 :: removelast r) m).

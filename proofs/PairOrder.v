@@ -5,7 +5,7 @@
     of the method, and for n = 2k + 2 the even condition. *)
 
 From Coq Require Import QArith List Arith Lia Bool.
-From Gark Require Import Stages Trees Methods Check Pairs.
+From Gark Require Import Stages Trees Methods Tables Check Pairs.
 From Gark Require Import Products Conditions Sufficient Weights Positive Lemma0.
 Import ListNotations.
 Open Scope Q_scope.

@@ -5,7 +5,7 @@
     this is b_i b_j = b_i â_ij + b_j a_ji. *)
 
 From Coq Require Import QArith ZArith List Arith Lia Bool.
-From Gark Require Import Stages Trees Methods Check.
+From Gark Require Import Stages Trees Methods Tables Check.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -14,7 +14,8 @@ Variable M C : method.
 
 (** The coefficient of θ^e in b_l(x) b_m(y). *)
 Definition both l m e (x y : V) : Q :=
-  fold_right Qplus 0 (map (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p) y))
+  fold_right Qplus 0 (map (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd
+    p) y))
     (list_prod (seq 0 (degree M)) (seq 0 (degree M)))).
 
 Definition defect l m e (x y : V) : Q :=
@@ -37,14 +38,16 @@ Definition pair_of : method := {|
 Definition zunit (i : nat) : zvec := (repeat 0%Z i ++ [1%Z], 1%positive).
 Definition unit i := val (zunit i).
 
-Lemma unit_at i j : unit i j == if Nat.eqb j i then 1 else 0.
+Lemma zunit_at i j : nth j (fst (zunit i)) 0%Z = if Nat.eqb j i then 1%Z else 0%Z.
 Proof.
-  unfold unit, val, zunit; simpl. destruct (Nat.eqb_spec j i) as [->|H].
+  simpl. destruct (Nat.eqb_spec j i) as [->|H].
   - rewrite app_nth2, repeat_length, Nat.sub_diag by (rewrite repeat_length; lia). reflexivity.
   - destruct (lt_dec j i) as [L|L].
-    + rewrite app_nth1 by (rewrite repeat_length; lia). rewrite nth_repeat. reflexivity.
+    + rewrite app_nth1 by (rewrite repeat_length; lia). apply nth_repeat.
     + rewrite nth_overflow; [reflexivity|]. rewrite app_length, repeat_length. simpl. lia.
 Qed.
+Lemma unit_at i j : unit i j == if Nat.eqb j i then 1 else 0.
+Proof. unfold unit, val. rewrite zunit_at. destruct (Nat.eqb j i); reflexivity. Qed.
 
 Fixpoint cut n (x : V) : V :=
   match n with O => fun _ => 0 | S n => add (cut n x) (scale (x n) (unit n)) end.
@@ -53,7 +56,8 @@ Lemma cut_at n x j : cut n x j == if Nat.ltb j n then x j else 0.
 Proof.
   induction n; [reflexivity|]. cbn [cut]. unfold add, scale. rewrite IHn, unit_at.
   destruct (Nat.eqb_spec j n) as [->|H].
-  - rewrite Nat.ltb_irrefl. replace (Nat.ltb n (S n)) with true by (symmetry; apply Nat.ltb_lt; lia). ring.
+  - rewrite Nat.ltb_irrefl. replace (Nat.ltb n (S n)) with true by (symmetry; apply Nat.ltb_lt;
+    lia). ring.
   - replace (Nat.ltb j (S n)) with (Nat.ltb j n); [destruct (Nat.ltb j n); ring|].
     apply eq_true_iff_eq. rewrite !Nat.ltb_lt. lia.
 Qed.
@@ -102,14 +106,16 @@ Proof. apply lin_linear. Qed.
 
 Lemma both_left l m e y : linear (fun x => both l m e x y).
 Proof.
-  apply (linear_sum _ (fun p x => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p) y))).
+  apply (linear_sum _ (fun p x => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p)
+    y))).
   intros p. apply linear_times.
   apply linear_ext with (f := fun x => b M m (snd p) y * b M l (fst p) x); [intros; ring|].
   apply linear_times, b_linear.
 Qed.
 Lemma both_right l m e x : linear (both l m e x).
 Proof.
-  apply (linear_sum _ (fun p y => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p) y))).
+  apply (linear_sum _ (fun p y => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p)
+    y))).
   intros p. apply linear_times, linear_times, b_linear.
 Qed.
 
@@ -153,69 +159,94 @@ Qed.
 Definition dim l := (size_of (the_space M (space_of M l)) * degree M)%nat.
 Definition is_local l :=
   forallb (bil_below (dim l) (dim l)) (P_rows M l)
-  && all (degree M) (fun e => lin_below (dim l) (weights M l e))
+  && forallb (lin_below (dim l)) (W_rows M l)
   && all (N M) (fun m => forallb (lin_below (dim m)) (A_rows M l m)
                          && forallb (lin_below (dim m)) (A_rows C l m)).
 
 (** ** The checker *)
 
-Definition zb l e (x : zvec) : Q :=
-  let y := zapp (zt [weights M l e]) x in nth 0 (fst y) 0%Z # snd y.
+(** A product with a unit, as a matrix. *)
+Definition with_left (P : ztable (nat * nat)) i : ztable nat :=
+  (fst P, map (flat_map (fun '(a, c, q) => if Nat.eqb a i then [(c, q)] else [])) (snd P)).
+Definition with_right (P : ztable (nat * nat)) j : ztable nat :=
+  (fst P, map (flat_map (fun '(a, c, q) => if Nat.eqb c j then [(a, q)] else [])) (snd P)).
 
-(** The defect at two units; the tables are made once for all of them. *)
-Definition unit_defect_by Pl Pm Alm Aml l m e (i j : nat) : Q :=
-  zb l e (zmul Pl (zunit i) (zapp Alm (zunit j)))
-  + zb m e (zmul Pm (zapp Aml (zunit i)) (zunit j))
-  - fold_right Qplus 0 (map (fun p =>
-        in_field M e (fst p) (snd p) * (zb l (fst p) (zunit i) * zb m (snd p) (zunit j)))
-      (list_prod (seq 0 (degree M)) (seq 0 (degree M)))).
-Definition unit_defect l m := unit_defect_by (zt (P_rows M l)) (zt (P_rows M m))
-  (zt (A_rows C l m)) (zt (A_rows M m l)) l m.
+Lemma with_left_is P i y : zapp (with_left P i) y = zmul P (zunit i) y.
+Proof.
+  unfold zapp, zmul, with_left. cbn [fst snd]. rewrite map_map. f_equal; [|simpl; lia].
+  apply map_ext. intros ts. induction ts as [|[[a c] q] ts IH]; [reflexivity|].
+  cbn [flat_map zbil]. rewrite zunit_at. destruct (Nat.eqb a i); cbn [List.app zlin]; rewrite IH;
+    ring.
+Qed.
+Lemma with_right_is P j x : zapp (with_right P j) x = zmul P x (zunit j).
+Proof.
+  unfold zapp, zmul, with_right. cbn [fst snd]. rewrite map_map. f_equal; [|simpl; lia].
+  apply map_ext. intros ts. induction ts as [|[[a c] q] ts IH]; [reflexivity|].
+  cbn [flat_map zbil]. rewrite zunit_at. destruct (Nat.eqb c j); cbn [List.app zlin]; rewrite IH;
+    ring.
+Qed.
+
+Definition vanishes (u v w : zvec) : bool :=
+  all (degree M) (fun e => Qeq_bool (val u e + val v e - val w e) 0).
+
+(** The defect of a block at all units; F multiplies numbers. *)
+Definition block_is_conjugate (T T' : ztables) (F : ztable (nat * nat)) l m : bool :=
+  let xs := table (dim l) (fun i =>
+    (with_left (Pz T l) i, zapp (Az T m l) (zunit i), zapp (Wz T l) (zunit i))) in
+  let ys := table (dim m) (fun j =>
+    (with_right (Pz T m) j, zapp (Az T' l m) (zunit j), zapp (Wz T m) (zunit j))) in
+  forallb (fun '(Px, Ax, bx) => forallb (fun '(Py, Ay, by_) =>
+    vanishes (zapp (Wz T l) (zapp Px Ay)) (zapp (Wz T m) (zapp Py Ax)) (zmul F bx by_)) ys) xs.
 
 Definition conjugate_is_proved : bool :=
-  tables_are_whole M && tables_are_whole C && all (N M) is_local &&
+  let T := the_tables M in let T' := the_tables C in let F := zt (product_table M (Points 1)) in
+  all (N M) is_local &&
   all (N M) (fun l => all (N M) (fun m =>
     eqb (is_seen C l m) (is_seen M m l) &&
-    (negb (is_seen M m l) ||
-      let Pl := zt (P_rows M l) in let Pm := zt (P_rows M m) in
-      let Alm := zt (A_rows C l m) in let Aml := zt (A_rows M m l) in
-      all (degree M) (fun e => all (dim l) (fun i => all (dim m) (fun j =>
-        Qeq_bool (unit_defect_by Pl Pm Alm Aml l m e i j) 0)))))).
+    (negb (is_seen M m l) || block_is_conjugate T T' F l m))).
 
 Hypothesis same_field : field C = field M.
 Hypothesis same_spaces : spaces C = spaces M.
 Hypothesis same_colours : colours C = colours M.
 Hypothesis proved : conjugate_is_proved = true.
 
-Lemma zb_val l e v : tables_are_whole M = true -> (l < N M)%nat -> (e < degree M)%nat ->
-  b M l e (val v) == zb l e v.
-Proof. intros T Hl He. rewrite (b_val M T l e v Hl He). reflexivity. Qed.
-
-Lemma unit_defect_val l m e i j : tables_are_whole M = true -> tables_are_whole C = true ->
-  (l < N M)%nat -> (m < N M)%nat -> (e < degree M)%nat ->
-  defect l m e (unit i) (unit j) == unit_defect l m e i j.
+Lemma both_val l m e i j : (l < N M)%nat -> (m < N M)%nat -> (e < degree M)%nat ->
+  both l m e (unit i) (unit j) == val (zmul (zt (product_table M (Points 1)))
+    (zapp (Wz (the_tables M) l) (zunit i)) (zapp (Wz (the_tables M) m) (zunit j))) e.
 Proof.
-  intros T T' Hl Hm He. unfold defect, unit_defect, unit_defect_by.
-  destruct (tables_of M T l Hl) as [_ [Pl _]].
-  destruct (tables_of M T m Hm) as [_ [Pm [Am _]]].
+  intros Hl Hm He. rewrite (zmul_val _ _ _ e), product_table_is. unfold mul.
+  rewrite field_product by exact He. unfold both.
+  fold (sum (list_prod (seq 0 (degree M)) (seq 0 (degree M)))
+    (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) (unit i) * b M m (snd p) (unit j)))).
+  rewrite sum_pairs. apply sum_ext. intros u Hu. apply sum_ext. intros v Hv. cbn [fst snd].
+  apply in_seq in Hu. apply in_seq in Hv. unfold unit.
+  rewrite !(b_val M _ eq_refl) by lia. ring.
+Qed.
+
+Lemma unit_defect_is_0 l m e i j : (l < N M)%nat -> (m < N M)%nat -> (e < degree M)%nat ->
+  (i < dim l)%nat -> (j < dim m)%nat ->
+  block_is_conjugate (the_tables M) (the_tables C) (zt (product_table M (Points 1))) l m = true ->
+  defect l m e (unit i) (unit j) == 0.
+Proof.
+  intros Hl Hm He Hi Hj K. unfold block_is_conjugate in K. cbv zeta in K.
+  rewrite forallb_forall in K. specialize (K _ (in_map _ _ i (proj2 (in_seq (dim l) 0 i)
+    ltac:(lia)))).
+  cbv beta iota in K. rewrite forallb_forall in K.
+  specialize (K _ (in_map _ _ j (proj2 (in_seq (dim m) 0 j) ltac:(lia)))). cbv beta iota in K.
+  pose proof (all_at _ _ K e He) as E. apply Qeq_bool_iff in E.
+  rewrite with_left_is, with_right_is in E.
   assert (Hl' : (l < N C)%nat) by (unfold N; rewrite same_colours; exact Hl).
   assert (Hm' : (m < N C)%nat) by (unfold N; rewrite same_colours; exact Hm).
-  destruct (tables_of C T' l Hl') as [_ [_ [Al _]]].
-  rewrite <- !(zb_val) by assumption.
-  apply Qplus_comp; [apply Qplus_comp|apply Qopp_comp].
-  - apply (l_ext _ (b_linear l e)). intros k. symmetry. revert k.
-    eapply veq_trans; [apply zmul_val, Pl|]. apply mul_ext; [apply veq_refl|].
-    apply (zapp_val _ _ (Al m Hm')).
-  - apply (l_ext _ (b_linear m e)). intros k. symmetry. revert k.
-    eapply veq_trans; [apply zmul_val, Pm|]. apply mul_ext; [|apply veq_refl].
-    apply (zapp_val _ _ (Am l Hl)).
-  - unfold both. assert (U : forall u v, In (u, v) (list_prod (seq 0 (degree M)) (seq 0 (degree M))) ->
-      (u < degree M)%nat /\ (v < degree M)%nat).
-    { intros u v K. apply in_prod_iff in K. rewrite !in_seq in K. lia. }
-    induction (list_prod _ _) as [|[u v] r IH]; simpl; [reflexivity|].
-    destruct (U u v (or_introl eq_refl)) as [Hu Hv].
-    rewrite IH by (intros; apply U; right; assumption).
-    rewrite <- !zb_val by assumption. reflexivity.
+  rewrite <- E. unfold defect. rewrite both_val by assumption.
+  apply Qplus_comp; [apply Qplus_comp|reflexivity].
+  - rewrite <- (b_val M _ eq_refl) by assumption. apply (l_ext _ (b_linear l e)). intros k.
+  symmetry.
+    revert k. eapply veq_trans; [apply (P_val M _ eq_refl), Hl|]. apply mul_ext; [apply veq_refl|].
+    apply (A_val C _ eq_refl); assumption.
+  - rewrite <- (b_val M _ eq_refl) by assumption. apply (l_ext _ (b_linear m e)). intros k.
+  symmetry.
+    revert k. eapply veq_trans; [apply (P_val M _ eq_refl), Hm|]. apply mul_ext; [|apply veq_refl].
+    apply (A_val M _ eq_refl); assumption.
 Qed.
 
 Lemma nth_forallb {X} (c : list X -> bool) rs i : c [] = true -> forallb c rs = true ->
@@ -229,22 +260,25 @@ Theorem proved_conjugate : is_conjugate.
 Proof.
   split; [exact same_field|]. split; [exact same_spaces|]. split; [exact same_colours|].
   pose proof proved as H. unfold conjugate_is_proved in H.
-  apply andb_prop in H. destruct H as [H D]. apply andb_prop in H. destruct H as [H Lo].
-  apply andb_prop in H. destruct H as [T T'].
+  cbv zeta in H. apply andb_prop in H. destruct H as [Lo D].
   intros l m Hl Hm. pose proof (all_at _ _ (all_at _ _ D l Hl) m Hm) as K. cbv beta in K.
   apply andb_prop in K. destruct K as [Se K]. apply eqb_prop in Se.
   split; [rewrite !seen_iff, Se; reflexivity|].
-  intros Hs e x y He. rewrite seen_iff in Hs. rewrite Hs in K. cbn [negb orb] in K. cbv zeta in K.
+  intros Hs e x y He. rewrite seen_iff in Hs. rewrite Hs in K. cbn [negb orb] in K.
   pose proof (all_at _ _ Lo l Hl) as Ll. pose proof (all_at _ _ Lo m Hm) as Lm.
-  unfold is_local in Ll, Lm.
+  unfold is_local, P_rows in Ll, Lm. rewrite product_table_is in Ll, Lm.
   apply andb_prop in Ll. destruct Ll as [Ll LA]. apply andb_prop in Ll. destruct Ll as [LP LW].
   apply andb_prop in Lm. destruct Lm as [Lm MA]. apply andb_prop in Lm. destruct Lm as [MP MW].
   pose proof (all_at _ _ LA m Hm) as LAm. apply andb_prop in LAm. destruct LAm as [_ LC].
+  rewrite A_rows_are in LC.
   pose proof (all_at _ _ MA l Hl) as MAl. apply andb_prop in MAl. destruct MAl as [ML _].
+  rewrite A_rows_are in ML.
   assert (Bl : forall u z w, (u < degree M)%nat -> (forall k, (k < dim l)%nat -> z k == w k) ->
-    b M l u z == b M l u w) by (intros u z w Hu; apply lin_local, (all_at _ _ LW u Hu)).
+    b M l u z == b M l u w) by (intros u z w Hu; apply lin_local; rewrite <- W_at by exact Hu;
+    apply nth_forallb; [reflexivity|exact LW]).
   assert (Bm : forall u z w, (u < degree M)%nat -> (forall k, (k < dim m)%nat -> z k == w k) ->
-    b M m u z == b M m u w) by (intros u z w Hu; apply lin_local, (all_at _ _ MW u Hu)).
+    b M m u z == b M m u w) by (intros u z w Hu; apply lin_local; rewrite <- W_at by exact Hu;
+    apply nth_forallb; [reflexivity|exact MW]).
   assert (U : forall u v, In (u, v) (list_prod (seq 0 (degree M)) (seq 0 (degree M))) ->
       (u < degree M)%nat /\ (v < degree M)%nat).
   { intros u v I. apply in_prod_iff in I. rewrite !in_seq in I. lia. }
@@ -252,23 +286,27 @@ Proof.
   - apply defect_left.
   - intros z w E. unfold defect. apply Qplus_comp; [apply Qplus_comp|apply Qopp_comp].
     + apply (l_ext _ (b_linear l e)). intros k.
-      apply (bil_local (dim l) (dim l)); [apply nth_forallb; [reflexivity|exact LP]|exact E|reflexivity].
+      apply (bil_local (dim l) (dim l)); [apply nth_forallb; [reflexivity|exact LP]|exact
+        E|reflexivity].
     + apply (l_ext _ (b_linear m e)). intros k. apply (l_ext _ (bil_left (Pof M m k) y)). intros n.
-      apply (lin_local (dim l)); [|exact E]. apply (nth_forallb (lin_below (dim l))); [reflexivity|exact ML].
+      apply (lin_local (dim l)); [|exact E]. apply (nth_forallb (lin_below (dim l)));
+        [reflexivity|exact ML].
     + unfold both. induction (list_prod _ _) as [|[u v] r IH]; simpl; [reflexivity|].
       destruct (U u v (or_introl eq_refl)) as [Hu Hv].
       rewrite IH by (intros; apply U; right; assumption). rewrite (Bl u z w Hu E). reflexivity.
   - intros i Hi. apply (zero_on_units (dim m) (defect l m e (unit i))).
     + apply defect_right.
     + intros z w E. unfold defect. apply Qplus_comp; [apply Qplus_comp|apply Qopp_comp].
-      * apply (l_ext _ (b_linear l e)). intros k. apply (l_ext _ (bil_right (Pof M l k) (unit i))). intros n.
-        apply (lin_local (dim m)); [|exact E]. apply (nth_forallb (lin_below (dim m))); [reflexivity|exact LC].
+      * apply (l_ext _ (b_linear l e)). intros k.
+      apply (l_ext _ (bil_right (Pof M l k) (unit i))). intros n.
+        apply (lin_local (dim m)); [|exact E]. apply (nth_forallb (lin_below (dim m)));
+          [reflexivity|exact LC].
       * apply (l_ext _ (b_linear m e)). intros k.
-        apply (bil_local (dim m) (dim m)); [apply nth_forallb; [reflexivity|exact MP]|reflexivity|exact E].
+        apply (bil_local (dim m) (dim m)); [apply nth_forallb; [reflexivity|exact
+          MP]|reflexivity|exact E].
       * unfold both. induction (list_prod _ _) as [|[u v] r IH]; simpl; [reflexivity|].
         destruct (U u v (or_introl eq_refl)) as [Hu Hv].
         rewrite IH by (intros; apply U; right; assumption). rewrite (Bm v z w Hv E). reflexivity.
-    + intros j Hj. rewrite (unit_defect_val l m e i j T T' Hl Hm He). apply Qeq_bool_iff.
-      apply (all_at _ _ (all_at _ _ (all_at _ _ K e He) i Hi) j Hj).
+    + intros j Hj. apply unit_defect_is_0; assumption.
 Qed.
 End Conjugate.

@@ -4,61 +4,9 @@
     polynomial, over ℚ and over ℚ(θ). *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Methods Pairs.
+From Gark Require Import Stages Methods Tables Pairs.
 Import ListNotations.
 Open Scope Q_scope.
-
-(** ** Sums *)
-
-Definition sum {X} (xs : list X) (f : X -> Q) := fold_right Qplus 0 (map f xs).
-
-Lemma sum_ext {X} (xs : list X) f g : (forall a, In a xs -> f a == g a) -> sum xs f == sum xs g.
-Proof.
-  unfold sum. induction xs as [|a xs IH]; simpl; intros H; [reflexivity|].
-  rewrite (H a (or_introl eq_refl)), IH; [reflexivity|]. intros; apply H; right; assumption.
-Qed.
-Lemma sum_plus {X} (xs : list X) f g : sum xs (fun a => f a + g a) == sum xs f + sum xs g.
-Proof. unfold sum. induction xs; simpl; [reflexivity|]. rewrite IHxs. ring. Qed.
-Lemma sum_times {X} (xs : list X) c f : sum xs (fun a => c * f a) == c * sum xs f.
-Proof. unfold sum. induction xs; simpl; [ring|]. rewrite IHxs. ring. Qed.
-Lemma sum_app {X} (xs ys : list X) f : sum (xs ++ ys) f == sum xs f + sum ys f.
-Proof. unfold sum. induction xs; simpl; [ring|]. rewrite IHxs. ring. Qed.
-Lemma sum_map {X Y} (g : X -> Y) xs f : sum (map g xs) f == sum xs (fun a => f (g a)).
-Proof. unfold sum. rewrite map_map. reflexivity. Qed.
-
-Lemma sum_pairs {X Y} (xs : list X) (ys : list Y) f :
-  sum (list_prod xs ys) f == sum xs (fun a => sum ys (fun c => f (a, c))).
-Proof.
-  induction xs as [|a xs IH]; [reflexivity|].
-  simpl list_prod. rewrite sum_app, IH, sum_map. reflexivity.
-Qed.
-Lemma sum_swap {X Y} (xs : list X) (ys : list Y) f :
-  sum xs (fun a => sum ys (fun c => f a c)) == sum ys (fun c => sum xs (fun a => f a c)).
-Proof.
-  induction xs as [|a xs IH].
-  - rewrite (sum_ext ys _ (fun _ => 0 * 0)) by reflexivity. rewrite sum_times. unfold sum. simpl.
-  ring.
-  - change (sum ys (fun c => f a c) + sum xs (fun a => sum ys (fun c => f a c))
-      == sum ys (fun c => f a c + sum xs (fun a => f a c))).
-    rewrite sum_plus, IH. reflexivity.
-Qed.
-Lemma sum_of_products {X Y} (xs : list X) (ys : list Y) f g :
-  sum (list_prod xs ys) (fun p => f (fst p) * g (snd p)) == sum xs f * sum ys g.
-Proof.
-  rewrite sum_pairs. simpl. transitivity (sum xs (fun a => sum ys g * f a)).
-  - apply sum_ext. intros a _. rewrite sum_times. ring.
-  - rewrite sum_times. ring.
-Qed.
-Lemma sum_at n i f : (i < n)%nat ->
-  sum (seq 0 n) (fun a => (if Nat.eqb a i then 1 else 0) * f a) == f i.
-Proof.
-  intros H. induction n; [lia|]. rewrite seq_S, sum_app. unfold sum at 2. simpl.
-  destruct (Nat.eqb_spec n i) as [->|D].
-  - rewrite (sum_ext _ _ (fun _ => 0 * 0)).
-    + rewrite sum_times. ring.
-    + intros a I. apply in_seq in I. destruct (Nat.eqb_spec a i); [lia|ring].
-  - rewrite IHn by lia. ring.
-Qed.
 
 (** ** Structure constants *)
 
@@ -70,69 +18,6 @@ Record algebra (n : nat) (t : nat -> nat -> nat -> Q) (o : nat -> Q) : Prop := {
     sum (seq 0 n) (fun w => t i w d * t w a c) == sum (seq 0 n) (fun w => t i a w * t w c d);
   is_neutral : forall i a, (i < n)%nat -> (a < n)%nat ->
     sum (seq 0 n) (fun w => t i a w * o w) == if Nat.eqb i a then 1 else 0 }.
-
-Lemma nth_of_first {X} (xs : list X) n i x : (i < n)%nat -> nth i (firstn n xs) x = nth i xs x.
-Proof.
-  revert n i. induction xs as [|a xs IH]; intros [|n] [|i] H; simpl; try lia; try reflexivity.
-  apply IH. lia.
-Qed.
-
-Lemma removelast_length (r : list Q) : length (removelast r) = (length r - 1)%nat.
-Proof.
-  induction r as [|a [|c r] IH]; [reflexivity|reflexivity|].
-  change (S (length (removelast (c :: r))) = S (length r)). rewrite IH. simpl. lia.
-Qed.
-Lemma power_length m n : length (power m n) = length m.
-Proof.
-  induction n; cbn [power].
-  - rewrite firstn_length. simpl. rewrite repeat_length. lia.
-  - unfold times_x. rewrite map_length, combine_length. cbn [length]. rewrite removelast_length.
-  lia.
-Qed.
-
-Lemma power_0 m i : (i < length m)%nat -> nth i (power m 0) 0 == if Nat.eqb i 0 then 1 else 0.
-Proof.
-  intros H. cbn [power]. rewrite nth_of_first by exact H.
-  destruct i; [reflexivity|]. cbn [nth Nat.eqb]. rewrite nth_repeat. reflexivity.
-Qed.
-
-Lemma nth_removelast (r : list Q) i : (S i < length r)%nat -> nth i (removelast r) 0 = nth i r 0.
-Proof.
-  revert i. induction r as [|a r IH]; [simpl; lia|].
-  destruct r as [|c r]; [simpl; lia|]. intros [|i] H; [reflexivity|].
-  change (nth i (removelast (c :: r)) 0 = nth i (c :: r) 0). apply IH. simpl in *. lia.
-Qed.
-Lemma last_nth (r : list Q) : last r 0 = nth (length r - 1) r 0.
-Proof.
-  induction r as [|a r IH]; [reflexivity|]. destruct r as [|c r]; [reflexivity|].
-  change (last (c :: r) 0 = nth (length r) (c :: r) 0).
-  rewrite IH. f_equal. simpl. lia.
-Qed.
-
-Lemma power_S m n i : (i < length m)%nat -> nth i (power m (S n)) 0 ==
-  (if Nat.eqb i 0 then 0 else nth (i - 1) (power m n) 0)
-  - nth (length m - 1) (power m n) 0 * nth i m 0.
-Proof.
-  intros H. cbn [power]. unfold times_x. rewrite last_nth, power_length.
-  set (f := fun '(a, c) => Qred (a - nth (length m - 1) (power m n) 0 * c)).
-  assert (L : length (0 :: removelast (power m n)) = length m)
-    by (simpl; rewrite removelast_length, power_length; lia).
-  rewrite nth_indep with (d' := f (0, 0)) by (rewrite map_length, combine_length, L; lia).
-  rewrite map_nth, combine_nth by exact L. unfold f. rewrite Qred_correct.
-  destruct i; [reflexivity|]. cbn [nth Nat.eqb]. replace (S i - 1)%nat with i by lia.
-  rewrite nth_removelast; [reflexivity|]. rewrite power_length. lia.
-Qed.
-
-Lemma power_small m n i : (n < length m)%nat -> (i < length m)%nat ->
-  nth i (power m n) 0 == if Nat.eqb i n then 1 else 0.
-Proof.
-  revert i. induction n; intros i Hn H; [apply power_0, H|].
-  rewrite power_S by exact H. rewrite (IHn (length m - 1)%nat) by lia.
-  destruct (Nat.eqb_spec (length m - 1) n); [lia|].
-  destruct (Nat.eqb_spec i 0) as [->|D]; [simpl; ring|].
-  rewrite IHn by lia. replace (Nat.eqb (i - 1) n) with (Nat.eqb i (S n)); [ring|].
-  apply Bool.eq_true_iff_eq. rewrite !Nat.eqb_eq. lia.
-Qed.
 
 (** x^n v, for v the polynomial x^k modulo m. *)
 Lemma power_plus m k n i : (i < length m)%nat ->
@@ -211,33 +96,6 @@ Notation mu l := (mul (Pof M l)).
 Definition space_at l := the_space M (space_of M l).
 Definition field_algebra : algebra (degree M) (in_field M) (fun e => if Nat.eqb e 0 then 1 else 0)
   := modulo_algebra (field M).
-
-Lemma nth_entry {X} n d (i e : nat) (f : nat * nat -> X) x : (i < n)%nat -> (e < d)%nat ->
-  nth (i * d + e) (map f (list_prod (seq 0 n) (seq 0 d))) x = f (i, e).
-Proof.
-  intros Hi He. assert (G : forall k, nth (i * d + e) (map f (list_prod (seq k n) (seq 0 d)))
-    x = f ((k + i)%nat, e)).
-  { clear - Hi He. revert i Hi. induction n; [lia|]. intros i Hi k. cbn [seq list_prod].
-    rewrite map_app, map_map. destruct i.
-    - rewrite app_nth1 by (rewrite map_length, seq_length; lia). simpl.
-      rewrite nth_indep with (d' := f (k, O)) by (rewrite map_length, seq_length; lia).
-      rewrite (map_nth (fun y => f (k, y))), seq_nth by lia. rewrite Nat.add_0_r. reflexivity.
-    - rewrite app_nth2 by (rewrite map_length, seq_length; simpl; lia).
-      rewrite map_length, seq_length. replace (S i * d + e - d)%nat with (i * d + e)%nat by (simpl;
-        lia).
-      rewrite IHn by lia. f_equal. f_equal. lia. }
-  rewrite (G 0%nat). reflexivity.
-Qed.
-
-Lemma bil_sum {X} (ps : list X) (f g : X -> nat) q x y :
-  bil (nonzero (map (fun p => (f p, g p, Qred (q p))) ps)) x y ==
-    sum ps (fun p => q p * x (f p) * y (g p)).
-Proof.
-  unfold sum. induction ps as [|p ps IH]; [reflexivity|]. cbn [map nonzero filter fold_right].
-  cbn [snd]. rewrite <- IH. destruct (Qeq_bool (Qred (q p)) 0) eqn:E; cbn [negb bil].
-  - apply Qeq_bool_iff in E. rewrite Qred_correct in E. rewrite E. unfold nonzero. ring.
-  - unfold nonzero. rewrite Qred_correct. reflexivity.
-Qed.
 
 Lemma mu_at l x y i e : (i < size_of (space_at l))%nat -> (e < degree M)%nat ->
   mu l x y (entry M (i, e)) ==

@@ -33,7 +33,8 @@ Fixpoint psi t : V :=
   match t with Node l branches =>
     (fix product us := match us with
        | [] => one l
-       | u :: r => mul (mulof l) (app (A l (root u)) (scale (inject_Z (Z.of_nat (order u))) (psi u)))
+       | u :: r => mul (mulof l) (app (A l (root u)) (scale (inject_Z (Z.of_nat (order u))) (psi
+         u)))
                        (product r)
      end) branches
   end.

@@ -3,7 +3,7 @@
     Rational methods with stages at points. *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Methods Check Pairs Products Conditions.
+From Gark Require Import Stages Methods Tables Check Pairs Products Conditions.
 Import ListNotations.
 Open Scope Q_scope.
 

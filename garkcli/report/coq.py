@@ -64,19 +64,20 @@ Open Scope Q_scope.
 """
 _CONJUGATE = """\
 Theorem it_is_the_conjugate : is_conjugate the_method the_conjugate.
-Proof. apply proved_conjugate; vm_compute; reflexivity. Qed.
+Proof. apply proved_conjugate; [reflexivity..|vm_cast_no_check (eq_refl true)]. Qed.
 Print Assumptions it_is_the_conjugate.
 """
 _ORDER = """\
 Theorem order_of_{label} : has_order {name} {order}.
 Proof.
-  apply has_order_by with (F := {label}_trees) (G := {label}_branches). vm_compute. reflexivity.
+  apply has_order_by with (F := {label}_trees) (G := {label}_branches).
+  vm_cast_no_check (eq_refl true).
 Qed.
 Print Assumptions order_of_{label}.
 """
 _NO_HIGHER = """\
 Theorem {label}_has_no_higher_order : ~ has_order {name} {next}.
-Proof. apply not_higher_by with (t := {tree}). vm_compute. reflexivity. Qed.
+Proof. apply not_higher_by with (t := {tree}). vm_cast_no_check (eq_refl true). Qed.
 Print Assumptions {label}_has_no_higher_order.
 """
 

@@ -27,8 +27,8 @@ from tests.order.test_pair_order import QUARTERS, THREE_EIGHTHS
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / ".proofs"
 STEPS = (
-    *("Stages", "Trees", "Methods", "Check", "Pairs", "Products", "Conditions", "Sufficient"),
-    *("Weights", "Positive", "Lemma0", "PairOrder"),
+    *("Stages", "Trees", "Methods", "Tables", "Check", "Pairs", "Products", "Conditions"),
+    *("Sufficient", "Weights", "Positive", "Lemma0", "PairOrder"),
 )
 COQ = Tool("Coq", ("coqc", "--version"), "coq")
 LONGEST = 300  # seconds of processor time for a file
