@@ -31,10 +31,9 @@ NAMES = {
     },
     "Methods from it": {"api.methods": "conjugate pair symplectic_pair reduced"},
     "Trees": {
-        "trees.tree": "Tree",
-        "trees.notation": "parse_tree",
-        "api.trees": "format_tree all_trees count_trees conditions all_conditions "
-        "elementary_weight",
+        "ntrees.tree": "Tree",
+        "ntrees.notation": "parse_tree",
+        "api.trees": "format_tree trees count_trees conditions all_conditions elementary_weight",
     },
     "On problems": {
         "api.problems": "problem hamiltonian",
@@ -89,8 +88,8 @@ ANSWERS = {
     "methodfile.file_keys": "Files.method=told",
     "methodfile.problem_keys": "Files.problem=told",
     "sweep.plan": "Files.sweep=told",
-    "trees.notation": "Tree.text=format_tree",
-    "trees.drawing": "Tree.svg=draw_svg",
+    "ntrees.notation": "Tree.text=format_tree",
+    "ntrees.drawing": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "
     "Witness.html=witness_html Order.html=order_html RoundedOrder.html=order_html "
     "DenseOrder.html=dense_order_html Condition.html=condition_html "

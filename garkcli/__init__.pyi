@@ -45,11 +45,11 @@ from garkcli.api.runs import long_run as long_run
 from garkcli.api.runs import symplecticity_defects as symplecticity_defects
 from garkcli.api.runs import trajectory as trajectory
 from garkcli.api.trees import all_conditions as all_conditions
-from garkcli.api.trees import all_trees as all_trees
 from garkcli.api.trees import conditions as conditions
 from garkcli.api.trees import count_trees as count_trees
 from garkcli.api.trees import elementary_weight as elementary_weight
 from garkcli.api.trees import format_tree as format_tree
+from garkcli.api.trees import trees as trees
 from garkcli.bridges.calls import audit as audit
 from garkcli.bridges.calls import export as export
 from garkcli.bridges.calls import import_methods as import_methods
@@ -66,6 +66,8 @@ from garkcli.errors import ZeroWeight as ZeroWeight
 from garkcli.methodfile.build import MethodFile as MethodFile
 from garkcli.methodfile.file_keys import method_file_schema as method_file_schema
 from garkcli.methodfile.problem_keys import problem_file_schema as problem_file_schema
+from garkcli.ntrees.notation import parse_tree as parse_tree
+from garkcli.ntrees.tree import Tree as Tree
 from garkcli.plots.calls import plot as plot
 from garkcli.problems.oscillator import Oscillator as Oscillator
 from garkcli.report.calls import certificate as certificate
@@ -77,8 +79,6 @@ from garkcli.report.schemas import report_schema as report_schema
 from garkcli.sweep.plan import sweep_schema as sweep_schema
 from garkcli.tableau.garkmethod import GarkMethod as GarkMethod
 from garkcli.tableau.tableau import Tableau as Tableau
-from garkcli.trees.notation import parse_tree as parse_tree
-from garkcli.trees.tree import Tree as Tree
 from garkcli.version import __version__ as __version__
 from garkcli.webpage.page import report_page as report_page
 

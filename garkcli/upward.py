@@ -30,7 +30,7 @@ def hand_down(answering: Answering) -> None:
 def answered(value: object, question: str, **options: Any) -> Any:
     """What is answered of a value, with some options; None where nothing is.
 
-    >>> from garkcli.trees.tree import Tree
+    >>> from garkcli.ntrees.tree import Tree
     >>> answered(Tree(0, [Tree(0)]), "text")
     '[[]_1]_1'
     """

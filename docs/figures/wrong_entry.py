@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from garkcli import find_order, loads
+from garkcli.ntrees.drawing import FONTS, layout
+from garkcli.ntrees.notation import format_tree
 from garkcli.order.blame import Missed, Repair, blame_of
-from garkcli.trees.drawing import FONTS, layout
-from garkcli.trees.notation import format_tree
 
 HERE = Path(__file__).resolve().parent
 RK4 = """

@@ -9,13 +9,13 @@ from garkcli.api.anymethod import AnyMethod, meant_of
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.errors import MethodError, counted
 from garkcli.exact.field import Number as Exact
+from garkcli.ntrees import count, notation
+from garkcli.ntrees.blocks import iter_blocks
+from garkcli.ntrees.notation import parse_tree
+from garkcli.ntrees.tree import Tree
 from garkcli.order import conditions as by_tree
 from garkcli.order.conditions import Condition
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees import count, notation
-from garkcli.trees.blocks import iter_blocks
-from garkcli.trees.notation import parse_tree
-from garkcli.trees.tree import Tree
 
 AnyTree: TypeAlias = "Tree | str"
 """A tree, or its text in bracket notation."""
@@ -54,14 +54,14 @@ def format_tree(tree: AnyTree, colours: bool = True) -> str:
     return notation.format_tree(tree_of(tree), colours)
 
 
-def all_trees(order: Whole, colours: Whole = 1) -> Iterator[Tree]:
+def trees(order: Whole, colours: Whole = 1) -> Iterator[Tree]:
     """The trees of an order, in the order of ``gark trees``.
 
     Args:
         order: how many vertices, at least 1.
         colours: how many a vertex may have.
 
-    >>> [format_tree(u, colours=False) for u in all_trees(3)]
+    >>> [format_tree(u, colours=False) for u in trees(3)]
     ['[[],[]]', '[[[]]]']
     """
     order = whole(order, "order", 1)

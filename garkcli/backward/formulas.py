@@ -12,6 +12,7 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import elementary_weight
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -19,15 +20,14 @@ from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.exact.nodes import Expression
+    from garkcli.ntrees.free import Structure
     from garkcli.stepping.integrator import Binding
-    from garkcli.trees.free import Structure
 
 
 Formula: TypeAlias = Any

@@ -15,11 +15,11 @@ from functools import cached_property
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
+from garkcli.ntrees.free import Structure
+from garkcli.ntrees.symplectic import ConditionClass, independent_classes, superfluous_classes
+from garkcli.ntrees.tree import Tree
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.free import Structure
-from garkcli.trees.symplectic import ConditionClass, independent_classes, superfluous_classes
-from garkcli.trees.tree import Tree
 
 
 class FreeTree(Frozen):

@@ -16,8 +16,8 @@ from functools import cached_property
 from garkcli.backward.series import Forest, elementary_weights, logarithm
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 
 
 class ModifiedEquation(Frozen):

@@ -29,10 +29,10 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.frozen import Frozen, Mutable, field
+from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import Admissible, counts_upto
-from garkcli.trees.tree import Tree
 
 MAX_TREES = 40_000
 """The most trees that are held at once, all orders together."""
@@ -79,7 +79,7 @@ class Forest(Frozen):
         Raises:
             UsageProblem: there are more than ``MAX_TREES`` of them.
         """
-        from garkcli.trees.table import TreeTable  # numpy is paid for here
+        from garkcli.ntrees.table import TreeTable  # numpy is paid for here
 
         _check_size(admissible, order)
         table = TreeTable.of(admissible, order)
@@ -224,7 +224,7 @@ def exact_weights(forest: Forest) -> list[Number]:
 def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
     """The b with B(a, y) the flow of B(b, y): the modified vector field of a method, times h.
 
-    >>> from garkcli.trees.count import Admissible
+    >>> from garkcli.ntrees.count import Admissible
     >>> forest = Forest.of(Admissible.of(1), 4)
     >>> logarithm(forest, exact_weights(forest))
     [1, 0, 0, 0, 0, 0, 0, 0]

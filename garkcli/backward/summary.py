@@ -23,7 +23,7 @@ from garkcli.upward import Shown
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.trees.free import Structure
+    from garkcli.ntrees.free import Structure
 
 
 class Reached(Frozen):

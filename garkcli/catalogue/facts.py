@@ -20,11 +20,11 @@ from garkcli.methodfile.nodes import one_line
 from garkcli.methodfile.reading import SUFFIX, read_text
 from garkcli.methodfile.shelves import key_of
 from garkcli.methodfile.source import METHOD_FILE
+from garkcli.ntrees.count import count_trees
 from garkcli.order.constants import error_constants
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.tableau.pointwise import in_points
-from garkcli.trees.count import count_trees
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis

@@ -13,10 +13,10 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
+from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
 from garkcli.tableau.forms import with_time
-from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis

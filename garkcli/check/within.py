@@ -15,6 +15,7 @@ from collections.abc import Sequence
 
 from garkcli.exact.display import to_ball
 from garkcli.frozen import replace
+from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight, is_admissible
 from garkcli.order.deciding import AnyOrder
@@ -22,7 +23,6 @@ from garkcli.order.rounded import RoundedOrder
 from garkcli.order.simplifying import Simplifying
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 
 
 def implied(

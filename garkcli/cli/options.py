@@ -74,7 +74,7 @@ KINDS: dict[str, dict[str, Any]] = {
 """What values of options are, by the words of the table."""
 WORDS = {
     "forms": "cli.options:forms",
-    "kinds": "trees.symplectic:KINDS",
+    "kinds": "ntrees.symplectic:KINDS",
     "objectives": "design.minimise.objectives:OBJECTIVES",
 }
 """Where the words are that an option takes one of."""

@@ -146,9 +146,9 @@ import -v --verbose | Show the method files.
 --key KEY many name=keys = claims_of.keys
     | Add this claim; repeatable.
 
---colours -N N 1..1000 default= = all_trees.colours
+--colours -N N 1..1000 default= = trees.colours
     | The number of colours; with --symplectic, of terms of the split.
-trees --order -n n 1..10000 = all_trees.order
+trees --order -n n 1..10000 = trees.order
 --upto | Every order from 1 to n.
 --root L 1.. | Only trees whose root has colour L.
 --colours-used L,M,... | Only trees in which each of these colours occurs.
@@ -299,7 +299,7 @@ trees: conditions [FILE] | the order conditions, in general or of one method
     --colours --order --only --coloured --conjugate --pair --failing --sort --digits --document
     --symplectic --kind --members --set
 trees: trees [ORDER] | the trees of an order: list, count or draw them
-    = all_trees count_trees parse_tree format_tree
+    = trees count_trees parse_tree format_tree
     --colours --order --upto --root --colours-used --count --yes --tree --svg --document
     --symplectic --kind --members
 running: modified FILE | the modified equation or Hamiltonian, and the effective order

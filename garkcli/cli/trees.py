@@ -17,11 +17,11 @@ from garkcli.errors import HasFreeParameters, UsageProblem
 from garkcli.frozen import replace
 
 if TYPE_CHECKING:
+    from garkcli.ntrees.tree import Tree
     from garkcli.order.conditions import Condition
     from garkcli.report.conditions import ConditionRow, Valued
     from garkcli.report.symplectic_subject import Subject
     from garkcli.report.trees import Query, TreeRow
-    from garkcli.trees.tree import Tree
 
 MANY = 1_000_000
 """So many lines are asked for twice."""
@@ -43,8 +43,8 @@ def trees(given: Given, output: Output) -> None:
     if given.symplectic:
         _free_trees(given, output)
         return
+    from garkcli.ntrees.notation import parse_tree
     from garkcli.report import trees as report
-    from garkcli.trees.notation import parse_tree
 
     colours = given.colours or 1
     used = _colours(given.colours_used, colours)
@@ -85,7 +85,7 @@ def _orders(given: Given) -> range:
 
 def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
     """For each order the number of trees by root colour."""
-    from garkcli.trees.count import Admissible, count_by_root, counts_upto
+    from garkcli.ntrees.count import Admissible, count_by_root, counts_upto
 
     if not query.upto:
         return [(query.order, count_by_root(query.colours, query.order))]
@@ -94,8 +94,8 @@ def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
 
 def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
     """A row for each tree of these orders."""
+    from garkcli.ntrees.blocks import select
     from garkcli.report.trees import TreeRow
-    from garkcli.trees.blocks import select
 
     root = None if query.root is None else query.root - 1
     colours, used = query.colours, query.used
@@ -118,8 +118,8 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
     Raises:
         UsageProblem: they are too many for a sheet.
     """
-    from garkcli.trees.drawing import draw_svg_sheet
-    from garkcli.trees.notation import format_tree
+    from garkcli.ntrees.drawing import draw_svg_sheet
+    from garkcli.ntrees.notation import format_tree
 
     drawn = list(islice(listed, MAX_PICTURES + 1))
     if len(drawn) > MAX_PICTURES:
@@ -167,8 +167,8 @@ def _free_trees(given: Given, output: Output) -> None:
 
 def _single(given: Given, output: Output) -> None:
     """One tree, given in bracket text."""
+    from garkcli.ntrees.notation import NotationError, format_tree, parse_tree
     from garkcli.report import trees as report
-    from garkcli.trees.notation import NotationError, format_tree, parse_tree
 
     try:
         tree = parse_tree(given.tree)
@@ -308,8 +308,8 @@ def _coloured(given: Given, format: str) -> int:
 
 def _table(colours: int, orders: range) -> Iterator[ConditionRow]:
     """A row for each tree, or for each shape."""
+    from garkcli.ntrees.blocks import iter_blocks
     from garkcli.report.conditions import ConditionRow
-    from garkcli.trees.blocks import iter_blocks
 
     for n in orders:
         for block in iter_blocks(colours or 1, n, block_size=BLOCK_SIZE):

@@ -9,12 +9,12 @@ from flint import arb
 from garkcli.comparison.grid import DIGITS, CellRows, Grid, Likeness, difference
 from garkcli.exact.display import to_ball
 from garkcli.frozen import Frozen
+from garkcli.ntrees.count import count_by_root
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import count_by_root
-from garkcli.trees.tree import Tree
 
 
 class EntryGap(Frozen):
@@ -231,7 +231,7 @@ def _common_roots(one: Tableau, other: Tableau) -> list[int]:
 
 
 def _trees(colours: int, order: int, graph: _Graph, roots: Sequence[int]) -> Iterator[Tree]:
-    from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
+    from garkcli.ntrees.blocks import iter_blocks  # numpy is paid for here
 
     edges, linear = graph
     for block in iter_blocks(colours, order, edges=edges, linear=linear, roots=roots):

@@ -25,9 +25,9 @@ from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long, times
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Edge, Tableau
-from garkcli.trees.tree import Tree
 
 Entry: TypeAlias = Any
 """A polynomial of parameters, or an exact number."""

@@ -26,12 +26,12 @@ from garkcli.errors import NotDecided, ZeroWeight
 from garkcli.exact.field import Number
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]

@@ -28,10 +28,10 @@ from flint import arb, arb_mat, ctx
 
 from garkcli.exact.enclosing import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, OrderByOrder
 from garkcli.tableau.rounded import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
-from garkcli.trees.tree import Tree
 
 Rows = list[Entries]
 Places = list[int]

@@ -16,12 +16,12 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import order_of
 from garkcli.tableau.meant import AnyTableau, derived, meant, printed
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
-from garkcli.trees.tree import Tree
 
 MAX_CONDITIONS = 20_000
 """Most conditions that are evaluated to find a culprit."""

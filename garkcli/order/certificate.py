@@ -23,9 +23,9 @@ from garkcli.exact.field import Number, coordinates
 from garkcli.exact.matrix import LinearMap, dot
 from garkcli.exact.span import AffineSpan
 from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, Forests, Spans
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 DEFAULT_LIMIT = 60

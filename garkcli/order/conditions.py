@@ -11,12 +11,12 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.count import count_by_root
+from garkcli.ntrees.tree import Tree
 from garkcli.order.tolerance import within
 from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
-from garkcli.trees.count import count_by_root
-from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
@@ -179,7 +179,7 @@ def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
     """The trees of ``order`` that the coupling graph admits, one root colour of each group of
     twins.
     """
-    from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
+    from garkcli.ntrees.blocks import iter_blocks  # numpy is paid for here
 
     edges, linear = coupling_graph(tableau)
     twins = twin_roots(tableau)

@@ -15,18 +15,18 @@ from garkcli.doing import doing
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
+from garkcli.ntrees.count import count_trees
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import all_conditions, count_conditions, coupling_graph
 from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import count_trees
-from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     import numpy as np
 
-    from garkcli.trees.table import TreeTable
+    from garkcli.ntrees.table import TreeTable
 
 EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly; beyond them floats do."""
@@ -151,8 +151,8 @@ def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:
 def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     import numpy as np
 
-    from garkcli.trees.stage_vectors import elementary_weights
-    from garkcli.trees.table import TreeTable
+    from garkcli.ntrees.stage_vectors import elementary_weights
+    from garkcli.ntrees.table import TreeTable
 
     edges, linear = coupling_graph(tableau)
     table = TreeTable.upto(tableau.size, order, edges, linear)

@@ -16,10 +16,10 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.enclosing import scalar_product
 from garkcli.exact.matrix import Vector
+from garkcli.ntrees.tree import Tree
 from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.rounded import RoundedTableau, Row
 from garkcli.tableau.tableau import Edge
-from garkcli.trees.tree import Tree
 
 BITS = 128
 """Precision of the bounds; they are wanted to a digit or two."""

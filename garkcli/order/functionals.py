@@ -22,12 +22,12 @@ from flint import fmpq
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import StageSpans, Witness, witness_of
 from garkcli.order.constants import ErrorConstants, estimate_constants
 from garkcli.tableau.embedded import Weights, with_weights
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
     from garkcli.tableau.rounded import RoundedTableau

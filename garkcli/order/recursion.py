@@ -17,8 +17,8 @@ from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, LinearMap
 from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Edge, Tableau
-from garkcli.trees.tree import Tree
 
 Value = TypeVar("Value")
 

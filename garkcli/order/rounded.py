@@ -20,6 +20,10 @@ from garkcli.doing import doing
 from garkcli.exact.display import decimal, to_ball
 from garkcli.exact.enclosing import times
 from garkcli.frozen import Frozen, FrozenBut
+from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.stage_vectors import StageVectors
+from garkcli.ntrees.table import TreeTable
+from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.conditions import coupling_graph, elementary_weight, is_admissible, twin_roots
@@ -27,14 +31,10 @@ from garkcli.order.effects import Effects
 from garkcli.order.tolerance import within
 from garkcli.tableau.rounded import Enclosure, RoundedTableau, Row, Rows, enclose_tableau
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import Admissible, counts_upto
-from garkcli.trees.stage_vectors import StageVectors
-from garkcli.trees.table import TreeTable
-from garkcli.trees.tree import Tree
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from garkcli.trees.table import Column, Segment
+    from garkcli.ntrees.table import Column, Segment
 
 
 class Sizes(Frozen, eq=False):

@@ -9,6 +9,7 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import FrozenBut
+from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.order.approximate_spans import ApproximateSpans, HullSizes
 from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
@@ -20,7 +21,6 @@ from garkcli.order.tolerance import unnatural, within
 from garkcli.tableau.rounded import RoundedTableau, enclose_tableau
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import Admissible, counts_upto
 
 SLACK = 10
 """Units of the last place by which a coefficient may be off that was computed in them."""

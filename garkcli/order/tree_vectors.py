@@ -6,8 +6,8 @@ from typing import TypeAlias
 
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Vector, apply
+from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 
 _Place: TypeAlias = tuple[int, Tree]
 """Who sees a branch, by its stage space, and the branch."""

@@ -20,6 +20,7 @@ from garkcli.exact.field import Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
 from garkcli.frozen import replace
+from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -29,7 +30,6 @@ from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice, order_answer
 from garkcli.tell.parts import part, parts, rows_of, told
 from garkcli.tell.report import Report
-from garkcli.trees.notation import format_tree
 from garkcli.version import __version__
 
 HEADLINE, USUAL, DETAIL, DATA = Level

@@ -10,6 +10,8 @@ from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
+from garkcli.ntrees.drawing import draw_text, text_width
+from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import counted, folded
@@ -20,8 +22,6 @@ from garkcli.report.failure import FAULT
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional, via
 from garkcli.tell.parts import part, parts, picture, rows_of, told
-from garkcli.trees.drawing import draw_text, text_width
-from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
     from garkcli.check.every_family import EveryFamily
@@ -143,7 +143,7 @@ def witnesses(a: Any) -> list[tuple[Any, Any]]:
 def in_a_line(tree: Any) -> list[str]:
     """A tree without forks, from its root on; empty for others.
 
-    >>> from garkcli.trees.tree import Tree
+    >>> from garkcli.ntrees.tree import Tree
     >>> in_a_line(Tree(0, [Tree(0, [Tree(0)])]))
     ['●─●─●']
     """

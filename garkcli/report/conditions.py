@@ -10,6 +10,8 @@ from flint import fmpq
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, Mutable, replace
+from garkcli.ntrees.notation import condition_latex, condition_text, format_tree, vertex_letters
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.latex import number
@@ -23,8 +25,6 @@ from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import NUMERAL, POSITION, TEXTS, TOLERANCE, choice, numeral_text
 from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
-from garkcli.trees.notation import condition_latex, condition_text, format_tree, vertex_letters
-from garkcli.trees.tree import Tree
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""

@@ -15,11 +15,11 @@ from flint import fmpq, fmpq_poly
 from garkcli.check.analysis import MethodProof
 from garkcli.errors import MethodError
 from garkcli.exact.field import Number, coordinates
+from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Order, Proof
 from garkcli.order.hulls import Hull, hulls
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 from garkcli.version import __version__
 
 

@@ -9,6 +9,7 @@ from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.backward.summary import BackwardAnalysis
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import counted, numbered
 from garkcli.reason import NO_REASON, Reason
@@ -29,7 +30,6 @@ from garkcli.tell.kinds import (
 )
 from garkcli.tell.parts import part, parts, rows_of, table, told
 from garkcli.tell.report import Report
-from garkcli.trees.tree import Tree
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_TERMS = 10

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.findings import witness_text
 from garkcli.exact.polynomial_text import integral
+from garkcli.ntrees.drawing import draw_svg_sheet
 from garkcli.page.cells import remark
 from garkcli.page.exactly import polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
-from garkcli.trees.drawing import draw_svg_sheet
 
 if TYPE_CHECKING:
     from garkcli.order.certificate import Witness

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from garkcli.frozen import Frozen
+from garkcli.ntrees.symplectic import KINDS, ConditionClass
+from garkcli.ntrees.tree import Tree
 from garkcli.page.schema import Schema, counts_of, one_of, published
 from garkcli.report import trees
 from garkcli.report.symplectic_subject import SUBJECT, Subject
@@ -14,8 +16,6 @@ from garkcli.tell.facts import Kind, Row, Section, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TRUTH, choice
 from garkcli.tell.parts import rows_of, sentence, stream
 from garkcli.tell.report import Report
-from garkcli.trees.symplectic import KINDS, ConditionClass
-from garkcli.trees.tree import Tree
 
 
 class FreeList(Frozen):

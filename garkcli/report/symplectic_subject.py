@@ -7,15 +7,10 @@ from functools import cached_property
 
 from garkcli.errors import UsageProblem
 from garkcli.frozen import Frozen
-from garkcli.page.paint import counted
-from garkcli.tableau.meant import AnyTableau, printed
-from garkcli.tableau.tableau import Tableau
-from garkcli.tell.facts import Level, Row, Section
-from garkcli.tell.kinds import COUNT, POSITION, TEXTS, choice
-from garkcli.trees.count import Admissible, counts_upto
-from garkcli.trees.free import Structure
-from garkcli.trees.notation import format_tree
-from garkcli.trees.symplectic import (
+from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.free import Structure
+from garkcli.ntrees.notation import format_tree
+from garkcli.ntrees.symplectic import (
     KINDS,
     ConditionClass,
     Kind,
@@ -23,6 +18,11 @@ from garkcli.trees.symplectic import (
     independent_classes,
     structure_of,
 )
+from garkcli.page.paint import counted
+from garkcli.tableau.meant import AnyTableau, printed
+from garkcli.tableau.tableau import Tableau
+from garkcli.tell.facts import Level, Row, Section
+from garkcli.tell.kinds import COUNT, POSITION, TEXTS, choice
 
 _LETTERS = {"q": "V", "p": "F", "y": "f"}
 _PROBLEMS = {

@@ -6,6 +6,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from garkcli.frozen import Frozen, Mutable
+from garkcli.ntrees.drawing import draw_text
+from garkcli.ntrees.notation import parse_tree
+from garkcli.ntrees.tree import Tree
 from garkcli.page.paint import counted
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
@@ -13,9 +16,6 @@ from garkcli.tell.facts import Kind, Level, Row, Section, optional
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TRUTH
 from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
-from garkcli.trees.drawing import draw_text
-from garkcli.trees.notation import parse_tree
-from garkcli.trees.tree import Tree
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""

@@ -23,23 +23,23 @@ from garkcli.exact.polynomial_text import (
     root_text,
 )
 from garkcli.frozen import Mutable, field
+from garkcli.ntrees.notation import format_tree
 from garkcli.page.paint import Paint, folded, indented, shown_width
 from garkcli.page.plain import inert, printable
 from garkcli.page.plaintext import plain_text
 from garkcli.reason import Place, Reason
-from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
+    from garkcli.ntrees.tree import Tree
     from garkcli.order.certificate import Witness
     from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
     from garkcli.tell.facts import Status
-    from garkcli.trees.tree import Tree
 
 LONG = 40
 """Longer exact numbers are shown as decimals where that is enough."""

@@ -12,6 +12,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text
 from garkcli.frozen import Frozen
+from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.latex import number
@@ -19,7 +20,6 @@ from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Status
-from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_latex
 from garkcli.exact.polynomial_text import root_text
+from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
-from garkcli.trees.notation import format_latex, parse_tree
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
+    from garkcli.ntrees.tree import Tree
     from garkcli.reason import Place
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
-    from garkcli.trees.tree import Tree
 
 SIGNS = {
     **{sign: rf"${command}$" for sign, command in {
@@ -114,7 +114,7 @@ class Latex(Plain):
         return rf"\texttt{{{self.prose(text)}}}"
 
     def sketch(self, tree: Tree) -> str:
-        from garkcli.trees.drawing import tikz
+        from garkcli.ntrees.drawing import tikz
 
         return tikz(tree, colours=len(self.colours) > 1).strip()
 

@@ -15,14 +15,14 @@ from markupsafe import Markup
 from garkcli.exact.display import to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parametric
+from garkcli.ntrees.notation import condition_latex
+from garkcli.ntrees.tree import Tree
 from garkcli.page.cells import cell_text
 from garkcli.page.latex import number
 from garkcli.reason import Place
 from garkcli.tableau.pointwise import Cell
 from garkcli.tell.html import Html
 from garkcli.tell.latex import place_latex
-from garkcli.trees.notation import condition_latex
-from garkcli.trees.tree import Tree
 
 _OPENING = re.compile(r"<math[^>]*>")
 _NEEDLESS = re.compile(r"<mrow>(<(m[ino])[^>]*>[^<]*</\2>)</mrow>")

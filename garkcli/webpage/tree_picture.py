@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from markupsafe import Markup, escape
 
-from garkcli.trees.drawing import PALETTE, layout
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.drawing import PALETTE, layout
+from garkcli.ntrees.tree import Tree
 
 STEP_X = 22
 STEP_Y = 24

@@ -13,7 +13,7 @@ from garkcli.backward.effective import EffectiveOrder, effective_order
 from garkcli.backward.modified import modified_equation
 from garkcli.backward.series import Forest, logarithm, transported
 from garkcli.frozen import replace
-from garkcli.trees.count import Admissible
+from garkcli.ntrees.count import Admissible
 
 BUTCHER = """
 A:

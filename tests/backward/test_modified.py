@@ -25,12 +25,12 @@ from garkcli.backward.series import (
     transported,
 )
 from garkcli.errors import UsageProblem
+from garkcli.ntrees.count import Admissible
+from garkcli.ntrees.notation import parse_tree
+from garkcli.ntrees.tree import Tree
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import interpolation
-from garkcli.trees.count import Admissible
-from garkcli.trees.notation import parse_tree
-from garkcli.trees.tree import Tree
 from tests.oracles import series
 from tests.oracles.brute import Weights, plain
 from tests.oracles.samples import everywhere

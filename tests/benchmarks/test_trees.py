@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from garkcli import load, pair
+from garkcli.ntrees.stage_vectors import elementary_weights
+from garkcli.ntrees.table import TreeTable
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
-from garkcli.trees.stage_vectors import elementary_weights
-from garkcli.trees.table import TreeTable
 from tests.benchmarks.measuring import ROOT, assert_ratio, peak_megabytes, seconds
 
 
@@ -40,7 +40,7 @@ def test_against_kauri() -> None:
 
 def test_memory() -> None:
     """4 027 360 trees of four colours at order 8, with all below, in less than 2 GB."""
-    code = "from garkcli.trees.table import TreeTable\nt = TreeTable.upto(4, 8)\nassert len(t) == 4529000"
+    code = "from garkcli.ntrees.table import TreeTable\nt = TreeTable.upto(4, 8)\nassert len(t) == 4529000"
     megabytes = peak_megabytes(code)
     assert_ratio(
         "memory of 4 colours to order 8 / 2000 MB", megabytes / 2000, 1.0, f"{megabytes:.0f} MB"

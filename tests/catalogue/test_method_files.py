@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from garkcli.methodfile.load import loads
+from garkcli.ntrees.stage_vectors import elementary_weights
+from garkcli.ntrees.table import TreeTable
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
-from garkcli.trees.stage_vectors import elementary_weights
-from garkcli.trees.table import TreeTable
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 

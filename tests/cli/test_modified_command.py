@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
+from garkcli.ntrees.notation import parse_tree
 from garkcli.page.plaintext import plain_text
 from garkcli.report.modified import REPORT
 from garkcli.report.schemas import report_schema
-from garkcli.trees.notation import parse_tree
 from tests.cli.harness import gark
 
 VERLET = "methods/stoermer-verlet.gark.yaml"

@@ -13,11 +13,11 @@ from flint import fmpq
 
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import load
+from garkcli.ntrees.count import count_trees
+from garkcli.ntrees.notation import parse_tree
+from garkcli.ntrees.symplectic import KINDS, Kind, class_of, structure_of, superfluous_classes
 from garkcli.report.symplectic_subject import subject_of_method
 from garkcli.tableau.forms import pair, with_linear
-from garkcli.trees.count import count_trees
-from garkcli.trees.notation import parse_tree
-from garkcli.trees.symplectic import KINDS, Kind, class_of, structure_of, superfluous_classes
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"

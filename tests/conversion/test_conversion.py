@@ -19,11 +19,11 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import can_spell_out, write_tableau_file
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import admissible_trees, elementary_weight, is_admissible
 from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 from tests.cli.harness import ROOT, gark

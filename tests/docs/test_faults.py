@@ -75,7 +75,7 @@ def test_every_error_says_its_code() -> None:
 
 def test_no_site_escapes() -> None:
     """The errors whose messages are looked for are all that there are."""
-    for name in ("trees.notation", "bridges.cannot", "catalogue.facts"):
+    for name in ("ntrees.notation", "bridges.cannot", "catalogue.facts"):
         import_module(f"garkcli.{name}")
     found, left = set(), [GarkError]
     while left:

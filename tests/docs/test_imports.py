@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+import garkcli
 from garkcli.graph import components
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -76,3 +77,9 @@ def test_imports_in_functions_are_seen_and_those_for_types_are_not() -> None:
         "def f():\n    from garkcli.c import y\n    from garkcli import d\n"
     )
     assert imported_modules(text, modules) == {"garkcli.a", "garkcli.c", "garkcli.d"}
+
+
+def test_no_room_hides_a_public_name() -> None:
+    """A room that has been imported is an attribute of the package: only the catalogue is both."""
+    rooms = {name.partition(".")[2] for name in module_files()}
+    assert rooms & set(garkcli.__all__) == {"catalogue"}

@@ -14,8 +14,8 @@ from flint import fmpq
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
+from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 from tests.oracles.stages import image, one, pairing, product
 
 Plain: TypeAlias = tuple[int, tuple["Plain", ...]]

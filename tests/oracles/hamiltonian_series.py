@@ -17,10 +17,10 @@ from typing import TypeAlias
 
 from flint import fmpq, fmpq_poly
 
+from garkcli.ntrees.tree import Tree
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
-from garkcli.trees.tree import Tree
 
 Point: TypeAlias = list[fmpq_poly]
 """(q, p), each a series in h."""

@@ -16,6 +16,9 @@ from hypothesis import strategies as st
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
 from garkcli.frozen import replace
+from garkcli.ntrees.notation import parse_tree
+from garkcli.ntrees.table import TreeTable
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import conditions, coupling_graph, elementary_weight
 from garkcli.order.effects import Effects
 from garkcli.order.tolerance import within
@@ -24,9 +27,6 @@ from garkcli.tableau.forms import pair
 from garkcli.tableau.meant import derived
 from garkcli.tableau.rounded import ZERO_WEIGHT, RoundedTableau
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.notation import parse_tree
-from garkcli.trees.table import TreeTable
-from garkcli.trees.tree import Tree
 from tests.oracles import samples
 from tests.order.rounded_samples import in_decimals, published
 

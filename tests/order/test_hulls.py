@@ -7,13 +7,13 @@ from itertools import chain
 import pytest
 from flint import fmpq
 
-from garkcli import all_trees, certificate, load, loads
+from garkcli import certificate, load, loads, trees
 from garkcli.errors import MethodError
 from garkcli.exact.field import coordinates
 from garkcli.exact.matrix import Vector, apply
+from garkcli.ntrees.tree import Tree
 from garkcli.order.hulls import Hull, hulls
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.tree import Tree
 
 METHODS = ["rk4", "gauss-2", "stoermer-verlet", "ars-222", "symplectic-gauss-lobatto4"]
 
@@ -44,7 +44,7 @@ def test_every_tree_is_in_its_hull(name: str) -> None:
     found = hulls(tableau, order).trees
     seen: dict[tuple[int, int], list[list[fmpq]]] = {}
     sizes = range(1, order + 1)
-    for tree in chain.from_iterable(all_trees(n, tableau.size) for n in sizes):
+    for tree in chain.from_iterable(trees(n, tableau.size) for n in sizes):
         value = psi(tableau, tree)
         if value is not None:
             point = list(chain.from_iterable(coordinates(x, tableau.degree) for x in value))

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from garkcli.errors import ZeroWeight
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
+from garkcli.ntrees.table import TreeTable
 from garkcli.order import rounded as module
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
@@ -24,7 +25,6 @@ from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.rounded import RoundedTableau, enclose_tableau
 from garkcli.tableau.tableau import Tableau, butcher
 from garkcli.transfer import collocation
-from garkcli.trees.table import TreeTable
 from tests.oracles import samples
 from tests.order.rounded_samples import (
     ENTRIES,

@@ -8,6 +8,7 @@ import pytest
 from flint import fmpq
 
 from garkcli.exact.matrix import Matrix
+from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import is_symplectic
 from garkcli.tableau.conjugate import conjugate
@@ -15,7 +16,6 @@ from garkcli.tableau.forms import pair, separable_prk, symplectic_pair
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import Rule, collocation, interpolation
-from garkcli.trees.tree import Tree
 from tests.oracles import samples
 from tests.oracles.brute import brute_order
 from tests.oracles.points import at_points

@@ -44,7 +44,7 @@ MEASURED = (
     "tests/backward",
     "tests/design/test_search.py",
     "tests/problems",
-    "tests/trees",
+    "tests/ntrees",
     "tests/report",
     "tests/docs",
     "tests/cli/test_snapshots.py",

@@ -11,12 +11,12 @@ import pytest
 from sympy import Poly, Rational
 
 from garkcli.families.registry import diagonal_method
+from garkcli.ntrees.tree import Tree
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import vector_field
 from garkcli.problems.vectorfield import GROUPS, symbols
 from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import gark
-from garkcli.trees.tree import Tree
 
 PROBLEM = hamiltonian("generic", 2)
 Y = (*symbols(PROBLEM.variables, "q"), *symbols(PROBLEM.variables, "p"))

@@ -17,6 +17,8 @@ from garkcli.convergence.convergence import converge, in_common, seeing_problem
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load
+from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import coupling_graph
 from garkcli.problems.builtin import GENERIC, hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian, vector_field
@@ -26,8 +28,6 @@ from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.forms import gark, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.count import Admissible, counts_upto
-from garkcli.trees.tree import Tree
 from tests.cli.harness import ROOT
 
 VELOCITIES_AND_FORCES = {

@@ -19,10 +19,10 @@ from garkcli import (
     parse_tree,
 )
 from garkcli.exact.display import to_text
+from garkcli.ntrees.drawing import draw_svg_sheet
+from garkcli.ntrees.notation import format_tree
 from garkcli.page.tableau_latex import displays
 from garkcli.tableau.pointwise import entries
-from garkcli.trees.drawing import draw_svg_sheet
-from garkcli.trees.notation import format_tree
 
 HOSTILE = '<script>alert("x")</script> & \x1b[2J'
 TWO = loads(

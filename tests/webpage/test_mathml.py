@@ -10,7 +10,7 @@ from flint import arb
 from hypothesis import given, settings, strategies
 
 import garkcli
-from garkcli.trees.notation import parse_tree
+from garkcli.ntrees.notation import parse_tree
 from garkcli.webpage.mathml import typeset, typeset_cell, typeset_condition, typeset_number
 from tests.webpage.reading import number_of
 

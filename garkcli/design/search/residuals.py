@@ -24,10 +24,10 @@ from garkcli.design.search.rational import (
     with_gradients,
 )
 from garkcli.exact.parametric import Parameters
+from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.stage_vectors import StageVectors
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,7 +48,7 @@ class Residuals:
     def __init__(
         self, tableau: Tableau, ring: Parameters, order: int, more: Sequence[fmpq_mpoly] = ()
     ) -> None:
-        from garkcli.trees.table import TreeTable
+        from garkcli.ntrees.table import TreeTable
 
         edges, linear = coupling_graph(tableau)
         self.tableau = tableau

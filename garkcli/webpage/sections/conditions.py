@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
+from garkcli.ntrees.notation import format_tree
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
 from garkcli.report.conditions import ConditionRow, is_parametric, row_of
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
-from garkcli.trees.notation import format_tree
 from garkcli.webpage.mathml import typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section

@@ -9,12 +9,12 @@ from markupsafe import Markup
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
+from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.report.check import hints
 from garkcli.report.checked import REPORT
 from garkcli.tell.facts import Fact, Level
 from garkcli.tell.outputs import cell, label, words
-from garkcli.trees.notation import format_tree
 from garkcli.webpage.mathml import Typeset, typeset, typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section

@@ -7,10 +7,10 @@ from math import factorial
 import numpy as np
 import pytest
 
-from garkcli.trees.count import Admissible, counts_upto
-from garkcli.trees.notation import format_tree
-from garkcli.trees.table import MAX_TREES, TableTooLarge, TreeTable
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.notation import format_tree
+from garkcli.ntrees.table import MAX_TREES, TableTooLarge, TreeTable
+from garkcli.ntrees.tree import Tree
 
 EDGES = [[False, True, False], [True, False, True], [True, True, True]]
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.trees.notation import (
+from garkcli.ntrees.notation import (
     MAX_DEPTH,
     MAX_LENGTH,
     MAX_VERTICES,
@@ -16,7 +16,7 @@ from garkcli.trees.notation import (
     parse_tree,
     vertex_letters,
 )
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 11)),

@@ -5,9 +5,9 @@ from math import factorial
 import numpy as np
 import pytest
 
-from garkcli.trees.blocks import Block, iter_blocks, select
-from garkcli.trees.table import Columns, TreeTable
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.blocks import Block, iter_blocks, select
+from garkcli.ntrees.table import Columns, TreeTable
+from garkcli.ntrees.tree import Tree
 
 
 def joined(blocks: list[Block]) -> list[list[int]]:

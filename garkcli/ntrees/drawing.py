@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from garkcli.trees.notation import written_order
+from garkcli.ntrees.notation import written_order
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from garkcli.trees.tree import Tree
+    from garkcli.ntrees.tree import Tree
 
 
 PALETTE = (
@@ -52,7 +52,7 @@ def layout(tree: Tree) -> list[Vertex]:
     Leaves are one unit apart; a vertex with branches is in the middle of the first and the last of
     them.
 
-    >>> from garkcli.trees.tree import Tree
+    >>> from garkcli.ntrees.tree import Tree
     >>> layout(Tree(0, [Tree(1), Tree(1)]))[0]
     Vertex(x=0.5, y=0, colour=0, parent=-1)
     """
@@ -84,7 +84,7 @@ def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
 
     A vertex is a dot followed by its colour, from 1; ``colours=False`` leaves the number out.
 
-    >>> from garkcli.trees.tree import Tree
+    >>> from garkcli.ntrees.tree import Tree
     >>> print("\n".join(draw_text(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))))
     ●2
     │
@@ -174,7 +174,7 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
 
     Without ``colours`` the vertices are plain black dots, at half the scale.
 
-    >>> from garkcli.trees.tree import Tree
+    >>> from garkcli.ntrees.tree import Tree
     >>> print(tikz(Tree(0)).splitlines()[0])
     \begin{tikzpicture}[x=0.6cm,y=0.6cm,baseline=(v0.base)]
     """

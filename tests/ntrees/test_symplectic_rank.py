@@ -18,10 +18,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from garkcli.trees.count import count_trees
-from garkcli.trees.free import Structure
-from garkcli.trees.symplectic import count_classes, structure_of
-from garkcli.trees.table import TreeTable
+from garkcli.ntrees.count import count_trees
+from garkcli.ntrees.free import Structure
+from garkcli.ntrees.symplectic import count_classes, structure_of
+from garkcli.ntrees.table import TreeTable
 
 P = 2**31 - 1
 """The prime: two products of residues add up to less than 2⁶³."""

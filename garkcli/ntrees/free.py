@@ -12,8 +12,8 @@ from itertools import chain, combinations_with_replacement, groupby, product
 from typing import Literal, TypeAlias
 
 from garkcli.frozen import Frozen
-from garkcli.trees.count import Admissible
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.count import Admissible
+from garkcli.ntrees.tree import Tree
 
 Part: TypeAlias = Literal["y", "q", "p"]
 """What a colour drives: all unknowns (a GARK method), positions or momenta (a symplectic pair)."""

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from garkcli.arrays import Floats
-    from garkcli.trees.count import Admissible
-    from garkcli.trees.table import Column, Segment, TreeTable
+    from garkcli.ntrees.count import Admissible
+    from garkcli.ntrees.table import Column, Segment, TreeTable
 
 
 Vectors = TypeVar("Vectors")
@@ -127,7 +127,7 @@ def elementary_weights(
     colour m. The stage vectors of the highest order are never held together. Raises ``ValueError``
     when a block that the table's trees need is missing or has the wrong shape.
 
-    >>> from garkcli.trees.table import TreeTable
+    >>> from garkcli.ntrees.table import TreeTable
     >>> midpoint = {(0, 0): np.array([[0.5]])}
     >>> elementary_weights(TreeTable.upto(1, 3), [0], midpoint, [np.array([1.0])])
     array([1.  , 0.5 , 0.25, 0.25])

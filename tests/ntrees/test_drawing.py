@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.trees.drawing import PALETTE, draw_svg_sheet, draw_text, layout, tikz
-from garkcli.trees.notation import MAX_DEPTH, MAX_VERTICES, parse_tree
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.drawing import PALETTE, draw_svg_sheet, draw_text, layout, tikz
+from garkcli.ntrees.notation import MAX_DEPTH, MAX_VERTICES, parse_tree
+from garkcli.ntrees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 11)),

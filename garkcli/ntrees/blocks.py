@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from garkcli.frozen import Frozen
-from garkcli.trees.count import Admissible, Edges
-from garkcli.trees.table import Columns, TreeTable, first_ids, segments_of
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.count import Admissible, Edges
+from garkcli.ntrees.table import Columns, TreeTable, first_ids, segments_of
+from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from garkcli.trees.table import Column
+    from garkcli.ntrees.table import Column
 
 BLOCK_SIZE = 1 << 18
 """Trees in a block unless asked for otherwise."""

@@ -11,7 +11,7 @@ import re
 from typing import TYPE_CHECKING
 
 from garkcli.errors import TreeError
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -23,8 +23,8 @@ import numpy as np
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
-from garkcli.trees.count import Admissible, Edges, counts_upto
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.count import Admissible, Edges, counts_upto
+from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
@@ -330,7 +330,7 @@ class TreeTable(Frozen):
         """Generate the table; ``edges`` and ``linear`` as in :class:`Admissible`.
 
         Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` goes one order
-        further in bounded memory, and :mod:`garkcli.trees.count` counts any order.
+        further in bounded memory, and :mod:`garkcli.ntrees.count` counts any order.
         """
         return cls.of(Admissible.of(colours, edges, linear), order)
 

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.trees import stage_vectors as module
-from garkcli.trees.stage_vectors import elementary_weights
-from garkcli.trees.table import TreeTable
-from garkcli.trees.tree import Tree
+from garkcli.ntrees import stage_vectors as module
+from garkcli.ntrees.stage_vectors import elementary_weights
+from garkcli.ntrees.table import TreeTable
+from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
     from typing import TypeAlias

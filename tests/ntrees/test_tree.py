@@ -7,7 +7,7 @@ from math import factorial
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 3)),

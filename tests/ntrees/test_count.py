@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.trees import count
-from garkcli.trees.count import Admissible, count_by_root, count_trees, counts_upto
+from garkcli.ntrees import count
+from garkcli.ntrees.count import Admissible, count_by_root, count_trees, counts_upto
 
 
 @pytest.mark.parametrize(

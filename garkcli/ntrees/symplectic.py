@@ -49,9 +49,9 @@ from functools import cached_property
 from typing import Literal, TypeAlias, get_args
 
 from garkcli.frozen import Frozen
-from garkcli.trees.count import counts_upto
-from garkcli.trees.free import Grower, Structure
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.count import counts_upto
+from garkcli.ntrees.free import Grower, Structure
+from garkcli.ntrees.tree import Tree
 
 Kind: TypeAlias = Literal["pair", "self-conjugate", "semi-separable", "separable", "nystrom"]
 """Symplectic methods with a name; :class:`Structure` has all of them."""
@@ -145,7 +145,7 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
 
     Trees of at most half the order are kept in memory. Raises ``ValueError`` for an order below 1.
 
-    >>> from garkcli.trees.notation import format_tree
+    >>> from garkcli.ntrees.notation import format_tree
     >>> [format_tree(c.representative) for c in independent_classes(Structure.pair([0], [0]), 3)]
     ['[[]_1,[]_1]_1', '[[]_1,[]_2]_1', '[[]_2,[]_2]_1']
     """

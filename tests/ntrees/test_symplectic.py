@@ -14,16 +14,10 @@ from flint import fmpq
 from garkcli.exact.matrix import Matrix, add, scale
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
-from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
-from garkcli.order.simplifying import is_symplectic
-from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear
-from garkcli.tableau.tableau import Tableau
-from garkcli.transfer import collocation
-from garkcli.trees.count import count_trees
-from garkcli.trees.free import Structure
-from garkcli.trees.notation import format_tree, parse_tree
-from garkcli.trees.symplectic import (
+from garkcli.ntrees.count import count_trees
+from garkcli.ntrees.free import Structure
+from garkcli.ntrees.notation import format_tree, parse_tree
+from garkcli.ntrees.symplectic import (
     KINDS,
     ConditionClass,
     Kind,
@@ -33,8 +27,14 @@ from garkcli.trees.symplectic import (
     structure_of,
     superfluous_classes,
 )
-from garkcli.trees.table import TreeTable
-from garkcli.trees.tree import Tree
+from garkcli.ntrees.table import TreeTable
+from garkcli.ntrees.tree import Tree
+from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
+from garkcli.order.simplifying import is_symplectic
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear
+from garkcli.tableau.tableau import Tableau
+from garkcli.transfer import collocation
 
 LISTED: list[tuple[Structure, int]] = [
     (structure_of("pair", 1), 7),
