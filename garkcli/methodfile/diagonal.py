@@ -101,7 +101,7 @@ def methods(
     if transfer is not None:
         from garkcli.methodfile.transfers import rules_of  # one method has none
 
-        rules = rules_of(at, transfer, len(items))
+        rules = rules_of(at, transfer, [1 if x is None else _stages(x) for x in every])
     if not found or len(found) < len(items) or _is_too_large(at, found, node):
         return None
     names = [f"method {l}" for l in range(1, len(found) + 1)]
@@ -109,9 +109,13 @@ def methods(
     return MethodsText(tuple(found), rules)
 
 
+def _stages(text: FamilyText | ButcherText) -> int:
+    return text.stages if isinstance(text, FamilyText) else len(text.b)
+
+
 def _is_too_large(at: Reading, found: Sequence[FamilyText | ButcherText], node: Node) -> bool:
     """Note blocks between the methods that together have too many entries to be made."""
-    stages = [x.stages if isinstance(x, FamilyText) else len(x.b) for x in found]
+    stages = list(map(_stages, found))
     entries = sum(stages) ** 2 - sum(s * s for s in stages)
     if entries > MAX_ENTRIES:
         message = f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
 from flint import fmpq_mpoly
+from yaml.nodes import ScalarNode
 
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
 from garkcli.exact.parametric import Parameters, common_denominator
-from garkcli.methodfile.description import ClaimText, Description, Structure, left_behind
+from garkcli.methodfile.description import (
+    ClaimText,
+    Description,
+    MatrixText,
+    MethodsText,
+    Structure,
+    left_behind,
+)
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
 from garkcli.methodfile.nodes import Extent, extent, one_line
@@ -18,6 +27,9 @@ from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
+
+_NAME = re.compile(r"\ba[0-9_]+")
+"""An entry of a block."""
 
 
 class FamilyFile(Family, kw_only=True):
@@ -31,6 +43,7 @@ class FamilyFile(Family, kw_only=True):
         parameters_at: the place of ``parameters: …``; None where there is none.
         shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
             None where the file has no shape.
+        blocks: where "?" stands for whole blocks, and their matrices with the names of entries.
         wanted_at: the place of ``design: …``; None where there is none.
         structure: which vector fields the problem has.
         claims: what ``expect`` says.
@@ -43,6 +56,7 @@ class FamilyFile(Family, kw_only=True):
     places: Mapping[str, Extent]
     parameters_at: Extent | None = None
     shape: tuple[Extent, str] | None = None
+    blocks: tuple[tuple[Extent, str], ...] = ()
     wanted_at: Extent | None = None
     structure: Structure = "general"
     claims: tuple[ClaimText, ...] = ()
@@ -170,6 +184,7 @@ def _family(
         settings=settings,
         places={name: extent(source.text, x, x) for name, x in reader.numbers.places.items()},
         shape=_shape(reader),
+        blocks=tuple(_blocks(description, source.text)),
         structure=description.structure,
         left_behind=left_behind(description.content),
         claims=description.claims,
@@ -214,6 +229,21 @@ def _shape(reader: Reader) -> tuple[Extent, str] | None:
     return reader.shaped.place, text
 
 
+def _blocks(description: Description, text: str) -> Iterator[tuple[Extent, str]]:
+    """Where "?" stands for whole blocks, and what it means."""
+    if not isinstance(description.content, MethodsText):
+        return
+    found: dict[int, dict[tuple[int, int], MatrixText]] = {}
+    for edge, block in description.content.transfer.blocks.items():
+        if isinstance(block, MatrixText) and isinstance(block.node, ScalarNode):
+            found.setdefault(id(block.node), {})[edge] = block
+    for blocks in found.values():
+        from garkcli.methodfile.transfers import spelled
+
+        [node, *_] = [block.node for block in blocks.values()]
+        yield extent(text, node, node), spelled(blocks)
+
+
 def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
     """The text of a family's file with values for its parameters: that of a method.
 
@@ -226,8 +256,12 @@ def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim:
     """
     text = family.text
     given = {**family.settings, **values}
-    places = family.places.items()
+    blocks = dict(family.blocks)
+    places = [item for item in family.places.items() if item[1] not in blocks]
     changes = [(place, _scalar(given[name])) for name, place in places if name in given]
+    changes += [
+        (place, _NAME.sub(lambda x: _scalar(given[x[0]]), y)) for place, y in blocks.items()
+    ]
     if family.shape is not None:
         place, tableau = family.shape
         own = {name: text[start:end] for name, (start, end) in places}

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
+from itertools import permutations
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
@@ -16,7 +18,7 @@ from garkcli.methodfile.description import (
     block_name,
 )
 from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
-from garkcli.methodfile.numbers import Reading
+from garkcli.methodfile.numbers import UNKNOWN, Reading, name_of_place
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.transfer import MAX_DEGREE, PAIR_RULES, RULES, SUMMARIES
 
@@ -51,6 +53,10 @@ OF_DEGREE = g.mapping(
 RULE = g.Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]})
 """How a block is made: one of the rules, or several with weights."""
 _OF_RULE = g.defined("rule").schema()
+_ALL_UNKNOWN: g.Schema = {
+    "const": UNKNOWN,
+    "description": "Every entry of the block unknown: gark design finds values.",
+}
 _PARTS = g.mapping(
     g.Key(
         "default: collocation",
@@ -60,16 +66,16 @@ _PARTS = g.mapping(
     g.Key(
         'blocks: {"1,2": interpolation}',
         g.by_name(
-            g.Kind(lambda: {"anyOf": [_OF_RULE, g.defined("matrix").schema()]}),
+            g.Kind(lambda: {"anyOf": [_OF_RULE, _ALL_UNKNOWN, g.defined("matrix").schema()]}),
             propertyNames={"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
         ),
         "Blocks that differ from the default, by the numbers of their colours: a rule, weights of "
-        "rules, or the matrix itself.",
+        'rules, the matrix itself, or "?": all of its entries are unknown.',
     ),
     rules=[g.OfSchema({"minProperties": 1})],
 )
 TRANSFER = g.Kind(
-    lambda: {"anyOf": [_OF_RULE, _PARTS.schema()]},
+    lambda: {"anyOf": [_OF_RULE, _PARTS.schema(), _ALL_UNKNOWN]},
     inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
 """The rules between methods; they are read where the number of colours is known."""
@@ -86,8 +92,11 @@ def _block_of(key: str) -> tuple[int, int]:
     return l - 1, m - 1
 
 
-def rules_of(at: Reading, node: Node, colours: int) -> TransferText:
-    """``transfer``: the rules, and the blocks given one by one, of so many colours."""
+def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> TransferText:
+    """``transfer``: the rules, and the blocks given one by one, of colours with so many stages."""
+    if _is_unknown(node):
+        edges = permutations(range(len(stages)), 2)
+        return TransferText(None, {edge: _unknown(at, node, edge, stages) for edge in edges})
     if not keys_of(node) & {"default", "blocks"}:
         # without quotes {1,2: rule} has the keys 1 and 2
         for key in key_nodes(node).values():
@@ -100,12 +109,39 @@ def rules_of(at: Reading, node: Node, colours: int) -> TransferText:
     entries = at.source.mapping(node, "transfer", ("default", "blocks"))
     default, blocks = entries.get("default"), entries.get("blocks")
     rule = None if default is None else _rule(at, default, "transfer, default")
-    return TransferText(rule, {} if blocks is None else _blocks(at, blocks, colours))
+    return TransferText(rule, {} if blocks is None else _blocks(at, blocks, stages))
 
 
-def _blocks(at: Reading, node: Node, colours: int) -> BlockTexts:
+def _is_unknown(node: Node) -> bool:
+    return isinstance(node, ScalarNode) and node.value == UNKNOWN
+
+
+def _unknown(at: Reading, node: Node, edge: tuple[int, int], stages: Sequence[int]) -> MatrixText:
+    """A block with an unknown for each entry, named by its place."""
+    rows, columns = (range(1, stages[k] + 1) for k in edge)
+    name = block_name(*edge)
+    places = [[f"{name}, row {i}, entry {j}" for j in columns] for i in rows]
+    return MatrixText(node, tuple(tuple(at.numbers.entry(node, x) for x in row) for row in places))
+
+
+def spelled(blocks: Mapping[tuple[int, int], MatrixText]) -> str:
+    """Unknown blocks with the names of their entries, as method files have them: a single matrix,
+    or all of them as the value of ``transfer``.
+    """
+    texts = {}
+    for (l, m), block in blocks.items():
+        rows = [", ".join(str(name_of_place(x.where)) for x in row) for row in block.rows]
+        texts[f'"{l + 1},{m + 1}"'] = f"[{', '.join(f'[{row}]' for row in rows)}]"
+    if len(texts) == 1:
+        return next(iter(texts.values()))
+    lines = ", ".join(f"{key}: {text}" for key, text in texts.items())
+    return f"{{blocks: {{{lines}}}}}"
+
+
+def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> BlockTexts:
     """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
     blocks: BlockTexts = {}
+    colours = len(stages)
     keys = key_nodes(node)
     form = 'write for instance {"1,2": interpolation}'
     for key, value in at.source.mapping(node, "transfer, blocks", (), form=form).items():
@@ -120,7 +156,8 @@ def _blocks(at: Reading, node: Node, colours: int) -> BlockTexts:
         if (l, m) in blocks:
             message = f"transfer, blocks: {where} is given twice"
             at.source.fault(keys[key], message, "keep one of them", code="doubled")
-        block = _block(at, value, where)
+        is_unknown = _is_unknown(value)
+        block = _unknown(at, value, (l, m), stages) if is_unknown else _block(at, value, where)
         if block is not None:
             blocks[l, m] = block
     return blocks

@@ -10,12 +10,13 @@ from random import Random
 import pytest
 from flint import fmpq
 
-from garkcli import find_parameters, loads_family, minimise
+from garkcli import find_parameters, loads, loads_family, minimise
 from garkcli.design import design as engine
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, member
 from garkcli.design.pairs import least_error, pair_conditions
 from garkcli.design.solutions import Solution, solutions
+from garkcli.methodfile.family import with_values
 from garkcli.order.certificate import find_order
 from garkcli.order.constants import error_constants
 from garkcli.tableau.family import Family
@@ -29,16 +30,29 @@ from tests.order.random_pairs import member as block_of
 def unknown(*methods: tuple[str, int]) -> Family:
     """Members of families, every block between them unknown."""
     texts = [f"{{family: {name}, stages: {s}}}" for name, s in methods]
-    blocks = []
-    for l, (_, s) in enumerate(methods, start=1):
-        for m, (_, t) in enumerate(methods, start=1):
-            if l != m:
-                row = "[" + ", ".join(['"?"'] * t) + "]"
-                rows = ", ".join([row] * s)
-                blocks.append(f'"{l},{m}": [{rows}]')
-    return loads_family(
-        f"methods: [{', '.join(texts)}]\ntransfer: {{blocks: {{{', '.join(blocks)}}}}}"
+    return loads_family(f'methods: [{", ".join(texts)}]\ntransfer: "?"')
+
+
+def test_unknown_blocks() -> None:
+    """A ? in place of a block means one for each entry; all blocks, or one; the file that is
+    written has the matrices.
+    """
+    head = "methods: [{family: gauss, stages: 1}, {family: lobatto-iiia, stages: 2}]\n"
+    rows = '{"1,2": [["?", "?"]], "2,1": [["?"], ["?"]]}'
+    every = loads_family(f'{head}transfer: "?"')
+    spelled = loads_family(f"{head}transfer: {{blocks: {rows}}}")
+    assert every.parameters == spelled.parameters == ("a12_11", "a12_12", "a21_11", "a21_21")
+    assert str(every.tableau.blocks) == str(spelled.tableau.blocks)
+    single = loads_family(
+        f'{head}transfer: {{default: interpolation, blocks: {{"1,2": "?"}}}}\nexpect: {{order: 1}}'
     )
+    assert single.parameters == ("a12_11", "a12_12")
+    for family in (every, single):
+        values = {name: f"{k}/8" for k, name in enumerate(family.parameters, 1)}
+        written = loads(with_values(family, values, "head", "pair-order: 1"))
+        assert written.tableau.block(0, 1) == ((fmpq(1, 8), fmpq(2, 8)),)
+        expected = ((fmpq(3, 8),), (fmpq(4, 8),)) if family is every else ((fmpq(1, 2),),) * 2
+        assert written.tableau.block(1, 0) == expected
 
 
 def dimension(stages: list[int], order: int) -> int:
@@ -186,7 +200,7 @@ def test_where_the_theorem_says_nothing() -> None:
     text = "methods: [{A: [[1/2]], b: [t]}, {A: [[1/2]], b: [1]}]\nparameters: {t: free}\ntransfer: collocation"
     assert pair_conditions(loads_family(text)) is None
     negative = "{A: [[0, 0, 0], [1/4, 1/2, -1/4], [0, 1, 0]], b: [-1/2, 2, -1/2]}"
-    text = f'methods: [{negative}, {{A: [[1/2]], b: [1]}}]\ntransfer: {{blocks: {{"1,2": [["?"], ["?"], ["?"]], "2,1": [["?", "?", "?"]]}}}}'
+    text = f'methods: [{negative}, {{A: [[1/2]], b: [1]}}]\ntransfer: "?"'
     assert pair_conditions(loads_family(text)) is None
 
 
