@@ -16,7 +16,7 @@ from flint import fmpq_mpoly
 from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Parameters, factors
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
@@ -245,16 +245,13 @@ def _factors(family: EveryFamily, polynomials: Sequence[fmpq_mpoly]) -> list[fmp
     """The irreducible factors of all of them but of poles, numbers, and what is zero for no value
     that the file admits, each once.
     """
-    known = {str(f) for p in family.poles for f, _ in p.factor()[1]}
-    found: dict[str, fmpq_mpoly] = {}
-    for p in polynomials:
-        for factor, _ in p.factor()[1]:
-            # what has roots of numbers alone is a number, and not zero
-            if str(factor) in known or family.is_number(factor):
-                continue
-            if family.can_vanish(factor):
-                found[str(factor)] = factor
-    return list(found.values())
+    known = factors(family.poles)
+    return [
+        p
+        for p in factors(polynomials)
+        # what has roots of numbers alone is a number, and not zero
+        if p not in known and not family.is_number(p) and family.can_vanish(p)
+    ]
 
 
 DIGITS = 12

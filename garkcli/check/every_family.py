@@ -22,8 +22,9 @@ from garkcli.errors import MethodError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.parametric import Parameters, Parametric, Rule
-from garkcli.exact.polynomial import Polynomial, in_one
+from garkcli.exact.parametric import Parameters, Parametric, Rule, evaluated, factors, unknowns_of
+from garkcli.exact.polynomial import in_one
+from garkcli.exact.projection import coefficient_of
 from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.family import Family, Radical, family_in_points
@@ -59,28 +60,19 @@ def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> 
 
 def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
     """The same of an irreducible polynomial."""
-    used = _used(p)
+    used = unknowns_of(p)
     names = [ring.names[k] for k in used]
     has_roots = any(name not in ranges for name in names)
-    if has_roots or _terms_in_u(p) > MOST_TERMS:
+    terms_in_u = prod(int(degree) + 1 for degree in p.degrees())
+    if has_roots or terms_in_u > MOST_TERMS:
         return True
     inside = [ranges[name] for name in names]
     if len(used) == 1:
         # all of them are known
-        roots = real_roots(_in_one_of(p, used[0]))
+        roots = real_roots(in_one(p, used[0]))
         return any(is_within(root, inside[0]) for root, _ in roots)
     cases = product(*map(_charts, inside))
     return any(_may_vanish(p, used, inside, case) for case in cases)
-
-
-def _used(p: fmpq_mpoly) -> list[int]:
-    """The unknowns that occur in a polynomial, by their numbers."""
-    return [k for k, degree in enumerate(p.degrees()) if degree]
-
-
-def _terms_in_u(p: fmpq_mpoly) -> int:
-    """How many terms a polynomial can have when it is rewritten."""
-    return prod(int(degree) + 1 for degree in p.degrees())
 
 
 def is_within(value: RealRoot, ends: Range) -> bool:
@@ -89,15 +81,6 @@ def is_within(value: RealRoot, ends: Range) -> bool:
     below = least is not None and value < RealRoot.rational(least)
     above = greatest is not None and RealRoot.rational(greatest) < value
     return not below and not above
-
-
-def _in_one_of(p: fmpq_mpoly, index: int) -> Polynomial:
-    """A polynomial in which one unknown occurs, in that."""
-    powers = {}
-    for exponents, a in p.to_dict().items():
-        powers[int(exponents[index])] = fmpq(a)
-    degree = max(powers)
-    return Polynomial([powers.get(k, ZERO) for k in range(degree + 1)])
 
 
 def _charts(ends: Range) -> Iterator[_Chart]:
@@ -188,7 +171,7 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
         return None, ZERO, value
     assert isinstance(value, Parametric)
     p = value.numerator
-    used = _used(p)
+    used = unknowns_of(p)
     index = used[0]
     other = value.ring.names[index]
     is_polynomial = value.denominator.is_one()
@@ -200,7 +183,7 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
             "give the range to one of these, or values with --set",
             code="no-value-left",
         )
-    line = _in_one_of(p, index)
+    line = in_one(p, index)
     slope, rest = line[1], line[0]
     assert isinstance(slope, fmpq)
     assert isinstance(rest, fmpq)
@@ -240,8 +223,8 @@ def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
     """The rules of a ring in one without some parameters."""
     shift = len(old.names) - len(new.names)
     for rule in old.rules:
-        terms = {tuple(map(int, e[shift:])): a for e, a in rule.instead.to_dict().items()}
-        yield Rule(rule.index - shift, rule.degree, new.context.from_dict(terms))
+        instead = rule.instead.project_to_context(new.context)
+        yield Rule(rule.index - shift, rule.degree, instead)
 
 
 def solved(
@@ -276,14 +259,7 @@ def is_linear(p: fmpq_mpoly, ring: Parameters, name: str) -> bool:
 
 def value_of(p: fmpq_mpoly, ring: Parameters, values: dict[str, object]) -> object:
     """A polynomial at values of the unknowns that it has."""
-    total: object = fmpq(0)
-    for exponents, a in p.to_dict().items():
-        term: object = a
-        for name, exponent in zip(ring.names, exponents, strict=True):
-            for _ in range(int(exponent)):
-                term = term * values[name]  # type: ignore[operator]
-        total = total + term  # type: ignore[operator]
-    return total
+    return evaluated(p, [values.get(name) for name in ring.names])
 
 
 def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly, ...]:
@@ -311,7 +287,7 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
     for number, radical in enumerate(family.radicals):
         index = family.ring.names.index(radical.name)
         before = {family.ring.names.index(x.name) for x in family.radicals}
-        if not {k for k, e in enumerate(radical.relation.degrees()) if e} <= before:
+        if not {*unknowns_of(radical.relation)} <= before:
             raise MethodError(
                 f"{radical.text} depends on a free parameter",
                 "give values with --set: gark check, with a parameter for the root in its place",
@@ -324,29 +300,10 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
                 "write it by these",
                 code="no-value-left",
             )
-        yield Rule(
-            ring.names.index(radical.name),
-            degree,
-            _instead(radical, family.ring, ring, index, degree),
-        )
-
-
-def _instead(
-    radical: Radical, old: Parameters, new: Parameters, index: int, degree: int
-) -> fmpq_mpoly:
-    """The highest power of a root, by its relation."""
-    terms = {}
-    leading = fmpq(1)
-    for exponents, a in radical.relation.to_dict().items():
-        if int(exponents[index]) == degree:
-            leading = a
-            continue
-        powers = [0] * len(new.names)
-        for name, exponent in zip(old.names, exponents, strict=True):
-            if int(exponent):
-                powers[new.names.index(name)] = int(exponent)
-        terms[tuple(powers)] = a
-    return new.context.from_dict({e: -a / leading for e, a in terms.items()})
+        place = ring.names.index(radical.name)
+        leading = coefficient_of(radical.relation, degree, index).leading_coefficient()
+        relation = radical.relation.project_to_context(ring.context) / leading
+        yield Rule(place, degree, ring.context.gen(place) ** degree - relation)
 
 
 def _is_new(before: Sequence[Radical], radical: Radical) -> bool:
@@ -354,14 +311,9 @@ def _is_new(before: Sequence[Radical], radical: Radical) -> bool:
     field = Domain([parse(x.text) for x in (*before, radical)]).field
     due = 1
     for x in (*before, radical):
-        due *= _degree(x)
+        names = [str(x) for x in x.relation.context().names()]
+        due *= int(x.relation.degrees()[names.index(x.name)])
     return field is not None and field.degree == due
-
-
-def _degree(radical: Radical) -> int:
-    """That of its relation in the root."""
-    names = [str(x) for x in radical.relation.context().names()]
-    return int(radical.relation.degrees()[names.index(radical.name)])
 
 
 MOST_DEGREE = 6
@@ -426,21 +378,15 @@ class EveryFamily(Frozen):
     @cached_property
     def weights(self) -> list[fmpq_mpoly]:
         """Polynomials of which one is zero where a weight is, each irreducible."""
-        found: dict[str, fmpq_mpoly] = {}
-        for colour in self.tableau.colours:
-            numbers: tuple[object, ...] = colour.b
-            for b in numbers:
-                if isinstance(b, Parametric):
-                    for factor, _ in b.numerator.factor()[1]:
-                        if not self.is_number(factor):
-                            found[str(factor)] = factor
-        return list(found.values())
+        numbers: list[object] = [b for colour in self.tableau.colours for b in colour.b]
+        found = factors(b.numerator for b in numbers if isinstance(b, Parametric))
+        return [p for p in found if not self.is_number(p)]
 
     @property
     def lost(self) -> list[fmpq_mpoly]:
         """Those of the weights that may be zero for values that the file admits."""
-        poles = {str(f) for p in self.poles for f, _ in p.factor()[1]}
-        return [p for p in self.weights if str(p) not in poles and self.can_vanish(p)]
+        poles = factors(self.poles)
+        return [p for p in self.weights if p not in poles and self.can_vanish(p)]
 
     def common_zeros(self, polynomials: Sequence[fmpq_mpoly | fmpz_mpoly]) -> tuple[str, ...]:
         """Polynomials as text, but for what roots of numbers satisfy; none where one of them is
@@ -476,7 +422,7 @@ class EveryFamily(Frozen):
     def is_number(self, p: fmpq_mpoly) -> bool:
         """Whether there are at most roots of numbers in a polynomial."""
         roots = {rule.index for rule in self.ring.rules}
-        return {k for k, e in enumerate(p.degrees()) if e} <= roots
+        return {*unknowns_of(p)} <= roots
 
     def norm(self, p: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
         """A polynomial in the one parameter that is zero where one with roots of nodes is.
@@ -488,10 +434,7 @@ class EveryFamily(Frozen):
         for rule in reversed(ring.rules):
             relation = ring.context.gen(rule.index) ** rule.degree
             p = p.resultant(relation - rule.instead, ring.names[rule.index])
-        terms: dict[tuple[int, ...], fmpq] = {}
-        for exponents, a in p.to_dict().items():
-            terms[(int(exponents[0]),)] = a
-        return self.ring.context.from_dict(terms)
+        return p.project_to_context(self.ring.context, {0: 0})
 
     def roots(self, polynomials: Sequence[fmpq_mpoly]) -> list[RealRoot]:
         """The values of the one parameter, in ascending order, at which one is zero."""

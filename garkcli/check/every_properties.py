@@ -15,12 +15,11 @@ from flint import fmpq
 
 from garkcli.check.every_facts import Fact, Question, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
-from garkcli.design.stability_functions import characteristic_coefficients
 from garkcli.design.stable_values import Wanted, stable_values
 from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval, Point, where
 from garkcli.exact.field import ONE
-from garkcli.exact.matrix import identity
+from garkcli.exact.matrix import characteristic_coefficients, identity
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots

@@ -15,9 +15,9 @@ from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.member import member
-from garkcli.design.stability_functions import characteristic_coefficients, joined
+from garkcli.design.stability_functions import joined
 from garkcli.exact.display import to_text
-from garkcli.exact.matrix import Matrix
+from garkcli.exact.matrix import Matrix, characteristic_coefficients
 from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.exact.span import leading_columns
 from garkcli.frozen import Frozen, replace

@@ -22,7 +22,7 @@ from garkcli.design.groebner import (
     unproved_basis,
 )
 from garkcli.exact.apart import apart
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Parameters, factors
 from garkcli.exact.polynomial import Polynomial
 
 
@@ -237,14 +237,11 @@ class Ideal:
             else:
                 without, degrees = basis, []
             if not degrees:
-                context = alone._context
-                shorter = [
-                    context.from_dict({e[: context.nvars()]: a for e, a in p.to_dict().items()})
-                    for p in without
-                ]
+                shorter = [p.project_to_context(alone._context) for p in without]
                 return alone._with_basis(shorter, self.is_proved)
             weight = max(2 * weight, 1 + max(degrees))
-            raised = [_with_power(p, weight) for p in self.basis]
+            powers = [*[1] * (self.variables - 1), weight]
+            raised = [p.inflate(powers) for p in self.basis]
             basis = groebner_basis(raised, self._context)
 
     @property
@@ -418,15 +415,6 @@ def _characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
     return matrix.charpoly()
 
 
-def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The irreducible factors, each once."""
-    found: dict[str, fmpq_mpoly] = {}
-    for p in polynomials:
-        for factor, _ in p.factor()[1]:
-            found[str(factor)] = factor
-    return list(found.values())
-
-
 def integral_scale(polynomial: fmpq_mpoly) -> fmpz:
     """The common denominator of the coefficients."""
     return _common([a.q for a in polynomial.coeffs()])
@@ -452,12 +440,6 @@ def without_multiples(p: Any) -> Any:
     for factor, _ in p.factor_squarefree()[1]:
         product *= factor
     return product
-
-
-def _with_power(p: fmpz_mpoly, power: int) -> fmpz_mpoly:
-    """A polynomial with a power of the last unknown in its place."""
-    terms = {(*e[:-1], int(e[-1]) * power): a for e, a in p.to_dict().items()}
-    return p.context().from_dict(terms)
 
 
 def _raised(e: Exponents) -> list[Exponents]:

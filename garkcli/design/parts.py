@@ -13,12 +13,12 @@ from typing import Any, TypeAlias, cast
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 from garkcli.deadline import check_time
-from garkcli.design.ideal import Ideal, factors, rational
+from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import value_of
 from garkcli.design.solutions import Solution
 from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
 from garkcli.exact.field import Number, NumberField
-from garkcli.exact.parametric import Mixed, Parameters, Parametric, fraction
+from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen, replace
@@ -173,9 +173,7 @@ def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
     for p in part.equations:
         degrees = p.degrees()
         if degrees[place] and sum(degrees) == degrees[place]:
-            alone: dict[tuple[int, ...], Any] = {}
-            alone |= {(int(e[place]),): a for e, a in p.to_dict().items()}
-            return Parameters([name]).context.from_dict(alone)
+            return p.project_to_context(Parameters([name]).context)
     return None
 
 
@@ -431,11 +429,9 @@ class _Splitting(Frozen):
     ) -> Part:
         """In a ring of the unknowns that are left alone."""
         ring = Parameters(left)
-        kept = [self.ring.names.index(name) for name in left]
 
         def moved(p: fmpq_mpoly) -> fmpq_mpoly:
-            terms = {tuple(int(e[i]) for i in kept): a for e, a in p.to_dict().items()}
-            return ring.context.from_dict(terms)
+            return p.project_to_context(ring.context)
 
         def moved_value(x: Mixed) -> Mixed:
             if not isinstance(x, Parametric):

@@ -20,15 +20,15 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, only_small
 from garkcli.design.groebner import leading
-from garkcli.design.ideal import Ideal, factors, rational
+from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import not_negative, value_of
 from garkcli.design.minimise.line import Conditions
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import between_roots
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Parameters, factors
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, kept_sign, projected
+from garkcli.exact.projection import MOST_DEGREE, in_plane, kept_sign, projected
 from garkcli.exact.roots import RealRoot
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
@@ -209,7 +209,7 @@ class _Search:
         for factor in factors([rational(curve, self.ring)]):
             # what is looked along is the last unknown that is in the factor
             along = 1 if factor.degrees()[1] else 0
-            deciding = curves([_turned(p, along) for p in (factor, *signs)])
+            deciding = factors([in_plane(p, along, 1 - along) for p in (factor, *signs)])
             if any(p.total_degree() > MOST_DEGREE for p in deciding):
                 self.is_complete = False
                 continue
@@ -220,11 +220,6 @@ class _Search:
                 yield part.with_zeros([t - value])
             for p in critical:
                 yield part.with_zeros([_at(p, t)])
-
-
-def _turned(p: fmpq_mpoly, along: int) -> fmpq_mpoly:
-    """A polynomial in two unknowns in the plane, the one that is looked along as y."""
-    return PLANE.from_dict({(int(e[along]), int(e[1 - along])): a for e, a in p.to_dict().items()})
 
 
 def _at(p: Polynomial, t: fmpq_mpoly) -> fmpq_mpoly:

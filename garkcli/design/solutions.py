@@ -59,7 +59,9 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
     """The real number that an element of ℚ[u]/modulus is where u is a real root of the modulus."""
     if not isinstance(value, Algebraic):
         return RealRoot.rational(value)
-    candidates = [x for x, _ in real_roots(_minimal_polynomial(value))]
+    # its minimal polynomial, of conjugate roots too, is in the norm of x − value
+    norm = Polynomial([-value, 1]).norm()
+    candidates = [x for x, _ in real_roots(Polynomial.from_flint(norm))]
     element = Polynomial.from_flint(value.poly)
     bits = FIRST_BITS
     while len(candidates) > 1:
@@ -69,18 +71,6 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
             candidates = [x for x in candidates if x.ball(bits).overlaps(ball)]
         bits *= 2
     return candidates[0]
-
-
-def _minimal_polynomial(value: Algebraic) -> Polynomial:
-    """A polynomial over ℚ without multiple roots that is zero at an element of a field."""
-    field = value.field
-    columns = []
-    for k in range(field.degree):
-        power = fmpq_poly([0] * k + [1])
-        image = value.poly * power % field.modulus
-        columns.append([image[i] for i in range(field.degree)])
-    multiplication = fmpq_mat(columns)  # its transpose has the same polynomial
-    return Polynomial.from_flint(_square_free(characteristic_polynomial(multiplication)))
 
 
 def solutions(ideal: Ideal) -> list[Solution]:

@@ -12,7 +12,7 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, dot
+from garkcli.exact.matrix import characteristic_coefficients
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.frozen import Frozen
 from garkcli.stepping.linear import stage_system
@@ -144,18 +144,3 @@ def _squared(p: Coefficients) -> Coefficients:
             is_negative = (j - k) // 2 % 2
             squared[power] = squared[power] + (-a * b if is_negative else a * b)
     return tuple(squared)
-
-
-def characteristic_coefficients(A: Matrix) -> list[Any]:
-    """Those of det(I − zA) = Σ c_k z^k, by Faddeev's and Le Verrier's recursion."""
-    s = len(A)
-    stages = range(s)
-    coefficients: list[Any] = [fmpq(1)]
-    M: list[list[Any]] = [[ZERO] * s for _ in stages]
-    for k in range(1, s + 1):
-        for i in stages:
-            M[i][i] = M[i][i] + coefficients[-1]
-        M = [[dot(A[i], [M[n][j] for n in stages]) for j in stages] for i in stages]
-        trace = sum((M[i][i] for i in stages), start=ZERO)
-        coefficients.append(-trace / fmpq(k))
-    return coefficients

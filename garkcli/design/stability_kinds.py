@@ -17,12 +17,12 @@ from garkcli.errors import UsageProblem, ZeroWeight
 from garkcli.exact.cells import Interval, Point, between, sign_of
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
+from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import (
     PLANE,
     at_y,
     coefficient_of,
-    curves,
     in_t,
     leading,
     projected,
@@ -124,7 +124,7 @@ class AStability:
         self.E = squared_modulus(self.Q) - squared_modulus(self.P)
         u, v = _real_and_imaginary(self.Q)
         self.essential: list[Polynomial] = []
-        self.critical = projected(curves([self.E]), [ZERO])
+        self.critical = projected(factors([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
         common = resultant(self.P, self.Q)
         on_axis = resultant(u, v)
@@ -159,9 +159,9 @@ class PStability:
         self.plane = members.plane(tableau, fields)
         self.signs, others = oscillator_curves(self.plane)
         poles = in_square(self.plane.denominator)
-        self.essential = projected(curves([poles, *self.signs]), [ZERO])
+        self.essential = projected(factors([poles, *self.signs]), [ZERO])
         deciding = [*self.signs, *others]
-        self.critical = projected(curves(deciding), [ZERO])
+        self.critical = projected(factors(deciding), [ZERO])
 
     def decide(self, value: Number) -> bool:
         tableau = self.members.at(value)
@@ -279,9 +279,9 @@ class SpringStability:
         ends = [ZERO]
         if wanted.greatest is not None:
             ends.append(wanted.greatest)
-        self.essential = projected(curves([D, *self.signs]), ends)
+        self.essential = projected(factors([D, *self.signs]), ends)
         deciding = [*self.signs, D, a + d, a * d - b * c, b, c]
-        self.critical = projected(curves(deciding), ends)
+        self.critical = projected(factors(deciding), ends)
 
     def decide(self, value: Number) -> bool:
         return any(self._is_enough(x) for x in self._stable(value))

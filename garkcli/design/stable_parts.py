@@ -208,19 +208,12 @@ class _Line:
             degrees = [int(k) for k in over.degrees()]
             is_multiple = sum(degrees) == degrees[place] == 1
             if under.is_constant() and (is_multiple or (is_same and over.is_constant())):
-                line = in_one(_on(over / under.leading_coefficient(), place, self.name))
+                line = in_one(over / under.leading_coefficient(), place)
                 slope, at_zero = line[1], line[0]
                 assert isinstance(slope, fmpq)
                 assert isinstance(at_zero, fmpq)
                 return name, slope, at_zero
         return self.name, fmpq(1), fmpq(0)
-
-
-def _on(p: fmpq_mpoly, place: int, name: str) -> fmpq_mpoly:
-    """A polynomial in one coordinate of several, in a ring of that alone."""
-    terms: dict[tuple[int, ...], Any] = {}
-    terms |= {(int(e[place]),): a for e, a in p.to_dict().items()}
-    return Parameters([name]).context.from_dict(terms)
 
 
 def point_of(x: RealRoot) -> Interval:

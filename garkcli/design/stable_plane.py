@@ -36,16 +36,16 @@ from garkcli.design.stable_values import (
 )
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval, between
-from garkcli.exact.parametric import Parameters, common_denominator
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.parametric import Parameters, common_denominator, evaluated, factors
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.projection import (
     PLANE,
     coefficient_of,
-    curves,
     discriminant,
+    in_plane,
     in_t,
-    in_y,
     leading,
+    on_line,
     projected,
     resultant,
 )
@@ -94,7 +94,7 @@ class Branch(Frozen, eq=False):
         critical = [leading(self.curve), *([discriminant(self.curve)] if degree > 1 else [])]
         if any(sign_at(in_t(p), t) == 0 for p in critical):
             return None
-        candidates = [y for y, _ in real_roots(in_y(resultant(self.curve, _of_root(t), "t")))]
+        candidates = [y for y, _ in real_roots(in_one(resultant(self.curve, _of_root(t), "t")))]
         bits = 64
         while len(candidates) > self.count:
             check_time()
@@ -274,7 +274,7 @@ class _Plane:
         branches: list[tuple[RealRoot, Branch]] = []
         for curve in self.curves:
             if curve.degrees()[0]:
-                roots = real_roots(_on_line(curve, t))
+                roots = real_roots(on_line(curve, t))
                 branches += [(y, Branch(curve, k, len(roots))) for k, (y, _) in enumerate(roots)]
 
         def end(y: RealRoot | None) -> Branch | None:
@@ -307,7 +307,7 @@ class _Plane:
         for curve in self.curves:
             if not curve.degrees()[0]:
                 continue
-            for y, _ in real_roots(in_y(resultant(curve, _of_root(t), "t"))):
+            for y, _ in real_roots(in_one(resultant(curve, _of_root(t), "t"))):
                 inside = _contain(found, Interval(y, y, has_start=True, has_end=True))
                 if not inside and not self._is_violated(t, y):
                     return False
@@ -340,7 +340,7 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
             found.append(factor)
             continue
         crossing.append(factor)
-        found += [_leading(factor), factor.compose(zero, *P.context().gens()[1:])]
+        found += [leading(factor), factor.compose(zero, *P.context().gens()[1:])]
         if degree > 1:
             found.append(factor.discriminant("_z"))
     found += [p.resultant(q, "_z") for p, q in combinations(crossing, 2)]
@@ -348,30 +348,11 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
     for (k, *rest), a in Q.to_dict().items():
         term = P.context().from_dict({(int(k) // 2, *map(int, rest)): -a if int(k) % 4 > 1 else a})
         u, v = (u, v + term) if int(k) % 2 else (u + term, v)
-    for p in (P, Q):
-        found += [_leading(p)]
+    found += [leading(P), leading(Q)]
     for p, q in ((P, Q), (u, v)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
             found.append(p.resultant(q, "_z"))
-    return curves(_in_plane(p) for p in found if p)
-
-
-def _leading(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The coefficient of the highest power of z."""
-    degree = int(p.degrees()[0])
-    return p.context().from_dict(
-        {(0, *map(int, e[1:])): a for e, a in p.to_dict().items() if int(e[0]) == degree}
-    )
-
-
-def _in_plane(p: fmpq_mpoly) -> fmpq_mpoly:
-    """A polynomial in the parameters alone, the second as y and the first as t."""
-    return PLANE.from_dict({(int(e[2]), int(e[1])): a for e, a in p.to_dict().items()})
-
-
-def _on_line(p: fmpq_mpoly, t: fmpq) -> Polynomial:
-    degree, _ = p.degrees()
-    return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(int(degree) + 1)])
+    return factors(in_plane(p, y=2, t=1) for p in found)
 
 
 def _of_root(t: RealRoot) -> fmpq_mpoly:
@@ -428,11 +409,4 @@ def _value(x: Any, at: Sequence[arb]) -> arb:
     """A polynomial, or a number whose numerator is one over a constant, in balls."""
     if isinstance(x, fmpq):
         return arb(x)
-    polynomial = x if isinstance(x, fmpq_mpoly) else x.numerator
-    total = arb(0)
-    for exponents, a in polynomial.to_dict().items():
-        term = arb(fmpq(a))
-        for ball, k in zip(at, exponents, strict=True):
-            term *= ball ** int(k)
-        total += term
-    return total
+    return arb(evaluated(x if isinstance(x, fmpq_mpoly) else x.numerator, at))

@@ -9,10 +9,9 @@ from typing import Any, cast
 from flint import fmpq
 
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.stability_functions import characteristic_coefficients
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
-from garkcli.exact.matrix import dot
+from garkcli.exact.matrix import characteristic_coefficients, dot
 from garkcli.exact.parametric import fraction
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect

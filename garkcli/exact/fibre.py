@@ -19,8 +19,8 @@ from garkcli.deadline import check_time
 from garkcli.exact.cells import sign_of
 from garkcli.exact.enclosing import value
 from garkcli.exact.field import Algebraic, Number, NumberField
-from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, in_y, resultant
+from garkcli.exact.polynomial import Polynomial, gcd, in_one
+from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, resultant
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
 
@@ -73,7 +73,7 @@ class Root(Frozen, eq=False):
     def exact(self) -> RealRoot:
         """The number by its polynomial over ℚ."""
         curve = self.fibre.curves[min(self.curves)]
-        candidates = [y for y, _ in real_roots(in_y(resultant(curve, self.fibre.modulus, "t")))]
+        candidates = [y for y, _ in real_roots(in_one(resultant(curve, self.fibre.modulus, "t")))]
         bits = FIRST_BITS
         while len(candidates) > 1:
             mine = self.ball(bits)

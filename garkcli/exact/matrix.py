@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from math import lcm
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
@@ -178,30 +178,23 @@ def _dense(W: Matrix) -> Polynomial:
         return Polynomial([ONE, -entry])
     if is_rational(W):
         return Polynomial.from_flint(to_flint(W, size).charpoly()).reversed(size)
-    return Polynomial(_from_traces(_traces(W)))
+    return Polynomial(characteristic_coefficients(W))
 
 
-def _traces(W: Matrix) -> list[Number]:
-    """The traces of W, W², …, W^n."""
-    power = W
-    traces = []
-    for _ in W:
-        trace: Number = ZERO
-        for i, row in enumerate(power):
-            trace = trace + row[i]
-        traces.append(trace)
-        power = multiply(power, W)
-    return traces
-
-
-def _from_traces(traces: Sequence[Number]) -> list[Number]:
-    """The coefficients e_k of det(I − z W) by Newton's identities, k e_k = −Σ_j t_j e_{k−j}."""
-    coefficients: list[Number] = [ONE]
-    for k in range(1, len(traces) + 1):
-        total: Number = ZERO
-        for j in range(1, k + 1):
-            total = total + traces[j - 1] * coefficients[k - j]
-        coefficients.append(total * fmpq(-1, k))
+def characteristic_coefficients(A: Matrix) -> list[Any]:
+    """Those of det(I − zA) = Σ c_k z^k, by Faddeev's and Le Verrier's recursion: of rational
+    functions of parameters too.
+    """
+    stages = range(len(A))
+    coefficients: list[Any] = [ONE]
+    M: list[list[Any]] = [[ZERO for _ in stages] for _ in stages]
+    for k in stages:
+        for i in stages:
+            M[i][i] = M[i][i] + coefficients[-1]
+        columns = list(zip(*M, strict=True))
+        M = [[dot(row, column) for column in columns] for row in A]
+        trace = sum((M[i][i] for i in stages), start=ZERO)
+        coefficients.append(-trace / fmpq(k + 1))
     return coefficients
 
 

@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from math import comb, prod
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly
 
@@ -360,6 +360,37 @@ def monomials(degrees: Sequence[int], total: int) -> int:
     """
     used = sum(map(bool, degrees))
     return min(prod(int(a) + 1 for a in degrees), comb(int(total) + used, used))
+
+
+def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
+    """The irreducible factors, each once; none of 0 and of constants."""
+    found: dict[str, fmpq_mpoly] = {}
+    for p in polynomials:
+        for factor, _ in p.factor()[1]:
+            found[str(factor)] = factor
+    return list(found.values())
+
+
+def unknowns_of(p: fmpq_mpoly) -> list[int]:
+    """The unknowns that occur, by their places."""
+    return [k for k, degree in enumerate(p.degrees()) if degree]
+
+
+def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
+    """A polynomial at values of its unknowns, whatever numbers these are.
+
+    Args:
+        p: the polynomial.
+        values: of all unknowns; of those that do not occur any.
+    """
+    total: Any = fmpq(0)
+    for exponents, a in p.to_dict().items():
+        term: Any = a
+        for value, exponent in zip(values, exponents, strict=True):
+            if exponent:
+                term = term * value ** int(exponent)
+        total = total + term
+    return total
 
 
 def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Self
 
-from flint import arb, ctx, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 
 from garkcli.deadline import check_time
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, coordinates
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
 
 
 class Polynomial:
@@ -195,7 +195,13 @@ class Polynomial:
         degree = field.degree * self.degree
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]
-        values = [_norm_of(self(point), field) for point in points]
+        values = []
+        for point in points:
+            check_time()
+            # the norm of a(θ) is its resultant with the minimal polynomial of θ
+            value = self(point)
+            poly = value.poly if isinstance(value, Algebraic) else fmpq_poly([value])
+            values.append(field.modulus.resultant(poly))
         return interpolated(points, values).to_flint().numer()
 
 
@@ -205,20 +211,10 @@ def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
     return Polynomial([value])
 
 
-def _norm_of(number: Number, field: NumberField) -> fmpq:
-    """The norm of an element of a field over ℚ."""
-    check_time()
-    d = field.degree
-    theta = fmpq_poly([0, 1])
-    rows = [coordinates(number * field.element(theta**k), d) for k in range(d)]
-    return fmpq_mat(rows).det()
-
-
-def in_one(p: fmpq_mpoly) -> Polynomial:
-    """A polynomial of a ring with one variable."""
-    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
-    highest = max(powers, default=-1)
-    return Polynomial([powers.get(k, fmpq(0)) for k in range(highest + 1)])
+def in_one(p: fmpq_mpoly, variable: int = 0) -> Polynomial:
+    """A polynomial of a ring in which no variable occurs but this one."""
+    powers = {int(e[variable]): fmpq(a) for e, a in p.to_dict().items()}
+    return Polynomial([powers.get(k, ZERO) for k in range(max(powers, default=-1) + 1)])
 
 
 def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial:

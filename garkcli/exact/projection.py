@@ -8,7 +8,7 @@ the interval: at roots of discriminants, leading coefficients, resultants and re
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -17,23 +17,19 @@ from garkcli.deadline import check_time
 from garkcli.exact.apart import apart
 from garkcli.exact.cells import Interval, between_roots, ends_of, has
 from garkcli.exact.field import Number
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.parametric import factors, unknowns_of
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import number_of, real_roots, sign
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 """ℚ[y, t]: y is what is looked along, t is what stays."""
 
 
-def curves(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The irreducible factors of polynomials in the plane, each once; constants are left out."""
-    irreducible: dict[str, fmpq_mpoly] = {}
-    for p in polynomials:
-        if not p:
-            continue
-        _, factors = p.factor()
-        for factor, _ in factors:
-            irreducible[str(factor)] = factor
-    return [curve for curve in irreducible.values() if not curve.is_constant()]
+def in_plane(p: fmpq_mpoly, y: int, t: int) -> fmpq_mpoly:
+    """A polynomial of a ring in the plane, from the places of the unknowns that are y and t there;
+    no others occur in it.
+    """
+    return p.project_to_context(PLANE, {t: 1, y: 0})
 
 
 def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
@@ -99,30 +95,22 @@ def _resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str) -> fmpq_mpoly:
 
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The coefficient of the highest power of y, a polynomial in t."""
-    degree, _ = p.degrees()
-    return coefficient_of(p, degree)
+    """The coefficient of the highest power of y, or what comes first in another ring."""
+    return coefficient_of(p, p.degrees()[0])
 
 
-def coefficient_of(p: fmpq_mpoly, power: int) -> fmpq_mpoly:
-    """The coefficient of a power of y, a polynomial in t."""
-    terms: dict[tuple[int, ...], fmpq] = {
-        (0, k): coefficient for (j, k), coefficient in p.to_dict().items() if j == power
-    }
-    return PLANE.from_dict(terms)
+def coefficient_of(p: fmpq_mpoly, power: int, variable: int = 0) -> fmpq_mpoly:
+    """The coefficient of a power of y, or of another variable, a polynomial in the others."""
+    terms = {}
+    for e, a in p.to_dict().items():
+        if e[variable] == power:
+            terms[*e[:variable], 0, *e[variable + 1 :]] = a
+    return p.context().from_dict(terms)
 
 
 def in_t(p: fmpq_mpoly) -> Polynomial:
     """A polynomial in t alone."""
-    powers = {k: c for (_, k), c in p.to_dict().items()}
-    highest = max(powers, default=-1)
-    return Polynomial([powers.get(k, 0) for k in range(highest + 1)])
-
-
-def in_y(p: fmpq_mpoly) -> Polynomial:
-    """A polynomial in y alone."""
-    powers = {int(j): a for (j, _), a in p.to_dict().items()}
-    return Polynomial([powers.get(j, fmpq(0)) for j in range(max(powers) + 1)])
+    return in_one(p, 1)
 
 
 def at_y(p: fmpq_mpoly, y: fmpq) -> Polynomial:
@@ -152,9 +140,9 @@ def kept_sign(p: fmpq_mpoly) -> int | None:
     check_time()
     if not p:
         return 1
-    content, factors = p.factor()
+    content, powers = p.factor()
     common = 1 if content > 0 else -1
-    for factor, power in factors:
+    for factor, power in powers:
         if power % 2:
             own = _of_factor(factor)
             if own is None:
@@ -170,38 +158,19 @@ def _of_factor(p: fmpq_mpoly) -> int | None:
     signs = {(a > 0) - (a < 0) for a in p.coeffs()}
     if len(signs) == 1 and not any(int(k) % 2 for e in p.monoms() for k in e):
         return signs.pop()
-    used = [i for i, degree in enumerate(p.degrees()) if degree]
+    used = unknowns_of(p)
     if len(used) <= 2:
-        return _in_plane(p, used)
+        if p.total_degree() > MOST_DEGREE:
+            return None
+        moved = in_plane(p, used[0], used[-1])
+        return next((own for own in (1, -1) if is_nowhere_negative(moved * own)), None)
     for i in used:
         if p.degrees()[i] == 2:
-            a, b, c = (_coefficient(p, i, k) for k in (2, 1, 0))
+            a, b, c = (coefficient_of(p, k, i) for k in (2, 1, 0))
             own = kept_sign(a)
             # 4 a p = (2 a v + b)² + 4ac − b², and a is zero on no open set
             if own is not None and kept_sign(4 * a * c - b * b) == 1:
                 return own
-    return None
-
-
-def _coefficient(p: fmpq_mpoly, variable: int, power: int) -> fmpq_mpoly:
-    terms = {}
-    for e, a in p.to_dict().items():
-        if e[variable] == power:
-            terms[*e[:variable], 0, *e[variable + 1 :]] = a
-    return p.context().from_dict(terms)
-
-
-def _in_plane(p: fmpq_mpoly, used: Sequence[int]) -> int | None:
-    """The same of a polynomial in two variables at most, by all cells of the plane."""
-    if p.total_degree() > MOST_DEGREE:
-        return None
-    first, last = used[0], used[-1]
-    moved = PLANE.from_dict(
-        {(int(e[first]), int(e[last]) if last != first else 0): a for e, a in p.to_dict().items()}
-    )
-    for own in (1, -1):
-        if is_nowhere_negative(moved * own):
-            return own
     return None
 
 
@@ -223,12 +192,12 @@ def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None)
             return None
         lines += [t for t in points if t is not None]
     if within is None or not all(x.is_point for x in within):
-        critical = [*projected(curves([p]), []), *ends_of(within or ())]
+        critical = [*projected(factors([p]), []), *ends_of(within or ())]
         lines += [t for t in between_roots(critical) if within is None or has(within, t)]
-    return all(_is_nowhere_negative(_on_line(p, t)) for t in lines)
+    return all(_is_nowhere_negative(on_line(p, t)) for t in lines)
 
 
-def _on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
+def on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
     """p(y, t) for one t."""
     degree, _ = p.degrees()
     return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(degree + 1)])

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
-from garkcli.design.ideal import factors, integral_scale
+from garkcli.design.ideal import integral_scale
+from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.reason import Reason

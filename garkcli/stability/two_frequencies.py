@@ -18,8 +18,9 @@ from garkcli.exact.cells import Interval, Point, contains, has, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, outer, reciprocal_characteristic, subtract
 from garkcli.exact.multivariate import Exponents, Multivariate, lattice, through_points
+from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
-from garkcli.exact.projection import PLANE, curves, projected
+from garkcli.exact.projection import PLANE, projected
 from garkcli.exact.roots import RealRoot, number_of
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
@@ -309,7 +310,7 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
         PLANE.from_dict({e: c for e, c in p.terms if isinstance(c, fmpq)}) for p in plane
     )
     # between the roots of these one x decides
-    critical = projected(curves([D, b, c, *eigenvalue_conditions(D, a, b, c, d)]), [low, high])
+    critical = projected(factors([D, b, c, *eigenvalue_conditions(D, a, b, c, d)]), [low, high])
     undecided: list[RealRoot] = []
     ends = RealRoot.rational(low), RealRoot.rational(high)
     stable_at = []

@@ -178,8 +178,8 @@ class _Into:
         """A coefficient of the family."""
         if not isinstance(x, Parametric):
             return x
-        parts = []
-        for p in (x.numerator, x.denominator):
-            terms = {(*map(int, e), *self._zeros): a for e, a in p.to_dict().items()}
-            parts.append(self.larger.context.from_dict(terms))
-        return Parametric(self.larger, *parts)
+        larger = self.larger.context
+        numerator, denominator = (
+            p.project_to_context(larger) for p in (x.numerator, x.denominator)
+        )
+        return Parametric(self.larger, numerator, denominator)

@@ -33,11 +33,10 @@ from garkcli.design.stable_values import stable_values
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import apart, first_of
 from garkcli.exact.fibre import Fibre
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Parameters, factors
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import (
     PLANE,
-    curves,
     discriminant,
     is_nowhere_negative,
     kept_sign,
@@ -158,7 +157,7 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
     yield "projection", lambda: projected([CURVE], [fmpq(0)])
     yield "discriminant", lambda: discriminant(CURVE)
     yield "resultant", lambda: resultant(CURVE, PLANE_Y - PLANE_T)
-    yield "fibre", lambda: Fibre(root, curves([CURVE])).roots
+    yield "fibre", lambda: Fibre(root, factors([CURVE])).roots
     method = loads("A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]]\nb: [1/2, 1/2]\n")
     yield "certificate", lambda: find_order(method.tableau)
     yield "process", lambda: apart(sorted, [2, 1])

@@ -6,8 +6,9 @@ import pytest
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.exact.fibre import Fibre
+from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import PLANE, curves
+from garkcli.exact.projection import PLANE
 from garkcli.exact.roots import RealRoot, number_of, real_roots
 
 Y, T = PLANE.gens()
@@ -30,7 +31,7 @@ def floats(fibre: Fibre) -> list[float]:
 @pytest.mark.parametrize("t", [SQRT2, QUINTIC, SEVENTH, RealRoot.rational(fmpq(3, 2))])
 def test_roots_of_curves(t: RealRoot) -> None:
     """Those of y² = t + 1, y = t and y = 2 − t, in floats, and as roots of polynomials over ℚ."""
-    fibre = Fibre(t, curves([Y**2 - T - 1, Y - T, Y + T - 2]))
+    fibre = Fibre(t, factors([Y**2 - T - 1, Y - T, Y + T - 2]))
     value = float(t)
     expected = sorted(y for y in ((value + 1) ** 0.5, value, 2 - value) if y > 0)
     assert floats(fibre) == pytest.approx(expected, abs=1e-14)
@@ -57,7 +58,7 @@ def test_first_failures(polynomials: list[fmpq_mpoly], t: RealRoot) -> None:
     """Where one of several polynomials becomes negative first: by their roots over ℚ(t_0)."""
     number = number_of(t, 6)
     assert number is not None
-    fibre = Fibre(t, curves(polynomials))
+    fibre = Fibre(t, factors(polynomials))
     found = fibre.first_failure(polynomials, lambda signs: min(signs) >= 0)
     ends: list[RealRoot] = []
     for p in polynomials:
@@ -87,7 +88,7 @@ def _power(number: object, exponent: int) -> object:
 def test_what_fails_at_a_point() -> None:
     """A double root ends what has to be positive, and not what must not be negative."""
     double = [(Y - T) ** 2 + (T**2 - 2) ** 2]
-    fibre = Fibre(SQRT2, curves(double))
+    fibre = Fibre(SQRT2, factors(double))
     assert fibre.first_failure(double, lambda signs: min(signs) >= 0) is None
     found = fibre.first_failure(double, lambda signs: min(signs) > 0)
     assert found is not None
@@ -99,5 +100,5 @@ def test_what_fails_at_a_point() -> None:
 
 def test_what_fails_at_once() -> None:
     """Behind 0 already."""
-    fibre = Fibre(QUINTIC, curves([Y - T]))
+    fibre = Fibre(QUINTIC, factors([Y - T]))
     assert fibre.first_failure([Y - T], lambda signs: min(signs) >= 0) == fmpq(0)

@@ -30,8 +30,9 @@ from garkcli.design.solutions import Solution
 from garkcli.exact.cells import Point, between, sign_of
 from garkcli.exact.fibre import Fibre, Root
 from garkcli.exact.field import ZERO
-from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import PLANE, at_y, curves, in_t, in_y, projected, resultant
+from garkcli.exact.parametric import factors
+from garkcli.exact.polynomial import Polynomial, in_one
+from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, projected, resultant
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
 from garkcli.frozen import Frozen
 
@@ -105,7 +106,7 @@ class _Line:
         self.level = level
         self.signs = signs
         self.allowed = allowed
-        self.curves = curves(signs.polynomials)
+        self.curves = factors(signs.polynomials)
         critical = [*projected(self.curves, [ZERO]), *_stationary(self.curves)]
         self.critical = [*critical, *allowed.polynomials]
         self.points = _roots(self.critical)
@@ -212,7 +213,8 @@ class _Line:
             fibre = Fibre(end, self.curves)
             return fibre.roots, fibre.gaps
         # at infinity the coefficients of the highest powers of t
-        roots = [y for y in _roots(map(_highest, self.curves)) if y > ORIGIN]
+        highest = [in_one(coefficient_of(p, p.degrees()[1], variable=1)) for p in self.curves]
+        roots = [y for y in _roots(highest) if y > ORIGIN]
         return roots, [between(a, b) for a, b in pairwise([ORIGIN, *roots, None])]
 
 
@@ -235,15 +237,6 @@ def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[Hi
         if is_greatest:
             best.append(min((one for one, _ in run), key=_length))
     return most, tuple(best)
-
-
-def _highest(p: fmpq_mpoly) -> Polynomial:
-    """The coefficient of the highest power of t, a polynomial in y."""
-    _, highest = p.degrees()
-    terms: dict[tuple[int, ...], fmpq] = {
-        (j, 0): a for (j, k), a in p.to_dict().items() if k == highest
-    }
-    return in_y(PLANE.from_dict(terms))
 
 
 def _stationary(of_curves: Iterable[fmpq_mpoly]) -> Iterator[Polynomial]:

@@ -29,9 +29,9 @@ from garkcli.design.search.rational import (
 from garkcli.design.solutions import Solution, value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, between
-from garkcli.exact.parametric import Parameters, fraction
+from garkcli.exact.parametric import Parameters, factors, fraction
 from garkcli.exact.polynomial import in_one
-from garkcli.exact.projection import MOST_DEGREE, PLANE, curves, is_nowhere_negative
+from garkcli.exact.projection import MOST_DEGREE, in_plane, is_nowhere_negative
 from garkcli.exact.roots import RealRoot
 
 MOST_MINORS = 200
@@ -160,16 +160,11 @@ def is_nowhere_less(
         place: of the variable that is constant on a line.
         lines: its values; None for all.
     """
-    difference = _in_plane(numerator - denominator * m, place)
+    difference = in_plane(numerator - denominator * m, 1 - place, place)
     is_plane = lines is None or not all(x.is_point for x in lines)
-    if is_plane and any(p.total_degree() > MOST_DEGREE for p in curves([difference])):
+    if is_plane and any(p.total_degree() > MOST_DEGREE for p in factors([difference])):
         return None
-    return is_nowhere_negative(difference * _in_plane(denominator, place), lines)
-
-
-def _in_plane(p: fmpq_mpoly, place: int) -> fmpq_mpoly:
-    """The same with the names of ``PLANE``, the second of them for the variable at a place."""
-    return PLANE.from_dict({(int(e[1 - place]), int(e[place])): a for e, a in p.to_dict().items()})
+    return is_nowhere_negative(difference * in_plane(denominator, 1 - place, place), lines)
 
 
 def _lines(part: Part) -> tuple[int, tuple[Interval, ...] | None]:
