@@ -261,7 +261,17 @@ def modified_run(
     following.append(_next_power(tableau, formula))
     bound = bind(tableau, problem)
     t_end = problem.t_end if t_end is None else t_end
-    first = _first_count(problem, t_end, longest)
+    if longest is None:
+        longest = problem.long_run[0] if problem.long_run else t_end / 40
+    whole_steps(t_end, t_end)  # refuses a time that is not positive
+    count = int((t_end / longest).ceil())
+    if count * 2 ** (ROWS - 1) > MAX_STEPS:
+        raise UsageProblem(
+            f"{count * 2 ** (ROWS - 1)} steps (limit {MAX_STEPS})",
+            "choose a shorter time or a larger step",
+            code="too-many",
+        )
+    first = max(count, 2)
     meter = Meter(bound, formulas, powers, t_end)
     meter.choose_digits(first, following[-1][0])
     table = meter.table(first)
@@ -294,25 +304,6 @@ def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
         if powers[-1] == order - 1:
             return order - 1, False
     return formula.max_order + _BEYOND, True
-
-
-def _first_count(problem: Hamiltonian, t_end: fmpq, longest: fmpq | None) -> int:
-    """The steps of the first row.
-
-    Raises:
-        UsageProblem: there are too many of them.
-    """
-    if longest is None:
-        longest = problem.long_run[0] if problem.long_run else t_end / 40
-    whole_steps(t_end, t_end)  # refuses a time that is not positive
-    count = int((t_end / longest).ceil())
-    if count * 2 ** (ROWS - 1) > MAX_STEPS:
-        raise UsageProblem(
-            f"{count * 2 ** (ROWS - 1)} steps (limit {MAX_STEPS})",
-            "choose a shorter time or a larger step",
-            code="too-many",
-        )
-    return max(count, 2)
 
 
 def _energy(power: int, order: int, is_lower_bound: bool, rows: tuple[Row, ...]) -> ModifiedEnergy:

@@ -132,7 +132,13 @@ def visible(bound: Binding) -> VisibleTrees:
     is_consistent = all(elementary_weight(bound.tableau, Tree(l)) == 1 for l in roots)
     if bound.fields and is_consistent:
         few = visible_tableau(bound.tableau, bound.fields)
-        origins = _terms_apart(few)
+        # for each colour its term, with its part where V^l and F^l do not see what they
+        # drive: then ∂²H^{l}/∂q∂p = 0
+        origins: list[tuple[int, str]] = []
+        for l, colour in enumerate(few.colours):
+            same_part = [m for m, x in enumerate(few.colours) if x.part == colour.part]
+            sees_own = any(few.block(l, m) is not None for m in same_part)
+            origins.append((colour.term, "" if sees_own else colour.part))
         distinct = list(dict.fromkeys(origins))
         colours = []
         for colour, origin in zip(few.colours, origins, strict=True):
@@ -144,18 +150,6 @@ def visible(bound: Binding) -> VisibleTrees:
             return VisibleTrees(few, apart, structure)
     more = _with_linear_fields(bound)
     return VisibleTrees(more, energies, hamiltonian_structure(more))
-
-
-def _terms_apart(tableau: Tableau) -> list[tuple[int, str]]:
-    """For each colour its term, with its part where V^l and F^l do not see what they drive: then
-    ∂²H^{l}/∂q∂p = 0.
-    """
-    terms: list[tuple[int, str]] = []
-    for l, colour in enumerate(tableau.colours):
-        same_part = [m for m, x in enumerate(tableau.colours) if x.part == colour.part]
-        sees_own = any(tableau.block(l, m) is not None for m in same_part)
-        terms.append((colour.term, "" if sees_own else colour.part))
-    return terms
 
 
 def _with_linear_fields(bound: Binding) -> Tableau:
@@ -256,7 +250,15 @@ def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> 
         sums = _of_hamiltonian(differentials, equation, seen.structure)
     else:
         of = "equation"
-        sums = _of_equation(differentials, equation)
+        size = len(differentials.unknowns)
+        sums = []
+        for n in range(1, equation.max_order + 1):
+            total: list[Formula] = [0] * size
+            for tree, coefficient in equation.terms(n):
+                factor = in_sympy(coefficient / tree.symmetry)
+                for i, component in enumerate(differentials.field(tree)):
+                    total[i] += factor * component
+            sums.append(total)
     terms = []
     for power, formulas in enumerate(sums):
         if any(x != 0 for x in formulas):
@@ -279,20 +281,6 @@ def _of_hamiltonian(
         value = differentials.hamiltonian(term.tree.representative)
         power = term.tree.order - 1
         sums[power][0] += in_sympy(term.factor) * value
-    return sums
-
-
-def _of_equation(differentials: Differentials, equation: ModifiedEquation) -> list[list[Formula]]:
-    """For each power of h one formula for each unknown."""
-    size = len(differentials.unknowns)
-    sums: list[list[Formula]] = []
-    for n in range(1, equation.max_order + 1):
-        total: list[Formula] = [0] * size
-        for tree, coefficient in equation.terms(n):
-            factor = in_sympy(coefficient / tree.symmetry)
-            for i, component in enumerate(differentials.field(tree)):
-                total[i] += factor * component
-        sums.append(total)
     return sums
 
 

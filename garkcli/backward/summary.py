@@ -90,7 +90,13 @@ def backward_analysis(
     equation = modified_equation(tableau, max_order)
     structure = hamiltonian_structure(tableau)
     if tolerance is not None:
-        return _of_rounded(equation, structure, tolerance)
+        from garkcli.tableau.rounded import RoundedTableau
+
+        rounded = RoundedTableau.within(equation.tableau, tolerance)
+        reached = order_of(rounded, equation.max_order)
+        order = Reached(reached.order, reached.is_lower_bound)
+        symplectic = is_symplectic(rounded)
+        return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)
     shift = effective_order(equation)
     effective = Reached(shift.order, not shift.is_proved)
     order = _reached(equation.order, max_order)
@@ -115,16 +121,3 @@ def backward_analysis(
 
 def _reached(order: int, largest: int) -> Reached:
     return Reached(order, order == largest)
-
-
-def _of_rounded(
-    equation: ModifiedEquation, structure: Structure | None, tolerance: fmpq
-) -> BackwardAnalysis:
-    """What is said of rounded coefficients."""
-    from garkcli.tableau.rounded import RoundedTableau
-
-    rounded = RoundedTableau.within(equation.tableau, tolerance)
-    found = order_of(rounded, equation.max_order)
-    order = Reached(found.order, found.is_lower_bound)
-    symplectic = is_symplectic(rounded)
-    return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)

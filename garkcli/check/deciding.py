@@ -110,8 +110,8 @@ def analyse(
         return found
     from garkcli.check.further import further_facts  # few files have them
 
-    facts = further_facts(method, further, order, inconsistent, limit, spans)
-    return replace(found, embedded=facts.embedded, dense=facts.dense)
+    embedded, dense = further_facts(method, further, order, inconsistent, limit, spans)
+    return replace(found, embedded=embedded, dense=dense)
 
 
 def _capped(

@@ -94,29 +94,20 @@ class Budget(Mutable):
     left: int
 
 
-class Question(Frozen):
-    """Something to be asked of a tableau, whatever its coefficients are.
+Question: TypeAlias = Callable[[Tableau], Any]
+"""Something to be asked of a tableau, whatever its coefficients are; answers are compared."""
 
-    Attributes:
-        ask: the answer; compared by ``==``.
-    """
 
-    ask: Callable[[Tableau], Any]
-    _none: tuple[type[Exception], ...] = (GarkError, ZeroDivisionError)
-
-    def at(self, tableau: Tableau) -> Any:
-        """The answer; None where it has no meaning."""
-        try:
-            return self.ask(tableau)
-        except self._none:
-            return None
+def answer(ask: Question, tableau: Tableau) -> Any:
+    """The answer to a question; None where it has no meaning."""
+    try:
+        return ask(tableau)
+    except (GarkError, ZeroDivisionError):
+        return None
 
 
 def find(
-    family: EveryFamily,
-    ask: Callable[[Tableau], Any],
-    is_of_stages: bool = False,
-    budget: Budget | None = None,
+    family: EveryFamily, ask: Question, is_of_stages: bool = False, budget: Budget | None = None
 ) -> Fact:
     """The answer to a question that only compares coefficients with each other.
 
@@ -128,41 +119,41 @@ def find(
     """
     budget = budget or Budget(MOST_ASKED)
     budget.left -= 1
-    question = Question(ask)
     try:
         if is_of_stages:
-            value, told = _asked_in_points(family, question)
+            value, told = _asked_in_points(family, ask)
         else:
-            value, told = _asked(question, family.tableau, family.ring)
+            value, told = _asked(ask, family.tableau, family.ring)
     except TypeError:
         # numbers have signs, rational functions have none; stage algebras have no entries
-        return by_samples(family, question)
-    factors = _factors(family, told)
+        return by_samples(family, ask)
+    known = factors(family.poles)
+    critical = [
+        p
+        for p in factors(told)
+        # what has roots of numbers alone is a number, and not zero
+        if p not in known and not family.is_number(p) and family.can_vanish(p)
+    ]
+    _, sample = next(family.samples(critical), (None, None))
+    if sample is not None and answer(ask, sample) != value:
+        return Fact(None, is_undecided=True, why=NOT_DECIDED)
     if family.has_one:
-        return _one_by_one(family, question, value, factors)
-    for _, method in family.samples(factors):
-        if question.at(method) != value:
-            return Fact(None, is_undecided=True, why=NOT_DECIDED)
-        break
-
-    def again(smaller: EveryFamily) -> Fact:
-        return find(smaller, ask, is_of_stages, budget)
-
-    return _zero_by_zero(family, value, factors, again, budget)
-
-
-def _zero_by_zero(
-    family: EveryFamily,
-    value: Any,
-    factors: Sequence[fmpq_mpoly],
-    again: Callable[[EveryFamily], Fact],
-    budget: Budget,
-) -> Fact:
-    """The answer wherever a polynomial is zero, where that gives a parameter its value."""
+        # the values at which a polynomial is zero, one by one
+        special, unknown = [], []
+        for number, root in enumerate(family.roots(critical)):
+            exact = exact_value(root)
+            if exact is None or number >= MOST_SPECIAL:
+                unknown.append(root)
+                continue
+            there = answer(ask, family.at(exact))
+            if there != value:
+                special.append((root, there))
+        return Fact(value, tuple(special), unknown=tuple(unknown))
     elsewhere, open_ = [], []
-    for p in factors:
+    for p in critical:
+        # where it is zero, if that gives a parameter its value
         smaller = family.where_zero(p) if budget.left > 0 else None
-        fact = None if smaller is None else again(smaller)
+        fact = None if smaller is None else find(smaller, ask, is_of_stages, budget)
         if fact is None or not fact.is_everywhere:
             open_.append(family.ring.text(p))
         elif fact.value != value:
@@ -170,14 +161,14 @@ def _zero_by_zero(
     return Fact(value, open=tuple(open_), elsewhere=tuple(elsewhere))
 
 
-def _asked(question: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
+def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
     """The answer with the parameters as unknowns, and what was taken for different from zero."""
     with ring.telling_apart() as told:
-        value = question.at(tableau)
+        value = answer(ask, tableau)
     return value, list(told.values())
 
 
-def _asked_in_points(family: EveryFamily, question: Question) -> tuple[Any, list[fmpq_mpoly]]:
+def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
     """The same with a coordinate for each stage.
 
     Raises:
@@ -185,42 +176,22 @@ def _asked_in_points(family: EveryFamily, question: Question) -> tuple[Any, list
     """
     tableau = family.in_points
     if tableau is family.tableau:
-        return _asked(question, tableau, family.ring)
+        return _asked(ask, tableau, family.ring)
     if tableau is None or not family.has_one:
         raise TypeError
     ring = ring_of(tableau)
-    value, told = _asked(question, tableau, ring)
+    value, told = _asked(ask, tableau, ring)
     return value, [family.norm(p, ring) for p in told]
 
 
 NOT_DECIDED = "gark check --set judges single methods"
 
 
-def _one_by_one(
-    family: EveryFamily, question: Question, value: Any, factors: Sequence[fmpq_mpoly]
-) -> Fact:
-    """The answer at the values at which a polynomial is zero besides."""
-    for _, method in family.samples(factors):
-        if question.at(method) != value:
-            return Fact(None, is_undecided=True, why=NOT_DECIDED)
-        break
-    special, unknown = [], []
-    for number, root in enumerate(family.roots(factors)):
-        exact = exact_value(root)
-        if exact is None or number >= MOST_SPECIAL:
-            unknown.append(root)
-            continue
-        there = question.at(family.at(exact))
-        if there != value:
-            special.append((root, there))
-    return Fact(value, tuple(special), unknown=tuple(unknown))
-
-
-def by_samples(family: EveryFamily, question: Question) -> Fact:
+def by_samples(family: EveryFamily, ask: Question) -> Fact:
     """That the answers differ is known from two of them; that they do not is not."""
     first: tuple[Reason, Any] | None = None
     for values, method in family.samples():
-        found = question.at(method)
+        found = answer(ask, method)
         at = joined(
             ", ", [Reason("{} = {}", Formula(x), Formula(str(y))) for x, y in values.items()]
         )
@@ -239,19 +210,6 @@ def told(value: object) -> Worded:
     if isinstance(value, (Size, str)):
         return size_reason(str(value))
     return "no meaning" if value is None else str(value)
-
-
-def _factors(family: EveryFamily, polynomials: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The irreducible factors of all of them but of poles, numbers, and what is zero for no value
-    that the file admits, each once.
-    """
-    known = factors(family.poles)
-    return [
-        p
-        for p in factors(polynomials)
-        # what has roots of numbers alone is a number, and not zero
-        if p not in known and not family.is_number(p) and family.can_vanish(p)
-    ]
 
 
 DIGITS = 12
@@ -282,14 +240,27 @@ def fact_reason(fact: Fact, name: str, text: Callable[[object], Worded] = told) 
 
 def exceptions(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
     """Where the answer is another one, each after a semicolon."""
+    groups: dict[str, tuple[object, list[RealRoot]]] = {}
+    for root, value in fact.special:
+        groups.setdefault(repr(value), (value, []))[1].append(root)
     parts = [
         Reason("; {} where {}", _text(value, text), values_reason(roots, name))
-        for value, roots in _grouped(fact)
+        for value, roots in groups.values()
     ]
     for polynomial, value in fact.elsewhere:
         parts.append(Reason("; {} where {}", _text(value, text), _zero(polynomial)))
     if fact.zeros:
-        parts.append(Reason("; {} where {}", _beyond(fact, text), zeros_reason(fact.zeros)))
+        parts.append(
+            Reason(
+                "; {} where {}",
+                (
+                    text(not fact.value)
+                    if isinstance(fact.value, bool)
+                    else f"{fact.value + 1} or more"
+                ),
+                zeros_reason(fact.zeros),
+            )
+        )
     if fact.open:
         parts.append(Reason("; not decided where {}", _any_zero(fact.open)))
     return joined("", parts)
@@ -299,23 +270,10 @@ def _text(value: object, text: Callable[[object], Worded]) -> Worded:
     return "none" if value is None else text(value)
 
 
-def _beyond(fact: Fact, text: Callable[[object], Worded]) -> Worded:
-    """What there is at the common zeros of polynomials."""
-    return text(not fact.value) if isinstance(fact.value, bool) else f"{fact.value + 1} or more"
-
-
 def _unknown(fact: Fact, name: str) -> Reason:
     if not fact.unknown:
         return NO_REASON
     return Reason("; not decided where {}", values_reason(fact.unknown, name))
-
-
-def _grouped(fact: Fact) -> list[tuple[object, list[RealRoot]]]:
-    """Single values by the answer there."""
-    groups: dict[str, tuple[object, list[RealRoot]]] = {}
-    for root, value in fact.special:
-        groups.setdefault(repr(value), (value, []))[1].append(root)
-    return list(groups.values())
 
 
 def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:

@@ -19,6 +19,7 @@ from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.member import member
 from garkcli.errors import MethodError
+from garkcli.exact.cells import roots_of
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
@@ -27,7 +28,7 @@ from garkcli.exact.polynomial import in_one
 from garkcli.exact.projection import coefficient_of
 from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
-from garkcli.tableau.family import Family, Radical, family_in_points
+from garkcli.tableau.family import Family, family_in_points
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -157,7 +158,12 @@ def carried(
         low = None if least is None else least - rest
         high = None if greatest is None else greatest - rest
         if other is None:
-            _fail_outside(name, value, (low, high))
+            if (low is not None and low > 0) or (high is not None and high < 0):
+                raise MethodError(
+                    f"{name} = {value} follows, which is outside of its range",
+                    "change the range, or what fixes the value",
+                    code="no-value-left",
+                )
             continue
         low = None if low is None else low / slope
         high = None if high is None else high / slope
@@ -188,19 +194,6 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
     assert isinstance(slope, fmpq)
     assert isinstance(rest, fmpq)
     return other, slope, rest
-
-
-def _fail_outside(name: str, value: object, shifted: Range) -> None:
-    """Refuse a number outside of the range of its parameter, which is given less the number."""
-    least, greatest = shifted
-    below = least is not None and least > 0
-    above = greatest is not None and greatest < 0
-    if below or above:
-        raise MethodError(
-            f"{name} = {value} follows, which is outside of its range",
-            "change the range, or what fixes the value",
-            code="no-value-left",
-        )
 
 
 def _common(name: str, one: Range, other: Range) -> Range:
@@ -294,7 +287,11 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
                 code="no-value-left",
             )
         degree = int(radical.relation.degrees()[index])
-        if not _is_new(family.radicals[:number], radical):
+        # whether it has the degree of its relation over the field of those before it
+        known = family.radicals[: number + 1]
+        field = Domain([parse(x.text) for x in known]).field
+        due = prod(int(x.relation.degrees()[family.ring.names.index(x.name)]) for x in known)
+        if field is None or field.degree != due:
             raise MethodError(
                 f"{radical.text} is a number of the roots before it",
                 "write it by these",
@@ -304,16 +301,6 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
         leading = coefficient_of(radical.relation, degree, index).leading_coefficient()
         relation = radical.relation.project_to_context(ring.context) / leading
         yield Rule(place, degree, ring.context.gen(place) ** degree - relation)
-
-
-def _is_new(before: Sequence[Radical], radical: Radical) -> bool:
-    """Whether a root has the degree of its relation over the field of those before it."""
-    field = Domain([parse(x.text) for x in (*before, radical)]).field
-    due = 1
-    for x in (*before, radical):
-        names = [str(x) for x in x.relation.context().names()]
-        due *= int(x.relation.degrees()[names.index(x.name)])
-    return field is not None and field.degree == due
 
 
 MOST_DEGREE = 6
@@ -438,10 +425,7 @@ class EveryFamily(Frozen):
 
     def roots(self, polynomials: Sequence[fmpq_mpoly]) -> list[RealRoot]:
         """The values of the one parameter, in ascending order, at which one is zero."""
-        found: set[RealRoot] = set()
-        for p in polynomials:
-            found.update(root for root, _ in real_roots(in_one(p)))
-        return sorted(root for root in found if self.is_inside(root))
+        return [root for root in roots_of(map(in_one, polynomials)) if self.is_inside(root)]
 
     def where_zero(self, p: fmpq_mpoly) -> EveryFamily | None:
         """The methods with a zero of a polynomial; None where it gives no parameter its value, or

@@ -13,16 +13,16 @@ from typing import Any
 
 from flint import fmpq
 
-from garkcli.check.every_facts import Fact, Question, by_samples, find
+from garkcli.check.every_facts import Fact, Question, answer, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.design.stable_values import Wanted, stable_values
 from garkcli.errors import GarkError
-from garkcli.exact.cells import Interval, Point, where
+from garkcli.exact.cells import Interval, Point, roots_of, where
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import characteristic_coefficients, identity
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.exact.roots import RealRoot
 from garkcli.order.simplifying import Simplifying, simplifying
 from garkcli.properties.subject import Subject
 from garkcli.tableau.conjugate import symplectic_defect
@@ -62,12 +62,16 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
     if key in COMPARING:
         return find(family, ask, is_of_stages=True)
     if family.has_one and key in STABLE:
-        return _stable(family, STABLE[key])
+        try:
+            found = stable_values(family.family, STABLE[key])
+        except GarkError:
+            return Fact(None)
+        return _of_set(family, found.found, found.undecided)
     if family.has_one and key in SIGNS:
         if key == "algebraically-stable" and not _is_complete(family.tableau):
             return Fact(None)
         return _by_signs(family, ask, SIGNS[key](family.tableau))
-    return by_samples(family, Question(ask))
+    return by_samples(family, ask)
 
 
 def _is_complete(tableau: Tableau) -> bool:
@@ -75,7 +79,7 @@ def _is_complete(tableau: Tableau) -> bool:
     return all(tableau.block(l, m) is not None for l in colours for m in colours)
 
 
-def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
+def _asking(key: str, limit: int) -> Question:
     """The question after a property."""
 
     def ask(tableau: Tableau) -> Any:
@@ -85,15 +89,6 @@ def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
         return value if isinstance(value, (bool, int)) else str(value)
 
     return ask
-
-
-def _stable(family: EveryFamily, wanted: Wanted) -> Fact:
-    """The set of values with a kind of stability."""
-    try:
-        found = stable_values(family.family, wanted)
-    except GarkError:
-        return Fact(None)
-    return _of_set(family, found.found, found.undecided)
 
 
 def _of_set(
@@ -110,7 +105,7 @@ def _of_set(
 def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
     """Whether a set, without gaps within its intervals, is every value with a method."""
     [(least, greatest)] = family.family.ranges.values()
-    poles = {root for p in family.poles for root, _ in real_roots(in_one(p))}
+    poles = roots_of(map(in_one, family.poles))
     first, last = found[0], found[-1]
     has_start = first.has_start or first.start in (None, *poles)
     has_end = last.has_end or last.end in (None, *poles)
@@ -128,9 +123,8 @@ def _same(end: RealRoot | None, bound: fmpq | None) -> bool:
     return end == RealRoot.rational(bound)
 
 
-def _by_signs(family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[object]) -> Fact:
+def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact:
     """What hangs on the signs of rational functions of the one parameter."""
-    question = Question(ask)
     critical: list[Polynomial] = []
     critical += [in_one(p) for p in family.poles]
     for x in numbers:
@@ -149,7 +143,7 @@ def _by_signs(family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[
         if exact is None:
             unknown.append(root)
             return False
-        return question.at(family.at(exact)) is True
+        return answer(ask, family.at(exact)) is True
 
     return _of_set(family, where(holds, critical), tuple(unknown))
 

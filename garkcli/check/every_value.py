@@ -142,6 +142,8 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
         both = every_order(family, "pair", limit)
     except ZeroWeight as error:
         obstacle = error.reason
+    rows = file.further.embedded
+    embedded = None if rows is None else _order_with(file, with_weights(file.tableau, rows), limit)
     return EveryValue(
         file=file,
         family=family,
@@ -153,18 +155,13 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
         simplifying=find(family, lambda x: simplifying(x, limit)),
         inconsistent=find(family, inconsistent_blocks),
         symplectic=_symplectic(family),
-        embedded_order=_embedded(file, limit),
+        embedded_order=embedded,
     )
 
 
 def _order_with(file: FamilyFile, tableau: Tableau, limit: int) -> EveryOrder:
     """The order of another tableau in the same parameters."""
     return every_order(every_family(replace(file, tableau=tableau)), "method", limit)
-
-
-def _embedded(file: FamilyFile, limit: int) -> EveryOrder | None:
-    rows = file.further.embedded
-    return None if rows is None else _order_with(file, with_weights(file.tableau, rows), limit)
 
 
 def _again(text: str, source: str, settings: dict[str, str], limit: int) -> EveryValue:

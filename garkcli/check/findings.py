@@ -80,7 +80,15 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
     if analysis is None:
         return NO_REASON
     if claim.endswith("bound"):
-        return _bound_witness(analysis, claim)
+        found = analysis.simplifying
+        if claim.startswith("pair-"):
+            if analysis.pair_simplifying is None:
+                return NO_REASON
+            found = analysis.pair_simplifying
+        equation = f"{found.bound} = {BOUND}"
+        if claim.endswith("sharp-bound"):
+            equation = f"{found.sharp_bound} = {SHARP_BOUND}"
+        return Reason("{} with {}", equation, bound_numbers(found))
     if claim == "dense-order":
         dense = analysis.dense
         if dense is None or dense.order.witness is None:
@@ -108,19 +116,6 @@ def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau |
         "pair-order": (analysis.pair_order, analysis.pair),
     }
     return found.get(claim, (None, None))
-
-
-def _bound_witness(analysis: Analysis, claim: str) -> Reason:
-    """How a bound comes about; empty where there is no pair."""
-    found = analysis.simplifying
-    if claim.startswith("pair-"):
-        if analysis.pair_simplifying is None:
-            return NO_REASON
-        found = analysis.pair_simplifying
-    equation = f"{found.bound} = {BOUND}"
-    if claim.endswith("sharp-bound"):
-        equation = f"{found.sharp_bound} = {SHARP_BOUND}"
-    return Reason("{} with {}", equation, bound_numbers(found))
 
 
 def claim_hint(outcome: Outcome, claim: str) -> Reason:
@@ -177,16 +172,12 @@ def value_text(number: Number, digits: int = 17) -> Formula | str:
     shown = to_decimal(number, 60)
     magnitude = shown.lstrip("-")
     if isinstance(number, fmpq) and read_decimal(magnitude) == abs(number):
-        return _without_zeros(shown)
+        # a decimal without the zeros at the end of its fraction
+        mantissa, *exponent = shown.split("e")
+        if "." in mantissa:
+            mantissa = mantissa.rstrip("0").rstrip(".")
+        return "e".join([mantissa, *exponent])
     return to_decimal(number, digits)
-
-
-def _without_zeros(text: str) -> str:
-    """A decimal without the zeros at the end of its fraction."""
-    mantissa, *exponent = text.split("e")
-    if "." in mantissa:
-        mantissa = mantissa.rstrip("0").rstrip(".")
-    return "e".join([mantissa, *exponent])
 
 
 CLAIM = "write what holds under expect: gark claims FILE --write"

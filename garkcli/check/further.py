@@ -10,7 +10,7 @@ from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, Orders, estimator
-from garkcli.tableau.embedded import DenseOutput, Further, Weights, with_weights
+from garkcli.tableau.embedded import Further, with_weights
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 
@@ -55,23 +55,6 @@ class DenseFacts(Frozen):
         return self.ends_at_step and self.slopes.are_continuous
 
 
-class FurtherFacts(Frozen):
-    """The truth about the further weights of a method, each None where it has none."""
-
-    embedded: EmbeddedFacts | None = None
-    dense: DenseFacts | None = None
-
-
-class _Method(Frozen):
-    """A method whose own orders are known."""
-
-    method: AnyTableau
-    order: AnyOrder
-    inconsistent: Sequence[tuple[int, int]]
-    limit: int
-    spans: StageSpans | None
-
-
 def further_facts(
     method: AnyTableau,
     further: Further,
@@ -79,7 +62,7 @@ def further_facts(
     inconsistent: Sequence[tuple[int, int]],
     limit: int,
     spans: StageSpans | None = None,
-) -> FurtherFacts:
+) -> tuple[EmbeddedFacts | None, DenseFacts | None]:
     """Decide all that ``gark check`` reports of embedded weights and dense output.
 
     Args:
@@ -89,39 +72,28 @@ def further_facts(
         inconsistent: the blocks whose row sums are not the nodes.
         limit: where the search for orders stops.
         spans: of the stage vectors, where some are known.
+
+    Returns:
+        what is true of the embedded weights and of the dense output, None of what it has not.
     """
-    known = _Method(method, order, inconsistent, limit, spans)
-    embedded, dense = None, None
-    if further.embedded is not None:
-        embedded = _embedded(known, further.embedded)
-    if further.dense is not None:
-        dense = _dense(known, further.dense)
-    return FurtherFacts(embedded, dense)
-
-
-def _embedded(known: _Method, weights: Weights) -> EmbeddedFacts:
-    method = known.method
-    if isinstance(method, Tableau):
-        changed: AnyTableau = with_weights(method, weights)
-    else:
-        changed = method.with_weights(weights)
-    order = order_of(changed, known.limit, known.spans)
-    timed_order = nonautonomous(changed, order, known.inconsistent, known.limit)
-    found = estimator(method, weights, _orders(order, known.order, known.limit), known.spans)
-    return EmbeddedFacts(printed(changed), order, timed_order, found)
-
-
-def _orders(one: AnyOrder, other: AnyOrder, limit: int) -> Orders:
-    """What two orders tell of the difference of the two rows of weights."""
-    smaller = one if one.order < other.order else other
-    return Orders(smaller.order, one.order != other.order and not smaller.is_lower_bound, limit)
-
-
-def _dense(known: _Method, dense: DenseOutput) -> DenseFacts:
-    method = known.method
-    return DenseFacts(
-        order=dense_order(method, dense, known.limit, known.spans),
-        degree=dense.degree,
-        ends_at_step=ends_at_step(method, dense),
-        slopes=slopes(method, dense),
-    )
+    embedded, facts = None, None
+    weights, dense = further.embedded, further.dense
+    if weights is not None:
+        if isinstance(method, Tableau):
+            changed: AnyTableau = with_weights(method, weights)
+        else:
+            changed = method.with_weights(weights)
+        other = order_of(changed, limit, spans)
+        timed_order = nonautonomous(changed, other, inconsistent, limit)
+        smaller = other if other.order < order.order else order
+        differ = other.order != order.order and not smaller.is_lower_bound
+        found = estimator(method, weights, Orders(smaller.order, differ, limit), spans)
+        embedded = EmbeddedFacts(printed(changed), other, timed_order, found)
+    if dense is not None:
+        facts = DenseFacts(
+            order=dense_order(method, dense, limit, spans),
+            degree=dense.degree,
+            ends_at_step=ends_at_step(method, dense),
+            slopes=slopes(method, dense),
+        )
+    return embedded, facts

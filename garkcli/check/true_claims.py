@@ -9,7 +9,7 @@ from garkcli.check.claims import claimed_text, found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import CLAIMS, AtLeast
-from garkcli.properties.property import Size, Verdict
+from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 
 ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
@@ -70,26 +70,19 @@ def true_claims(analysis: Analysis, keys: Iterable[str]) -> dict[str, str]:
 
 def _text(key: str, analysis: Analysis) -> str | None:
     if key in KEYS:
-        return _of_property(analysis.subject.verdict(key))
-    value = found_value(key, analysis)
-    return None if value is None else _written(value)
-
-
-def _of_property(verdict: Verdict) -> str | None:
-    value = verdict.value
-    if value is None:
-        return None
-    if isinstance(value, Size):
-        return _of_number(value)
-    if verdict.is_at_least and isinstance(value, int):
-        return _written(AtLeast(value))
-    return claimed_text(value)
-
-
-def _of_number(size: Size) -> str:
-    if size.root is None:
-        return "infinity"
-    return root_text(size.root) or root_decimal(size.root, DIGITS)
+        verdict = analysis.subject.verdict(key)
+        value = verdict.value
+        if value is None:
+            return None
+        if isinstance(value, Size):
+            if value.root is None:
+                return "infinity"
+            return root_text(value.root) or root_decimal(value.root, DIGITS)
+        if verdict.is_at_least and isinstance(value, int):
+            return _written(AtLeast(value))
+        return claimed_text(value)
+    found = found_value(key, analysis)
+    return None if found is None else _written(found)
 
 
 def _written(value: object) -> str:

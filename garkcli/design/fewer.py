@@ -122,7 +122,9 @@ def _directions(
             denominator * numerator.derivative(k + 1) - numerator * denominator.derivative(k + 1)
             for k in range(number)
         ]
-        equations += _coefficients(changes)
+        tables = [p.to_dict() for p in changes]
+        rows = [[fmpq(table.get(e, 0)) for table in tables] for e in dict.fromkeys(chain(*tables))]
+        equations += rows
     if not equations:
         equations = [[fmpq(0)] * number]
     # late parameters are solved for: their columns come first in an echelon form of the kernel
@@ -142,9 +144,3 @@ def _directions(
     echelon, _ = fmpq_mat(kernel).rref()
     pivots = [number - 1 - k for k in leading_columns(echelon)]
     return pivots, [row[::-1] for row in echelon.tolist()]
-
-
-def _coefficients(polynomials: Sequence[fmpq_mpoly]) -> list[list[fmpq]]:
-    """For each monomial its coefficients in some polynomials."""
-    tables = [p.to_dict() for p in polynomials]
-    return [[fmpq(table.get(e, 0)) for table in tables] for e in dict.fromkeys(chain(*tables))]

@@ -57,7 +57,14 @@ def basis_by_msolve(
     answer = _answer(program, _question([p for p in generators if p], context), seconds_left())
     if answer is None:
         return None
-    return _read(answer, context)
+    lines = [line for line in answer.splitlines() if not line.startswith("#")]
+    text = "".join(lines).replace(" ", "").strip()
+    if not text.startswith("[") or not text.endswith("]:"):
+        return None
+    try:
+        return [_polynomial(part, context) for part in text[1:-2].split(",")]
+    except ValueError:
+        return None
 
 
 def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
@@ -96,18 +103,6 @@ def _answer(program: str, question: str, seconds: float | None) -> str | None:
         with answered.open(encoding="ascii", errors="replace") as stream:
             text = stream.read(MAX_OUTPUT + 1)
     return text if len(text) <= MAX_OUTPUT else None
-
-
-def _read(answer: str, context: fmpz_mpoly_ctx) -> list[fmpz_mpoly] | None:
-    """The polynomials of an answer; None where it is not a list of them."""
-    lines = [line for line in answer.splitlines() if not line.startswith("#")]
-    text = "".join(lines).replace(" ", "").strip()
-    if not text.startswith("[") or not text.endswith("]:"):
-        return None
-    try:
-        return [_polynomial(part, context) for part in text[1:-2].split(",")]
-    except ValueError:
-        return None
 
 
 def _polynomial(text: str, context: fmpz_mpoly_ctx) -> fmpz_mpoly:

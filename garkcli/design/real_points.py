@@ -128,7 +128,12 @@ class _Search:
             return True
         self.is_complete = True
         if len(self.ring.names) == 1:
-            return self._is_on_line()
+            allowed = Conditions(
+                [in_one(p) for p in self.nonzero],
+                [in_one(p) for p in self.family.positive],
+                [in_one(p) for p in not_negative(self.family)],
+            )
+            return bool(allowed.intervals)
         return any(map(self._has_method, self._in_plane()))
 
     def _has_method(self, ideal: Ideal) -> bool:
@@ -186,15 +191,6 @@ class _Search:
         elif greatest is not None:
             low, high = greatest - 1, greatest
         return low + (high - low) * fmpq(draw.between(1, PARTS - 1), PARTS)
-
-    def _is_on_line(self) -> bool:
-        """Whether a value of the one unknown is a method."""
-        allowed = Conditions(
-            [in_one(p) for p in self.nonzero],
-            [in_one(p) for p in self.family.positive],
-            [in_one(p) for p in not_negative(self.family)],
-        )
-        return bool(allowed.intervals)
 
     def _in_plane(self) -> Iterator[Ideal]:
         """Finitely many points of a curve in the plane, of which one is a method if any of its

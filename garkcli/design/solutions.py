@@ -16,13 +16,13 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import count
 
-from flint import ctx, fmpq, fmpq_mat, fmpq_poly
+from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
 
 from garkcli.deadline import check_time
 from garkcli.design.ideal import Ideal, characteristic_polynomial, lowered
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
+from garkcli.exact.roots import RealRoot, real_roots, root_within
 from garkcli.frozen import Frozen
 
 
@@ -59,18 +59,13 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
     """The real number that an element of ℚ[u]/modulus is where u is a real root of the modulus."""
     if not isinstance(value, Algebraic):
         return RealRoot.rational(value)
-    # its minimal polynomial, of conjugate roots too, is in the norm of x − value
-    norm = Polynomial([-value, 1]).norm()
-    candidates = [x for x, _ in real_roots(Polynomial.from_flint(norm))]
     element = Polynomial.from_flint(value.poly)
-    bits = FIRST_BITS
-    while len(candidates) > 1:
-        check_time()
+
+    def ball(bits: int) -> arb:
         with ctx.workprec(bits):
-            ball = element.enclosed_at(root.ball(bits))
-            candidates = [x for x in candidates if x.ball(bits).overlaps(ball)]
-        bits *= 2
-    return candidates[0]
+            return element.enclosed_at(root.ball(bits))
+
+    return root_within(Polynomial.from_flint(Polynomial([-value, 1]).norm()), ball)
 
 
 def solutions(ideal: Ideal) -> list[Solution]:

@@ -35,16 +35,17 @@ from garkcli.design.stable_values import (
     too_many,
 )
 from garkcli.errors import UsageProblem
-from garkcli.exact.cells import Interval, between
+from garkcli.exact.cells import Interval, between, roots_of
+from garkcli.exact.enclosing import value
 from garkcli.exact.parametric import Parameters, common_denominator, evaluated, factors
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.projection import (
-    PLANE,
     coefficient_of,
     discriminant,
     in_plane,
     in_t,
     leading,
+    of_root,
     on_line,
     projected,
     resultant,
@@ -94,7 +95,7 @@ class Branch(Frozen, eq=False):
         critical = [leading(self.curve), *([discriminant(self.curve)] if degree > 1 else [])]
         if any(sign_at(in_t(p), t) == 0 for p in critical):
             return None
-        candidates = [y for y, _ in real_roots(in_one(resultant(self.curve, _of_root(t), "t")))]
+        candidates = [y for y, _ in real_roots(in_one(resultant(self.curve, of_root(t), "t")))]
         bits = 64
         while len(candidates) > self.count:
             check_time()
@@ -235,7 +236,7 @@ class _Plane:
         self.undecided: list[RealRoot] = []
 
     def run(self) -> StablePlane:
-        critical = sorted({t for p in projected(self.curves, []) if p for t, _ in real_roots(p)})
+        critical = roots_of(projected(self.curves, []))
         ends: list[RealRoot | None] = [None, *critical, None]
         opened = [
             Strip(Interval(left, right), self._parts(between(left, right)))
@@ -307,7 +308,7 @@ class _Plane:
         for curve in self.curves:
             if not curve.degrees()[0]:
                 continue
-            for y, _ in real_roots(in_one(resultant(curve, _of_root(t), "t"))):
+            for y, _ in real_roots(in_one(resultant(curve, of_root(t), "t"))):
                 inside = _contain(found, Interval(y, y, has_start=True, has_end=True))
                 if not inside and not self._is_violated(t, y):
                     return False
@@ -322,7 +323,7 @@ class _Plane:
             points = [acb(-x, z) for x in sizes for z in sizes]
             # next to a pole too
             points += [z for z in _roots([x.mid() for x in Q]) if z.real < 0]
-            return any(abs(_horner(P, z)) > abs(_horner(Q, z)) for z in points)
+            return any(abs(value(P, z)) > abs(value(Q, z)) for z in points)
 
 
 def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
@@ -353,12 +354,6 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
         if p and q and (p.degrees()[0] or q.degrees()[0]):
             found.append(p.resultant(q, "_z"))
     return factors(in_plane(p, y=2, t=1) for p in found)
-
-
-def _of_root(t: RealRoot) -> fmpq_mpoly:
-    """The polynomial of an algebraic number in the plane."""
-    powers = enumerate(t.polynomial.coeffs())
-    return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
 
 
 def _over(strip: Strip, t: RealRoot) -> list[Interval] | None:
@@ -396,13 +391,6 @@ def _roots(coefficients: Sequence[arb]) -> list[acb]:
         return [z.mid() for z in acb_poly(coefficients).roots()]
     except ValueError:
         return []
-
-
-def _horner(coefficients: Sequence[arb], x: Any) -> Any:
-    total = 0 * x
-    for a in reversed(coefficients):
-        total = total * x + a
-    return total
 
 
 def _value(x: Any, at: Sequence[arb]) -> arb:

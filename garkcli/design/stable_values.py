@@ -244,7 +244,20 @@ class _Decision:
             return self._at_rational(t)
         if t.exact is not None:
             return self._at_rational(t.exact)
-        return self._at_root(t)
+        poles = self.kind.plane.poles
+        if self._is_outside(t) or any(sign_at(p, t) == 0 for p in poles):
+            return False
+        for x in self._witnesses:
+            if any(sign_at(p, t) < 0 for p in self.kind.conditions(x)):
+                return False
+        is_limit = any(t in (x.start, x.end) for x in self._interior)
+        if is_limit and all(sign_at(p, t) for p in self.kind.essential):
+            return True
+        number = number_of(t, MOST_DEGREE)
+        if number is None:
+            self.undecided.append(t)
+            return True
+        return self.kind.decide(number)
 
     def _is_outside(self, t: Point) -> bool:
         root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
@@ -263,19 +276,3 @@ class _Decision:
                 if witness is not None and witness not in self._witnesses:
                     self._witnesses.append(witness)
         return self._known[key]
-
-    def _at_root(self, t: RealRoot) -> bool:
-        poles = self.kind.plane.poles
-        if self._is_outside(t) or any(sign_at(p, t) == 0 for p in poles):
-            return False
-        for x in self._witnesses:
-            if any(sign_at(p, t) < 0 for p in self.kind.conditions(x)):
-                return False
-        is_limit = any(t in (x.start, x.end) for x in self._interior)
-        if is_limit and all(sign_at(p, t) for p in self.kind.essential):
-            return True
-        number = number_of(t, MOST_DEGREE)
-        if number is None:
-            self.undecided.append(t)
-            return True
-        return self.kind.decide(number)

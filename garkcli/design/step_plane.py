@@ -123,15 +123,10 @@ def through_members(
         numerators.append([p * scale for p in entries_of_step])
     D = through(points, denominators)
     N = [through(points, values) for values in zip(*numerators, strict=True)]
-    return _in_lowest_terms(D, N, isqrt(len(N)), (of_blocks, of_weights))
-
-
-def _in_lowest_terms(
-    D: fmpq_mpoly, N: Sequence[fmpq_mpoly], d: int, poles: Iterable[fmpq_mpoly]
-) -> StepPlane:
+    d = isqrt(len(N))
     common = D
     for p in N:
         common = common.gcd(p)
-    entries = [p // common for p in N]
-    rows = tuple(tuple(entries[start : start + d]) for start in range(0, d * d, d))
-    return StepPlane(D // common, rows, tuple(in_one(p) for p in poles))
+    reduced = [p // common for p in N]
+    square = tuple(tuple(reduced[start : start + d]) for start in range(0, d * d, d))
+    return StepPlane(D // common, square, tuple(in_one(p) for p in (of_blocks, of_weights)))

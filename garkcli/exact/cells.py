@@ -84,7 +84,7 @@ def where(
         polynomials: those whose signs matter; zero ones are left out.
         start: where the line begins; None for −∞.
     """
-    roots = _roots_of(polynomials)
+    roots = roots_of(polynomials)
     left = None if start is None else RealRoot.rational(start)
     if left is not None:
         roots = [left, *(root for root in roots if root > left)]
@@ -104,7 +104,8 @@ def where(
     return tuple(intervals)
 
 
-def _roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
+def roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
+    """The real roots of polynomials in ascending order; zero ones are left out."""
     roots: set[RealRoot] = set()
     for p in polynomials:
         if p:
@@ -159,7 +160,7 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
 
 def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
     """A rational number of each open interval between the roots of polynomials, from the left."""
-    for left, right in pairwise([None, *_roots_of(polynomials), None]):
+    for left, right in pairwise([None, *roots_of(polynomials), None]):
         check_time()
         yield between(left, right)
 

@@ -117,9 +117,9 @@ def derivative(coefficients: Sequence[arb]) -> list[arb]:
     return [k * a for k, a in enumerate(coefficients) if k]
 
 
-def value(coefficients: Sequence[arb | fmpq], x: arb) -> arb:
-    """The value at x, by Horner's rule."""
-    total = arb(0)
+def value(coefficients: Sequence[arb | fmpq], x: Any) -> Any:
+    """The value at a ball, real or complex, by Horner's rule."""
+    total: Any = arb(0)
     for a in reversed(coefficients):
         total = total * x + a
     return total

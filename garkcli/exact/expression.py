@@ -181,21 +181,18 @@ class Parser:
             )
         try:
             if self.kind == "op" and self.value in {"+", "-"}:
-                return self._signed()
+                start = self.start
+                sign = self._advance()
+                inner = self._factor()
+                if sign == "+":
+                    return inner
+                end = self.last_end
+                if isinstance(inner, Literal):
+                    return Literal(-inner.value, start=start, end=end, text=inner.text)
+                return Chain("-", (inner,), start=start, end=end)
             return self._power()
         finally:
             self.depth -= 1
-
-    def _signed(self) -> Expression:
-        start = self.start
-        sign = self._advance()
-        inner = self._factor()
-        if sign == "+":
-            return inner
-        end = self.last_end
-        if isinstance(inner, Literal):
-            return Literal(-inner.value, start=start, end=end, text=inner.text)
-        return Chain("-", (inner,), start=start, end=end)
 
     def _power(self) -> Expression:
         start = self.start
@@ -245,23 +242,19 @@ class Parser:
             self._expect(")", start)
             return inner
         if self.value == ROOT_SIGN:
-            return self._root_sign(start)
+            self.depth += 1
+            if self.depth > MAX_DEPTH:
+                message = f"nested more than {MAX_DEPTH} deep"
+                raise LimitExceeded(
+                    message, "write it flatter", start, start + 1, code="file-too-large"
+                )
+            self._advance()
+            radicand = self._atom()
+            self.depth -= 1
+            return Root(radicand, 2, start=start, end=self.last_end)
         if self.kind == "end":
             self._fail(f"the text ends where a {self.value_noun} is due")
         return self._fail(f"a {self.value_noun} is expected here")
-
-    def _root_sign(self, start: int) -> Expression:
-        """The square root of what follows the sign: √3, √(3/5)."""
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
-            message = f"nested more than {MAX_DEPTH} deep"
-            raise LimitExceeded(
-                message, "write it flatter", start, start + 1, code="file-too-large"
-            )
-        self._advance()
-        radicand = self._atom()
-        self.depth -= 1
-        return Root(radicand, 2, start=start, end=self.last_end)
 
     def _function(self, name: str, start: int) -> Expression:
         if name not in FUNCTIONS:
@@ -276,7 +269,12 @@ class Parser:
         self._advance()
         radicand = self._sum()
         if name == "root_of":
-            return self._root_of(radicand, start, opened)
+            from garkcli.exact.root_of import root_nearest  # few methods have such roots
+
+            self._expect(",", opened)
+            near = self._sum()
+            self._expect(")", opened)
+            return root_nearest(radicand, near, start, self.last_end)
         index = INDEX_OF_ROOT.get(name, 0)
         if not index:
             self._expect(",", opened)
@@ -285,15 +283,6 @@ class Parser:
                 self._fail("the index of a root is 2 or more")
         self._expect(")", opened)
         return Root(radicand, index, start=start, end=self.last_end)
-
-    def _root_of(self, polynomial: Expression, start: int, opened: int) -> Expression:
-        """What follows the polynomial of a root."""
-        from garkcli.exact.root_of import root_nearest  # few methods have such roots
-
-        self._expect(",", opened)
-        near = self._sum()
-        self._expect(")", opened)
-        return root_nearest(polynomial, near, start, self.last_end)
 
 
 def read_decimal(text: str, start: int = 0) -> fmpq:

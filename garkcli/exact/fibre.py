@@ -20,8 +20,8 @@ from garkcli.exact.cells import sign_of
 from garkcli.exact.enclosing import value
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.polynomial import Polynomial, gcd, in_one
-from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, resultant
-from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign_at
+from garkcli.exact.projection import at_y, coefficient_of, in_t, of_root, resultant
+from garkcli.exact.roots import FIRST_BITS, RealRoot, root_within, sign_at
 from garkcli.frozen import Frozen, replace
 
 Holds: TypeAlias = Callable[[Sequence[int]], bool]
@@ -73,13 +73,7 @@ class Root(Frozen, eq=False):
     def exact(self) -> RealRoot:
         """The number by its polynomial over ℚ."""
         curve = self.fibre.curves[min(self.curves)]
-        candidates = [y for y, _ in real_roots(in_one(resultant(curve, self.fibre.modulus, "t")))]
-        bits = FIRST_BITS
-        while len(candidates) > 1:
-            mine = self.ball(bits)
-            candidates = [y for y in candidates if y.ball(bits).overlaps(mine)]
-            bits *= 2
-        return candidates[0]
+        return root_within(in_one(resultant(curve, of_root(self.fibre.t), "t")), self.ball)
 
 
 class Fibre:
@@ -97,16 +91,9 @@ class Fibre:
         self._field = NumberField(self._monic, ())
         self._signs: dict[tuple[Polynomial, fmpq], int] = {}
 
-    @property
-    def modulus(self) -> fmpq_mpoly:
-        """The polynomial of t_0 in the plane."""
-        powers = enumerate(self.t.polynomial.coeffs())
-        return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
-
     def polynomial(self, p: fmpq_mpoly) -> Polynomial:
         """p(y, t_0)."""
-        degree, _ = p.degrees()
-        rows = (in_t(coefficient_of(p, k)).to_flint() for k in range(degree + 1))
+        rows = (in_t(coefficient_of(p, k)).to_flint() for k in range(p.degrees()[0] + 1))
         return Polynomial([self._field.element(row) for row in rows])
 
     def sign_on(self, p: Polynomial, y: fmpq) -> int:
@@ -131,24 +118,19 @@ class Fibre:
         bits = FIRST_BITS
         while True:
             roots = sorted((root.refined(bits) for root in roots), key=lambda x: (x.low, x.high))
-            together = self._joined(roots)
+            together: list[Root] = []
+            for root in roots:
+                for place, other in enumerate(together):
+                    same = self._common(other, root)
+                    if same is not None:
+                        together[place] = same
+                        break
+                else:
+                    together.append(root)
             if all(a.high < b.low for a, b in pairwise(together)):
                 return together
             roots = together
             bits *= 2
-
-    def _joined(self, roots: Sequence[Root]) -> list[Root]:
-        """Roots of different curves that are the same number as one."""
-        joined: list[Root] = []
-        for root in roots:
-            for place, other in enumerate(joined):
-                same = self._common(other, root)
-                if same is not None:
-                    joined[place] = same
-                    break
-            else:
-                joined.append(root)
-        return joined
 
     def _common(self, a: Root, b: Root) -> Root | None:
         """Two roots as one, if they are the same number."""
@@ -224,7 +206,10 @@ class Fibre:
         Returns:
             the y; 0 where it fails at once; None where it does not fail.
         """
-        divisors = [self._curves_of(p) for p in polynomials]
+        divisors = [
+            frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)
+            for p in polynomials
+        ]
         if not holds([self._sign(p, self.gaps[0]) for p in polynomials]):
             return fmpq(0)
         for root, gap in zip(self.roots, self.gaps[1:], strict=True):
@@ -240,10 +225,6 @@ class Fibre:
         for p in polynomials:
             common = gcd(common, self.polynomial(p))
         return common.degree > 0
-
-    def _curves_of(self, p: fmpq_mpoly) -> frozenset[int]:
-        """Which of the curves divide a polynomial, by their places."""
-        return frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)
 
     def _sign(self, p: fmpq_mpoly, y: fmpq) -> int:
         return sign_of(at_y(p, y), self.t)

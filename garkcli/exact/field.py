@@ -7,7 +7,7 @@ elements are plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from math import prod
 from typing import Any, TypeAlias
@@ -96,17 +96,14 @@ class NumberField:
             columns += [candidates[j] for j in new]
             if len(columns) == self.degree:
                 break
-            level = self._extended({word: level[word] for word in new_words})
+            # the products with one factor more; the indices of a word do not descend
+            extended: dict[Word, fmpq_poly] = {}
+            for word, product in {word: level[word] for word in new_words}.items():
+                for index in range(word[-1] if word else 0, len(self.radicals)):
+                    _, radical = self.radicals[index]
+                    extended[*word, index] = product * radical % self.modulus
+            level = extended
         return tuple(chosen), fmpq_mat(columns).transpose().inv()
-
-    def _extended(self, level: Mapping[Word, fmpq_poly]) -> dict[Word, fmpq_poly]:
-        """The products with one factor more; the indices of a word do not descend."""
-        extended: dict[Word, fmpq_poly] = {}
-        for word, product in level.items():
-            for index in range(word[-1] if word else 0, len(self.radicals)):
-                _, radical = self.radicals[index]
-                extended[*word, index] = product * radical % self.modulus
-        return extended
 
     def _column(self, poly: fmpq_poly) -> list[fmpq]:
         return [poly[k] for k in range(self.degree)]

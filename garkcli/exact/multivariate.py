@@ -151,8 +151,19 @@ def _interpolated(
     """The polynomial of total degree ≤ ``degree`` through values on a lattice."""
     table = dict(values)
     for axis in range(axes):
-        _take_differences(table, axis, degree)
-    basis = _newton_basis(offset, degree)
+        # replace the values along an axis by their forward differences at its first point
+        descending = sorted(table, key=lambda point: point[axis], reverse=True)
+        for rank in range(1, degree + 1):
+            for point in descending:
+                i = point[axis]
+                if i >= rank:
+                    table[point] = table[point] - table[*point[:axis], i - 1, *point[axis + 1 :]]
+    # the polynomials (x − o)(x − o − 1) … / i!, of degree i
+    basis = [Polynomial([1])]
+    last = basis[0]
+    for i in range(degree):
+        last = last * Polynomial([-(offset + i), 1]) * fmpq(1, i + 1)
+        basis.append(last)
     terms: dict[Exponents, Number] = {}
     for point, difference in table.items():
         if not difference:
@@ -162,23 +173,3 @@ def _interpolated(
             a = prod([x for _, x in chosen], start=difference)
             terms[exponents] = terms.get(exponents, ZERO) + a
     return terms
-
-
-def _take_differences(table: dict[Exponents, Number], axis: int, degree: int) -> None:
-    """Replace the values along an axis by their forward differences at its first point."""
-    descending = sorted(table, key=lambda point: point[axis], reverse=True)
-    for rank in range(1, degree + 1):
-        for point in descending:
-            i = point[axis]
-            if i >= rank:
-                table[point] = table[point] - table[*point[:axis], i - 1, *point[axis + 1 :]]
-
-
-def _newton_basis(offset: int, degree: int) -> list[Polynomial]:
-    """The polynomials (x − o)(x − o − 1) … / i!, of degree i."""
-    basis = [Polynomial([1])]
-    last = basis[0]
-    for i in range(degree):
-        last = last * Polynomial([-(offset + i), 1]) * fmpq(1, i + 1)
-        basis.append(last)
-    return basis

@@ -82,16 +82,20 @@ class Parameters:
             powers = ""
             for name, exponent in zip(self.names, exponents, strict=True):
                 if int(exponent):
-                    powers += self._power_latex(name, int(exponent))
+                    exponent = int(exponent)
+                    letter = name_latex(name)
+                    if name in self.shown:
+                        _, letter = self.shown[name]
+                    factor = letter if exponent == 1 else f"{letter}^{{{exponent}}}"
+                    powers += factor
             sign = "-" if a < 0 else "+"
-            text += sign + _coefficient_latex(abs(a), powers)
+            a = abs(a)
+            top = f"{a.p}{powers}"
+            if powers and a.p == 1:
+                top = powers
+            term = top if a.q == 1 else rf"\frac{{{top}}}{{{a.q}}}"
+            text += sign + term
         return text.removeprefix("+") or "0"
-
-    def _power_latex(self, name: str, exponent: int) -> str:
-        letter = name_latex(name)
-        if name in self.shown:
-            _, letter = self.shown[name]
-        return letter if exponent == 1 else f"{letter}^{{{exponent}}}"
 
     def constant(self, number: fmpq) -> fmpq_mpoly:
         """A number as a polynomial."""
@@ -122,17 +126,14 @@ class Parameters:
         """An equal polynomial of the smallest degrees."""
         for rule in reversed(self.rules):
             while polynomial.degrees()[rule.index] >= rule.degree:
-                polynomial = self._rewritten(polynomial, rule)
+                total = self.constant(fmpq(0))
+                for exponents, a in polynomial.to_dict().items():
+                    powers = [int(e) for e in exponents]
+                    count, powers[rule.index] = divmod(powers[rule.index], rule.degree)
+                    rest = self.context.from_dict({tuple(powers): a})
+                    total += times(rest, power(rule.instead, count))
+                polynomial = total
         return polynomial
-
-    def _rewritten(self, polynomial: fmpq_mpoly, rule: Rule) -> fmpq_mpoly:
-        total = self.constant(fmpq(0))
-        for exponents, a in polynomial.to_dict().items():
-            powers = [int(e) for e in exponents]
-            count, powers[rule.index] = divmod(powers[rule.index], rule.degree)
-            rest = self.context.from_dict({tuple(powers): a})
-            total += times(rest, power(rule.instead, count))
-        return total
 
     @contextmanager
     def telling_apart(self) -> Iterator[dict[str, fmpq_mpoly]]:
@@ -152,14 +153,6 @@ class Parameters:
         """Note that a polynomial is taken for different from 0."""
         if self._told_apart is not None and not polynomial.is_constant():
             self._told_apart[str(polynomial)] = polynomial
-
-
-def _coefficient_latex(a: fmpq, powers: str) -> str:
-    """A positive multiple of powers, as one fraction."""
-    top = f"{a.p}{powers}"
-    if powers and a.p == 1:
-        top = powers
-    return top if a.q == 1 else rf"\frac{{{top}}}{{{a.q}}}"
 
 
 class Parametric:

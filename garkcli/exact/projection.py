@@ -19,7 +19,7 @@ from garkcli.exact.cells import Interval, between_roots, ends_of, has
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import factors, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.roots import number_of, real_roots, sign
+from garkcli.exact.roots import RealRoot, number_of, real_roots, sign
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 """ℚ[y, t]: y is what is looked along, t is what stays."""
@@ -92,6 +92,12 @@ def _discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
 
 def _resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str) -> fmpq_mpoly:
     return p.resultant(q, variable)
+
+
+def of_root(t: RealRoot) -> fmpq_mpoly:
+    """The polynomial of an algebraic number in the plane, in t."""
+    powers = enumerate(t.polynomial.coeffs())
+    return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
 
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:
@@ -199,8 +205,7 @@ def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None)
 
 def on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
     """p(y, t) for one t."""
-    degree, _ = p.degrees()
-    return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(degree + 1)])
+    return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(p.degrees()[0] + 1)])
 
 
 def _is_nowhere_negative(p: Polynomial) -> bool:

@@ -48,7 +48,11 @@ def root_nearest(polynomial: Expression, near: Expression, start: int, end: int)
         return Literal(fmpq(-factor[0], factor[1]), start=start, end=end)
     coefficients = tuple(int(a) for a in factor.coeffs())
     if len(coefficients) == 3:
-        return _in_radicals(coefficients, number, start, end)
+        c, b, a = (fmpq(x) for x in coefficients)
+        middle = -b / (2 * a)
+        radical = Root(Literal(middle * middle - c / a), 2)
+        sign = "-" if number == 0 else "+"
+        return Chain(f"+{sign}", (Literal(middle), radical), start=start, end=end)
     return AlgebraicRoot(coefficients, number, start=start, end=end)
 
 
@@ -79,15 +83,6 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
     )
 
 
-def _in_radicals(coefficients: tuple[int, ...], number: int, start: int, end: int) -> Expression:
-    """A root of an irreducible quadratic polynomial, by its formula."""
-    c, b, a = (fmpq(x) for x in coefficients)
-    middle = -b / (2 * a)
-    radical = Root(Literal(middle * middle - c / a), 2)
-    sign = "-" if number == 0 else "+"
-    return Chain(f"+{sign}", (Literal(middle), radical), start=start, end=end)
-
-
 def polynomial_in_x(expression: Expression) -> fmpq_poly:
     """The value in ℚ[x]."""
     match expression:
@@ -101,7 +96,8 @@ def polynomial_in_x(expression: Expression) -> fmpq_poly:
             total = fmpq_poly([0 if signs[0] in "+-" else 1])
             for sign, operand in zip(signs, operands, strict=True):
                 total = _joined(sign, total, polynomial_in_x(operand), operand)
-                _check_size(total, expression)
+                if total.degree() > MAX_POLYNOMIAL_DEGREE or _bits(total) > MAX_COEFFICIENT_BITS:
+                    raise _too_large(expression)
             return total
         case Power(base=base, exponent=exponent):
             return _power(polynomial_in_x(base), exponent, expression)
@@ -134,11 +130,6 @@ def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
     if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (MAX_COEFFICIENT_BITS):
         raise _too_large(at)
     return base**size
-
-
-def _check_size(p: fmpq_poly, at: Expression) -> None:
-    if p.degree() > MAX_POLYNOMIAL_DEGREE or _bits(p) > MAX_COEFFICIENT_BITS:
-        raise _too_large(at)
 
 
 def _bits(p: fmpq_poly) -> int:

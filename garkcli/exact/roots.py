@@ -6,6 +6,7 @@ are equal exactly when they are the same number. Enclosures only tell apart what
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
@@ -203,6 +204,23 @@ def roots_below(M: fmpq_poly, x: fmpq) -> int:
     mirrored = M(fmpq_poly([x, -1]))
     signs = [a > 0 for a in mirrored.coeffs() if a]
     return sum(1 for a, b in pairwise(signs) if a != b)
+
+
+def root_within(p: Polynomial, ball: Callable[[int], arb]) -> RealRoot:
+    """The real root of a polynomial that a number is.
+
+    Args:
+        p: a polynomial over ℚ, zero at the number.
+        ball: an enclosure of the number with about so many bits.
+    """
+    candidates = [x for x, _ in real_roots(p)]
+    bits = FIRST_BITS
+    while len(candidates) > 1:
+        check_time()
+        mine = ball(bits)
+        candidates = [x for x in candidates if x.ball(bits).overlaps(mine)]
+        bits *= 2
+    return candidates[0]
 
 
 def number_of(root: RealRoot, most_degree: int) -> Number | None:

@@ -122,7 +122,11 @@ def select(
     roots = within
     if root is not None:
         roots = within & {root}
-    narrowed = _narrowed(colours, edges, within)
+    narrowed = [[False] * colours for _ in range(colours)]
+    for above in within:
+        for m in within:
+            if edges is None or edges[above][m]:
+                narrowed[above][m] = True
     wanted = sorted(set(using))
     if len(wanted) > min(order, MAX_USING):
         return  # more colours than vertices, or than any tree that can be listed has
@@ -138,16 +142,6 @@ def select(
             yield block
         elif keep.any():
             yield Block(block.columns.part(keep), block.lower)
-
-
-def _narrowed(colours: int, edges: Edges | None, within: Collection[int]) -> list[list[bool]]:
-    """The edges between the colours ``within``, as a matrix over all colours."""
-    narrowed = [[False] * colours for _ in range(colours)]
-    for above in within:
-        for m in within:
-            if edges is None or edges[above][m]:
-                narrowed[above][m] = True
-    return narrowed
 
 
 def _used(trees: Columns, bits: Column, known: Column) -> Column:

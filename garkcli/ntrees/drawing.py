@@ -261,7 +261,16 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
         base = MARGIN + sum(heights[: row + 1]) + row * foot
         body += _svg_tree(vertices, middle, base - RADIUS)
         body += _svg_caption(lines[k], middle, base)
-    head = _svg_head(sum(widths), MARGIN + sum(heights) + len(heights) * foot - ROW_GAP)
+    wide = f"{sum(widths):.0f}"
+    high = f"{(MARGIN + sum(heights) + len(heights) * foot - ROW_GAP):.0f}"
+    size = f'width="{wide}" height="{high}"'
+    view = f'viewBox="0 0 {wide} {high}"'
+    font = f'font-family="{FONTS}" font-size="{CAPTION_SIZE}" text-anchor="middle"'
+    namespace = 'xmlns="http://www.w3.org/2000/svg"'
+    head = [
+        f"<svg {namespace} {size} {view} {font}>",
+        '<rect width="100%" height="100%" fill="#ffffff"/>',
+    ]
     return "\n".join([*head, *body, "</svg>", ""])
 
 
@@ -281,19 +290,6 @@ def _grid(
         widths[column] = max(widths[column], wide)
         heights[row] = max(heights[row], high)
     return widths, heights
-
-
-def _svg_head(width: float, height: float) -> list[str]:
-    wide = f"{width:.0f}"
-    high = f"{height:.0f}"
-    size = f'width="{wide}" height="{high}"'
-    view = f'viewBox="0 0 {wide} {high}"'
-    font = f'font-family="{FONTS}" font-size="{CAPTION_SIZE}" text-anchor="middle"'
-    namespace = 'xmlns="http://www.w3.org/2000/svg"'
-    return [
-        f"<svg {namespace} {size} {view} {font}>",
-        '<rect width="100%" height="100%" fill="#ffffff"/>',
-    ]
 
 
 def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:

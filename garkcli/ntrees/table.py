@@ -407,18 +407,14 @@ class TreeTable(Frozen):
         branches = []
         u = tree_id
         while (last := int(branch[u])) >= 0:
-            branches.append(self._branch_tree(last))
+            known = self._branches.get(last)
+            if known is None:
+                known = self.tree(last)
+                if len(self._branches) < MOST_KEPT:
+                    self._branches[last] = known
+            branches.append(known)
             u = int(stem[u])
         return Tree(int(self.columns.root[u]), branches)
-
-    def _branch_tree(self, tree_id: int) -> Tree:
-        """The tree with an id; one that many trees have as a branch is made once."""
-        known = self._branches.get(tree_id)
-        if known is None:
-            known = self.tree(tree_id)
-            if len(self._branches) < MOST_KEPT:
-                self._branches[tree_id] = known
-        return known
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
         """Bracket text of many trees, the same as ``format_tree``, built from the texts of their

@@ -208,35 +208,21 @@ def _solution(
         return None
     value = entry.old - condition.residual / slope
     if missed.near:
-        return _refined(method, missed, entry, condition, value, slope)
+        # the root of a condition near ``value``
+        grid = missed.near / 100
+        for _ in range(NEWTON_STEPS):
+            if isinstance(value, fmpq):
+                value = (value / grid).floor() * grid
+            weights = _weights(missed, entry.put(method, value), [condition.tree])
+            if weights is None:
+                break
+            value = value - (weights[0] - condition.required) / slope
+        return value
     twice = _weights(missed, entry.put(method, entry.old + step + step), [condition.tree])
     if twice is None:
         return None
     is_linear = twice[0] - beyond[best] == slope
     return value if is_linear else None
-
-
-def _refined(
-    method: Tableau,
-    missed: Missed,
-    entry: Entry,
-    condition: Condition,
-    value: Number,
-    slope: Number,
-) -> Number:
-    """The root of a condition near ``value``.
-
-    To a hundredth of what the condition is to be restored within.
-    """
-    grid = missed.near / 100
-    for _ in range(NEWTON_STEPS):
-        if isinstance(value, fmpq):
-            value = (value / grid).floor() * grid
-        weights = _weights(missed, entry.put(method, value), [condition.tree])
-        if weights is None:
-            break
-        value = value - (weights[0] - condition.required) / slope
-    return value
 
 
 def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
@@ -315,13 +301,21 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
             in_none.append(block)
         elif uses == len(used):
             in_every.append(block)
+    # the candidate whose conditions fail most often; None where several do alike
+    share: dict[Edge, float] = {}
+    for block in in_every:
+        with_block = [x for x in of_order if block in _blocks_in(tableau, x.tree)]
+        share[block] = sum(not x.holds for x in with_block) / len(with_block)
+    most = max(share.values(), default=0.0)
+    best = [block for block in in_every if share[block] == most]
+    culprit = best[0] if len(best) == 1 else None
     return Blame(
         order=missed.order,
         failing=len(failing),
         total=len(of_order),
         in_every=tuple(in_every),
         in_none=tuple(in_none),
-        culprit=_culprit(tableau, of_order, in_every),
+        culprit=culprit,
         only_coupling=all(condition.is_coupling for condition in failing),
         repairs=tuple(repairs(method, missed, failing)),
         of=missed.of,
@@ -337,16 +331,3 @@ def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:
         for vertex in tree.vertices()
         for branch in vertex.branches
     )
-
-
-def _culprit(
-    tableau: Tableau, of_order: list[Condition], candidates: Sequence[Edge]
-) -> Edge | None:
-    """The candidate whose conditions fail most often; None where several do alike."""
-    share: dict[Edge, float] = {}
-    for block in candidates:
-        with_block = [x for x in of_order if block in _blocks_in(tableau, x.tree)]
-        share[block] = sum(not x.holds for x in with_block) / len(with_block)
-    most = max(share.values(), default=0.0)
-    best = [block for block in candidates if share[block] == most]
-    return best[0] if len(best) == 1 else None

@@ -100,7 +100,15 @@ def estimate_constants(
 def _constants(tableau: Tableau, order: int, share: int, most_exact: int) -> ErrorConstants | None:
     """The norms of (b_lᵀ 𝒜^[u] − share/γ(u)) / σ(u)."""
     if count_conditions(tableau, order) <= most_exact:
-        return _exact(tableau, order, share)
+        everything: list[_Coefficient] = []
+        coupling: list[_Coefficient] = []
+        for condition in all_conditions(tableau, order):
+            e = (condition.value - share * condition.required) / condition.tree.symmetry
+            mixed = [u for u in condition.trees if len(u.colours) > 1]
+            everything.append((e, condition.trees))
+            if mixed:
+                coupling.append((e, mixed))
+        return ErrorConstants(order, True, _exact_norms(everything), _exact_norms(coupling))
     edges, linear = coupling_graph(tableau)
     trees = 0
     for n in range(1, order + 1):
@@ -108,18 +116,6 @@ def _constants(tableau: Tableau, order: int, share: int, most_exact: int) -> Err
     if trees > MAX_TREES:
         return None
     return _in_floats(tableau, order, share)
-
-
-def _exact(tableau: Tableau, order: int, share: int) -> ErrorConstants:
-    everything: list[_Coefficient] = []
-    coupling: list[_Coefficient] = []
-    for condition in all_conditions(tableau, order):
-        e = (condition.value - share * condition.required) / condition.tree.symmetry
-        mixed = [u for u in condition.trees if len(u.colours) > 1]
-        everything.append((e, condition.trees))
-        if mixed:
-            coupling.append((e, mixed))
-    return ErrorConstants(order, True, _exact_norms(everything), _exact_norms(coupling))
 
 
 def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:

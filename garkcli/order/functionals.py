@@ -30,7 +30,7 @@ from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.tableau.rounded import RoundedTableau
+    pass
 
 
 MOST_TREES = 50_000
@@ -102,7 +102,20 @@ def first_failure(
     if exact is None:
         return None
     first = exact.witness.tree.order
-    return _first_within(method, functionals, [n for n in remaining if n >= first])
+    from garkcli.order.rounded import Conditions  # balls, which exact methods do without
+
+    judges = []
+    for functional in functionals:
+        rounded = method.with_weights(functional.weights, functional.terms)
+        judges.append(Conditions(rounded, MOST_TREES))
+    for order in [n for n in remaining if n >= first]:
+        for number, (judge, functional) in enumerate(zip(judges, functionals, strict=True)):
+            verdict = judge.of(order, functional.share(order))
+            if verdict is None:
+                raise Undecided(order)
+            if verdict.witness is not None:
+                return Failure(number, verdict.witness)
+    return None
 
 
 def _first_exact(
@@ -119,25 +132,6 @@ def _first_exact(
                 share = functional.share(order)
                 if value != fmpq(share, order):
                     return Failure(number, witness_of(Tree(l, forest.branches), value, share))
-    return None
-
-
-def _first_within(
-    method: RoundedTableau, functionals: Sequence[Functional], orders: Iterable[int]
-) -> Failure | None:
-    from garkcli.order.rounded import Conditions  # balls, which exact methods do without
-
-    judges = []
-    for functional in functionals:
-        rounded = method.with_weights(functional.weights, functional.terms)
-        judges.append(Conditions(rounded, MOST_TREES))
-    for order in orders:
-        for number, (judge, functional) in enumerate(zip(judges, functionals, strict=True)):
-            verdict = judge.of(order, functional.share(order))
-            if verdict is None:
-                raise Undecided(order)
-            if verdict.witness is not None:
-                return Failure(number, verdict.witness)
     return None
 
 

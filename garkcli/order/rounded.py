@@ -322,18 +322,14 @@ class Conditions:
                 if not size <= least * (required - size):
                     doubtful.append((size, residual, tree_id))
             if len(doubtful) > FEW_DOUBTS:
-                doubtful = self._left_by_a_corner(doubtful, order, share)
+                # those that one method of the box does not explain: that with the largest
+                # coefficients, whose residuals differ by no more than rounding can make them
+                moved = {u: residual for residual, _, u in self.corner.of_order(order, share)}
+                doubtful = [x for x in doubtful if not x[0] <= abs(moved[x[2]] - x[1])]
         doubtful.sort(key=lambda x: float(x[0].mid()), reverse=True)
         table = self.residuals.table(order)
         witness = self._first_failing(((size, table.tree(u)) for size, _, u in doubtful), share)
         return Verdict(bound.abs_upper(), "trees", witness)
-
-    def _left_by_a_corner(self, doubtful: Sequence[_Doubt], order: int, share: int) -> list[_Doubt]:
-        """Those whose residuals one method of the box does not explain: the one with the largest
-        coefficients, whose residuals differ by no more than any rounding can make them.
-        """
-        moved = {u: residual for residual, _, u in self.corner.of_order(order, share)}
-        return [x for x in doubtful if not x[0] <= abs(moved[x[2]] - x[1])]
 
     def _by_bushes(self, order: int) -> Verdict | None:
         """That the order fails, where a quadrature condition does: a bush of leaves of one colour.

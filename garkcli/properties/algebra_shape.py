@@ -17,9 +17,10 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_poly, nmod_poly
 
 from garkcli.exact.field import Number
-from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.matrix import Matrix
 from garkcli.exact.roots import roots_below
 from garkcli.frozen import Frozen
+from garkcli.properties.family_entries import divided
 from garkcli.properties.pattern import Shape
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
@@ -106,7 +107,8 @@ def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | N
                 sees_nothing = sees_nothing.gcd(_poly(column))
         if tableau.colours[m].space == k:
             for row in block:
-                is_unseen = is_unseen.gcd(_divided(M, row))
+                # at a node y = c_j the value of the functional on M/(x − c_j)
+                is_unseen = is_unseen.gcd(divided(M, row).to_flint())
     gone = sees_nothing * is_unseen / sees_nothing.gcd(is_unseen)
     dropped = set()
     _, factors = gone.factor()
@@ -123,16 +125,6 @@ def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | N
 
 def _poly(coefficients: Iterable[Number]) -> fmpq_poly:
     return fmpq_poly([a for a in coefficients if isinstance(a, fmpq)])
-
-
-def _divided(M: fmpq_poly, values: Vector) -> fmpq_poly:
-    """A functional, given by its values on x^i, applied to (M(x) − M(y))/(x − y) in x: at a node
-    y = c_j it is its value on M/(x − c_j).
-    """
-    s = M.degree()
-    reversed_values = _poly(values[::-1])
-    shifted = reversed_values * M
-    return fmpq_poly([shifted[s + n] for n in range(s)])
 
 
 def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int], p: int) -> bool:

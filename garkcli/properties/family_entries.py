@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 
 from flint import fmpq, fmpq_poly
@@ -38,7 +38,7 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
         return not vanishes_at(entry, row_node)
     if row_node.exact is not None:
         powers = [row_node.exact**n for n in range(here.stages)]
-        entry = _divided(there.modulus, apply_left(powers, block))
+        entry = divided(there.modulus, apply_left(powers, block))
         return not vanishes_at(entry, column_node)
     return None
 
@@ -49,17 +49,13 @@ def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
     return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
 
 
-def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
-    """The functional applied to (M(x) − M(y))/(x − y), in x, as a polynomial in y.
-
-    x^n turns into Σ x^i y^(n−1−i), and x^i into its value.
+def divided(M: fmpq_poly, values: Sequence[Number]) -> Polynomial:
+    """A functional, given by its values on x^i, applied to (M(x) − M(y))/(x − y) in x, as a
+    polynomial in y: x^n turns into Σ x^i y^(n−1−i).
     """
-    known = list(values)
-    total = Polynomial([])
-    for n in range(1, M.degree() + 1):
-        descending = known[:n][::-1]
-        total = total + Polynomial(descending) * M[n]
-    return total
+    s = M.degree()
+    product = Polynomial(values[::-1]) * Polynomial.from_flint(M)
+    return Polynomial([product[s + n] for n in range(s)])
 
 
 def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) -> bool:

@@ -201,18 +201,13 @@ def is_positive(form: list[list[arb]]) -> bool | None:
             return False
         pivots = [i for i in remaining if rows[i][i] > 0]
         if not pivots:
-            return _without_pivot(rows, remaining)
+            for i, j in combinations(remaining, 2):
+                diagonal = rows[i][i] * rows[j][j]
+                if diagonal < rows[i][j] * rows[j][i]:
+                    return False
+            for i in remaining:
+                if not all(rows[i][j].is_zero() for j in remaining):
+                    return None
+            return True
         _eliminate(rows, pivots[0], remaining)
-    return True
-
-
-def _without_pivot(rows: list[list[arb]], remaining: list[int]) -> bool | None:
-    """The same where no diagonal entry is known to be positive."""
-    for i, j in combinations(remaining, 2):
-        diagonal = rows[i][i] * rows[j][j]
-        if diagonal < rows[i][j] * rows[j][i]:
-            return False
-    for i in remaining:
-        if not all(rows[i][j].is_zero() for j in remaining):
-            return None
     return True

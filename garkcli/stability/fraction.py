@@ -20,10 +20,10 @@ from math import comb
 from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.multivariate import Exponents, Multivariate, from_lines, lattice
+from garkcli.exact.multivariate import Multivariate, from_lines, lattice
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.frozen import Frozen
-from garkcli.stability.linear import StepFunction, unreduced
+from garkcli.stability.linear import unreduced
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
@@ -90,23 +90,14 @@ def stability_fraction(tableau: Tableau) -> Fraction | None:
     degree = sum(space.stages for space in tableau.spaces)
     over, under = {}, {}
     for point in lattice(axes, degree):
-        step = _on_line(tableau, point)
+        shares = [ONE, *map(fmpq, point)]
+        # colours with share 0 are kept: all lines have numerators and denominators of one pair
+        fields = [((share,),) for share in shares]
+        step = unreduced(stage_system(tableau, fields, [((ONE,),) for _ in shares]))
         [[over[point]]] = step.numerators
         under[point] = step.denominator
     P = from_lines(over, 0, degree)
     Q = from_lines(under, 0, degree)
-    return _in_lowest_terms(P, Q)
-
-
-def _on_line(tableau: Tableau, point: Exponents) -> StepFunction:
-    """The function t ↦ R(t v) for v = (1, i_2, …, i_N), nothing cancelled."""
-    shares = [ONE, *map(fmpq, point)]
-    # colours with share 0 are kept: numerators and denominators of all lines are those of one pair
-    fields = [((share,),) for share in shares]
-    return unreduced(stage_system(tableau, fields, [((ONE,),) for _ in shares]))
-
-
-def _in_lowest_terms(P: Multivariate, Q: Multivariate) -> Fraction:
     axes = Q.variables - 1
     for offset in OFFSETS:
         direction = _direction([0] * axes, offset)

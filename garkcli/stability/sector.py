@@ -136,7 +136,11 @@ def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:
 
 def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
     """|p(−r e^{iφ})|² as a polynomial in r."""
-    cosines = _chebyshev(c, p.degree)
+    # t_0(c), T_1(c), …: the cosines of the multiples of φ
+    cosines: list[Number] = [ONE, c]
+    for _ in range(p.degree):
+        before, last = cosines[-2:]
+        cosines.append(2 * c * last - before)
     squared: list[Number] = [ZERO] * (2 * p.degree + 1)
     for j, a in enumerate(p.coefficients):
         for k, b in enumerate(p.coefficients):
@@ -146,15 +150,6 @@ def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
                 term = -term
             squared[power] = squared[power] + term
     return Polynomial(squared)
-
-
-def _chebyshev(c: Number, most: int) -> list[Number]:
-    """T_0(c), T_1(c), …: the cosines of the multiples of φ."""
-    cosines: list[Number] = [ONE, c]
-    for _ in range(most):
-        before, last = cosines[-2:]
-        cosines.append(2 * c * last - before)
-    return cosines
 
 
 def _is_bounded_at(R: StabilityFunction, c: fmpq) -> bool:

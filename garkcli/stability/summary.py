@@ -75,25 +75,21 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
     R = stability_fraction(tableau)
     pair = imex_pair(tableau, R)
     explicit = 0 if pair is None else pair.explicit
+    size = tableau.size
+    directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
+    directions.append([ONE] * size)
+    directions += [[ONE, ratio] for ratio in ratios]
+    radii = tuple(additive_radius(tableau, direction) for direction in directions)
     return Colours(
         names=tuple(colour.name for colour in tableau.colours),
         R=R,
         lines=lines_needed(tableau),
-        radii=_radii(tableau, ratios),
+        radii=radii,
         pair=pair,
         explicit_alone=stability_function(tableau, _unit(tableau.size, explicit)),
         real=None if pair is None else pair.real_ray(),
         imaginary=None if pair is None else pair.imaginary_ray(),
     )
-
-
-def _radii(tableau: Tableau, ratios: Sequence[fmpq]) -> tuple[AdditiveRadius, ...]:
-    """On the axes, on the diagonal and on the lines that are asked for."""
-    size = tableau.size
-    directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
-    directions.append([ONE] * size)
-    directions += [[ONE, ratio] for ratio in ratios]
-    return tuple(additive_radius(tableau, direction) for direction in directions)
 
 
 def _unit(size: int, l: int) -> list[Number]:

@@ -95,7 +95,10 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
             code="split",
         )
     with_force = {x.term for x in tableau.colours if x.part in "yp"}
-    slow_terms = _slow_terms(terms, fast, with_force)
+    # the terms that share the slow spring: not the kinetic one, where others are left
+    others = [l for l in range(terms) if l != fast and l in with_force]
+    later = [l for l in others if l > 0]
+    slow_terms = later or others
     if fast not in with_force or not slow_terms:
         message = f"term {fast + 1} leaves no term for the other spring"
         raise UsageProblem(message, "give another colour with --fast", code="split")
@@ -108,13 +111,6 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
     strong = [ZERO] * terms
     strong[fast] = ONE
     return SplitSprings(tuple(kinetic), tuple(slow), tuple(strong))
-
-
-def _slow_terms(terms: int, fast: int, with_force: set[int]) -> list[int]:
-    """The terms that share the slow spring: not the kinetic one, where others are left."""
-    others = [l for l in range(terms) if l != fast and l in with_force]
-    later = [l for l in others if l > 0]
-    return later or others
 
 
 @doing("two springs")

@@ -34,7 +34,7 @@ from garkcli.stability.ball_polynomials import (
     squared_on_axis,
 )
 from garkcli.stability.ssp import driven_part, stacked
-from garkcli.stepping.linear import StageSystem, stage_system
+from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 BITS = 256
@@ -65,23 +65,16 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
     """
     fields = [((w,),) for w in shares]
     system = stage_system(tableau, fields)
-    summands = _summands(tableau, shares)
+    # how many coefficients each entry of the system is the sum of, each counted |w_l| times
+    blocks = {edge: tuple(map(_ones, block)) for edge, block in tableau.blocks.items()}
+    colours = tuple(replace(colour, b=_ones(colour.b)) for colour in tableau.colours)
+    sizes = [((-w if sign(w) < 0 else w,),) for w in shares]
+    summands = stage_system(replace(tableau, blocks=blocks, colours=colours), sizes)
     W = [_widened(row, counts, tolerance) for row, counts in zip(system.W, summands.W, strict=True)]
     Q = _reciprocal(summands.W, arb_mat(W) if W else arb_mat(0, 0))
     b = _widened(system.B[0], summands.B[0], tolerance)
     product = Q * arb_poly(_series(W, b, [to_ball(x) for (x,) in system.E]))
     return BallFraction([product[k] for k in range(len(W) + 1)], [Q[k] for k in range(len(Q))])
-
-
-def _summands(tableau: Tableau, shares: Sequence[Number]) -> StageSystem:
-    """How many coefficients each entry of the system is the sum of, each counted |w_l| times.
-
-    Coefficients of colours with the same stages are added. Zeros are structure and do not count.
-    """
-    blocks = {edge: tuple(map(_ones, block)) for edge, block in tableau.blocks.items()}
-    colours = tuple(replace(colour, b=_ones(colour.b)) for colour in tableau.colours)
-    sizes = [((-w if sign(w) < 0 else w,),) for w in shares]
-    return stage_system(replace(tableau, blocks=blocks, colours=colours), sizes)
 
 
 def _ones(row: Vector) -> Vector:

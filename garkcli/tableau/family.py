@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from itertools import chain
 from typing import Any, cast
 
@@ -141,45 +141,26 @@ def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
     roots = [] if domain.field is None else domain.field.radicals
     if domain.field is not None and domain.field.degree != 2 ** len(roots):
         return None  # one root is a product of others
-    larger = _with_roots(ring, [cast("Root", root) for root, _ in roots])
-    into = _Into(ring, larger)
-    return at_points(tableau, nodes, domain, into.function, into.number)
-
-
-def _with_roots(ring: Parameters, roots: Sequence[Root]) -> Parameters:
-    """The ring with square roots of rational numbers."""
     names = [f"{NAME}{k}" for k in range(1, len(roots) + 1)]
     larger = Parameters([*ring.names, *names])
     rules = []
-    for k, (name, root) in enumerate(zip(names, roots, strict=True)):
-        radicand = Domain([]).evaluate(root.radicand)
+    for k, (name, (root, _)) in enumerate(zip(names, roots, strict=True)):
+        radicand = Domain([]).evaluate(cast("Root", root).radicand)
         square = larger.constant(cast("fmpq", radicand))
         rules.append(Rule(len(ring.names) + k, 2, square))
         larger.shown[name] = format_expression(root), format_expression(root, latex=True)
     larger.rules = tuple(rules)
-    return larger
+    radicals = [larger.parameter(name) for name in names]
 
-
-class _Into:
-    """The map of numbers and rational functions into a ring with roots."""
-
-    def __init__(self, ring: Parameters, larger: Parameters) -> None:
-        self.ring = ring
-        self.larger = larger
-        roots = larger.names[len(ring.names) :]
-        self._radicals = [larger.parameter(name) for name in roots]
-        self._zeros = (0,) * len(roots)
-
-    def number(self, x: Number) -> Any:
-        """A number of the field of the nodes."""
-        return with_radicals(x, self._radicals)
-
-    def function(self, x: object) -> Any:
+    def function(x: object) -> Any:
         """A coefficient of the family."""
         if not isinstance(x, Parametric):
             return x
-        larger = self.larger.context
-        numerator, denominator = (
-            p.project_to_context(larger) for p in (x.numerator, x.denominator)
-        )
-        return Parametric(self.larger, numerator, denominator)
+        parts = (p.project_to_context(larger.context) for p in (x.numerator, x.denominator))
+        return Parametric(larger, *parts)
+
+    def number(x: Number) -> Any:
+        """A number of the field of the nodes."""
+        return with_radicals(x, radicals)
+
+    return at_points(tableau, nodes, domain, function, number)

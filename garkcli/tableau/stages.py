@@ -199,13 +199,6 @@ class PointSpace(StageSpace):
         return _common_denominator(cast("tuple[fmpq, ...]", self.points)).bit_length()
 
     def basis_polynomials(self) -> Iterator[Vector]:
-        self._check_distinct()
-        if is_rational((self.points,)):
-            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
-        else:
-            yield from _lagrange(self.points)
-
-    def _check_distinct(self) -> None:
         first: dict[Number, int] = {}
         for j, c in enumerate(self.points, start=1):
             i = first.setdefault(c, j)
@@ -214,6 +207,10 @@ class PointSpace(StageSpace):
                     f"nodes c_{i} and c_{j} are both {c}: no interpolation through them",
                     "spell the blocks out, or choose a method with distinct nodes",
                 )
+        if is_rational((self.points,)):
+            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
+        else:
+            yield from _lagrange(self.points)
 
     def lifts(self) -> Matrix:
         return self._lifts

@@ -18,7 +18,7 @@ from garkcli.design.minimise.objective import Level, Objective, Size
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.pairs import least_error
 from garkcli.design.parts import Chart, Part, charts
-from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import is_on, stable_part
 from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
@@ -248,10 +248,7 @@ class Comparison(Mutable):
         for name, intervals in part.sets:
             x = cast("Any", part.values[name])
             for polynomial in ends_of(intervals):
-                value: Any = fmpq(0)
-                for a in reversed(polynomial.coefficients):
-                    value = value * x + a
-                yield fraction(value, part.ring)[0]
+                yield fraction(polynomial(x), part.ring)[0]
 
     def conditions(self, part: Part) -> Conditions:
         """Which values of the one coordinate are allowed."""
@@ -303,20 +300,12 @@ def without_repeats(candidates: Sequence[Candidate]) -> list[Candidate]:
             continue
         same: dict[tuple[RealRoot, ...], list[int]] = {}
         for place in places:
-            same.setdefault(_coordinates(candidates[place]), []).append(place)
+            one = candidates[place]
+            coordinates = one.found.solution.real_values[one.index]
+            key = tuple(coordinates[name] for name in sorted(coordinates))
+            same.setdefault(key, []).append(place)
         for group in same.values():
-            kept[group[0]] = _joined([candidates[k] for k in group])
+            found = [candidates[k] for k in group]
+            best = min(found, key=lambda x: _STRENGTH.index(x.proof))
+            kept[group[0]] = replace(best, is_constant=any(x.is_constant for x in found))
     return [kept[place] for place in sorted(kept)]
-
-
-def _coordinates(candidate: Candidate) -> tuple[RealRoot, ...]:
-    """The unknowns of a method, as real numbers."""
-    solution = candidate.found.solution
-    root = solution.real[candidate.index]
-    return tuple(value_at(solution.values[name], root) for name in sorted(solution.values))
-
-
-def _joined(same: Sequence[Candidate]) -> Candidate:
-    """What is known of one method."""
-    best = min(same, key=lambda x: _STRENGTH.index(x.proof))
-    return replace(best, is_constant=any(x.is_constant for x in same))

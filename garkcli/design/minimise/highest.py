@@ -27,13 +27,13 @@ from garkcli.design.minimise.objective import ORIGIN, Level, Signs, Size
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.parts import Part, at_root
 from garkcli.design.solutions import Solution
-from garkcli.exact.cells import Point, between, sign_of
+from garkcli.exact.cells import Point, between, roots_of, sign_of
 from garkcli.exact.fibre import Fibre, Root
 from garkcli.exact.field import ZERO
 from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.projection import PLANE, at_y, coefficient_of, in_t, projected, resultant
-from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots
+from garkcli.exact.roots import FIRST_BITS, RealRoot
 from garkcli.frozen import Frozen
 
 TRIALS = 16
@@ -109,7 +109,7 @@ class _Line:
         self.curves = factors(signs.polynomials)
         critical = [*projected(self.curves, [ZERO]), *_stationary(self.curves)]
         self.critical = [*critical, *allowed.polynomials]
-        self.points = _roots(self.critical)
+        self.points = roots_of(self.critical)
         self.is_decided = True
 
     def attained(self) -> Iterator[tuple[HighAt, _Level]]:
@@ -166,7 +166,7 @@ class _Line:
         else:
             levels = PLANE.from_dict({(k, 0): fmpq(a) for k, a in enumerate(m.polynomial.coeffs())})
             crossing = [in_t(resultant(levels, p) if p.degrees()[0] else p) for p in self.curves]
-        cells = _cells(_roots([*self.critical, *crossing]))
+        cells = _cells(roots_of([*self.critical, *crossing]))
         samples = (between(left, right) for left, right in cells)
         return any(height(self.level(t)) > height(m) for t in samples if self.allowed.hold(t))
 
@@ -192,7 +192,9 @@ class _Line:
         walls = [at_y(p, y) for p in self.curves for y in gaps]
         left, right = cell
         within = [
-            x for x in _roots(walls) if (left is None or left < x) and (right is None or x < right)
+            x
+            for x in roots_of(walls)
+            if (left is None or left < x) and (right is None or x < right)
         ]
         ends = [left, *within, right]
         start, stop = ends[-2:] if is_right else ends[:2]
@@ -214,7 +216,7 @@ class _Line:
             return fibre.roots, fibre.gaps
         # at infinity the coefficients of the highest powers of t
         highest = [in_one(coefficient_of(p, p.degrees()[1], variable=1)) for p in self.curves]
-        roots = [y for y in _roots(highest) if y > ORIGIN]
+        roots = [y for y in roots_of(highest) if y > ORIGIN]
         return roots, [between(a, b) for a, b in pairwise([ORIGIN, *roots, None])]
 
 
@@ -247,14 +249,6 @@ def _stationary(of_curves: Iterable[fmpq_mpoly]) -> Iterator[Polynomial]:
             tangent = in_t(resultant(curve, by_t))
             if tangent:
                 yield tangent
-
-
-def _roots(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
-    roots: set[RealRoot] = set()
-    for p in polynomials:
-        if p:
-            roots.update(root for root, _ in real_roots(p))
-    return sorted(roots)
 
 
 def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot | None]]:

@@ -141,7 +141,10 @@ class _Run:
         residuals, jacobians = self.system(moved)
         squares = _sum_of_squares(residuals)
         better = squares < self.squares
-        predicted = _sum_of_squares(self.residuals + _applied(self.jacobians, change))
+        total: Array = self.jacobians[:, 0] * change[0]
+        for k in range(1, len(change)):
+            total += self.jacobians[:, k] * change[k]
+        predicted = _sum_of_squares(self.residuals + total)
         gain = (self.squares - squares) / (self.squares - predicted)
         self.x = np.where(better, moved, self.x)
         self.residuals = np.where(better, residuals, self.residuals)
@@ -158,14 +161,6 @@ def _sum_of_squares(rows: Array) -> Array:
     total: Array = rows[0] * rows[0]
     for row in rows[1:]:
         total = total + row * row
-    return total
-
-
-def _applied(jacobians: Array, change: Array) -> Array:
-    """J δ for each point."""
-    total: Array = jacobians[:, 0] * change[0]
-    for k in range(1, len(change)):
-        total += jacobians[:, k] * change[k]
     return total
 
 

@@ -181,19 +181,13 @@ class _Evaluation(StageVectors[_Vectors]):
         for i, row in enumerate(block):
             for j, slope in enumerate(row):
                 if isinstance(slope, Slope):
-                    self._add_multiple(image, i, slope, vectors, j)
+                    check_time()
+                    v = vectors.values[:, j]
+                    image.values[:, i] += slope.value * v
+                    image.derivatives[:, i] += slope.value * vectors.derivatives[:, j]
+                    for unknown, derivative in slope.derivatives:
+                        image.derivatives[:, i, unknown] += derivative * v
         return image
-
-    def _add_multiple(
-        self, image: _Vectors, i: int, slope: Slope, vectors: _Vectors, j: int
-    ) -> None:
-        """Add a_ij v_j to the entry i."""
-        check_time()
-        v = vectors.values[:, j]
-        image.values[:, i] += slope.value * v
-        image.derivatives[:, i] += slope.value * vectors.derivatives[:, j]
-        for unknown, derivative in slope.derivatives:
-            image.derivatives[:, i, unknown] += derivative * v
 
     def _joined(self, parts: list[_Vectors]) -> _Vectors:
         join = self.np.concatenate

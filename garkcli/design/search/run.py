@@ -19,7 +19,7 @@ from garkcli.design.choices import DIGITS, values_text
 from garkcli.design.member import Whose
 from garkcli.design.search.points import small_bits
 from garkcli.design.search.rational import in_decimals
-from garkcli.design.search.search import BITS, Find, Proof, Search
+from garkcli.design.search.search import BITS, Proof, Search
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, NotDecided, counted
 from garkcli.exact.field import Number
@@ -60,23 +60,6 @@ class Method(Frozen):
     def is_exact(self) -> bool:
         """Whether the values are exact and the order proved."""
         return self.proof == "exact"
-
-
-def _as_text(find: Find, parameters: tuple[str, ...]) -> Method:
-    """A find as text.
-
-    Args:
-        find: as it was found.
-        parameters: the names that have a value in the file.
-    """
-    if find.found is not None:
-        solution = find.found.solution
-        exact = {name: solution.values[name] for name in parameters}
-        values = _exact(exact, solution.real[0])
-    else:
-        values = {name: decimals(find.digits[name]) for name in parameters}
-    residual = "0" if find.found is not None else RESIDUAL
-    return Method(find.start, find.proof, find.order, values, residual)
 
 
 def _exact(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
@@ -189,7 +172,14 @@ class Solution(Frozen):
         find = search.find(self.start, self.point)
         if find is None or not find.is_stable:
             return None if find is None else False
-        return _as_text(find, search.family.parameters)
+        if find.found is not None:
+            solution = find.found.solution
+            exact = {name: solution.values[name] for name in search.family.parameters}
+            values = _exact(exact, solution.real[0])
+        else:
+            values = {name: decimals(find.digits[name]) for name in search.family.parameters}
+        residual = "0" if find.found is not None else RESIDUAL
+        return Method(find.start, find.proof, find.order, values, residual)
 
 
 Task: TypeAlias = Batch | Solution

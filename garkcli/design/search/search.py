@@ -194,7 +194,14 @@ class Search:
 
         free = Fixings(self.conditions)
         if polished(free, point, FEW_BITS) is None:
-            return self._degenerate(start, point)
+            # a solution at which the conditions are degenerate
+            import numpy as np
+
+            fixed = fixed_nearby(self.conditions, self._preferences[0], np.array(point)[:, None])
+            x = polished(Fixings(self.conditions, fixed), point, BITS)
+            if x is None:
+                return None
+            return self._exact(start, x)
         best: Find | None = None
         system, x = free, None
         for wanted in self._preferences:
@@ -241,20 +248,6 @@ class Search:
     def _relations(self) -> list[fmpq_mpoly]:
         relations = [radical.relation for radical in self.family.radicals]
         return [*relations, *self.family.relations]
-
-    def _degenerate(self, start: int, point: list[float]) -> Find | None:
-        """A solution at which the conditions are degenerate.
-
-        No iteration reaches it to many digits. What is near a short number is given that value;
-        where the conditions are no longer degenerate then, the certificate decides.
-        """
-        import numpy as np
-
-        fixed = fixed_nearby(self.conditions, self._preferences[0], np.array(point)[:, None])
-        x = polished(Fixings(self.conditions, fixed), point, BITS)
-        if x is None:
-            return None
-        return self._exact(start, x)
 
     def _exact(self, start: int, x: Array) -> Find | None:
         """The method with the exact numbers of which these are digits, if it has the order."""
